@@ -28,7 +28,7 @@ const LEAVING: Duration = Duration::from_secs(10);
 /// Options for [`open`].
 #[derive(Debug)]
 pub struct Options {
-    /// How a browser is reached.
+    /// The way to reach a browser.
     pub source: Source,
     /// Keeps the uncaptured errors of the device for [`Backend::messages`].
     pub validate: bool,
@@ -38,7 +38,7 @@ pub struct Options {
     pub record: bool,
 }
 
-/// How a browser is reached.
+/// The way to reach a browser.
 #[derive(Debug)]
 pub enum Source {
     /// A browser that is started, by a keeper with this command.

@@ -43,7 +43,7 @@ pub struct Written {
     pub archive: PathBuf,
 }
 
-/// Why a bundle could not be written.
+/// An error from writing a bundle.
 #[derive(Debug, Error)]
 pub enum WriteError {
     /// A bundle of the same name exists.

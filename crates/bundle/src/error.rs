@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// Why a program cannot be printed.
+/// An error from printing a program.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum BundleError {
     /// A call uses an object that no recorded call created.

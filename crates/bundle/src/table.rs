@@ -5,7 +5,7 @@ use crate::error::BundleError;
 use etalon_backend::{Form, RecordedCounter, Recording};
 use etalon_frame::ChannelEncoding;
 
-/// How the bits of a channel are compared.
+/// The comparison of a channel's bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Order {
     /// As an unsigned number.
@@ -44,7 +44,7 @@ pub(crate) struct CheckedChannel {
     pub(crate) bit: u32,
     /// The number of bits.
     pub(crate) bits: u32,
-    /// How the bits are compared.
+    /// The comparison of the bits.
     pub(crate) order: Order,
     /// The width of the code, in bits.
     pub(crate) width: u32,

@@ -20,7 +20,7 @@ pub(crate) struct AdapterFileArguments {
     pub(crate) adapter_file: Option<PathBuf>,
 }
 
-/// How many cases of each family are selected.
+/// The share of each family's cases that is selected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum CaseProfile {
     /// A covering array of each large family, which combines every pair of values; all cases of the others.

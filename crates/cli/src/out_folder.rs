@@ -5,7 +5,7 @@ use crate::report_files;
 use etalon_record::{Bench, Content, FolderKind, FolderLock, RecordError, Run, clear, overlap};
 use std::path::Path;
 
-/// How a command treats what its output folder already holds.
+/// The treatment of an output folder's existing content.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Out<'a> {
     pub(crate) folder: &'a Path,
@@ -15,7 +15,7 @@ pub(crate) struct Out<'a> {
     pub(crate) latest: Option<&'a str>,
     /// The folder of `--cases`, whose files must stay separate from the output.
     pub(crate) cases: Option<&'a Path>,
-    /// Whether to add only missing records; `None` if the command cannot resume.
+    /// True to add only missing records; `None` if the command cannot resume.
     pub(crate) resume: Option<bool>,
     pub(crate) force: bool,
 }

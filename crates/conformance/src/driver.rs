@@ -34,7 +34,7 @@ pub const VIRGL: &[(&str, &str)] = &[
 pub const GALLIUM_INSTALL: &str =
     "apt-get install libegl1 libgl1-mesa-dri mesa-vulkan-drivers virgl-server";
 
-/// How tests open a driver, and what they know about it.
+/// A driver as tests open it, with its known defects.
 pub struct Driver<'a> {
     /// The driver's missing features and known faults.
     pub known: Known,

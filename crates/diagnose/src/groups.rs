@@ -23,7 +23,7 @@ pub struct Key {
     states: Option<Signature>,
 }
 
-/// Why a scene was not reduced.
+/// The reason why a scene was not reduced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unreduced {
     /// The command was stopped earlier.

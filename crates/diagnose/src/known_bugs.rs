@@ -128,7 +128,7 @@ struct Reduced<C> {
     case: C,
     symptom: Symptom,
     traits: Traits,
-    /// Whether the case fails in a new process; `None` until that was tried.
+    /// True if the case fails in a new process; `None` until that was tried.
     steady: Option<bool>,
 }
 

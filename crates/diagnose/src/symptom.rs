@@ -36,7 +36,7 @@ const COMPUTED: [Operation; 3] = [
 /// Operations that give an attachment its contents before the first draw or between draws.
 const INITIAL: [Operation; 3] = [Operation::Clear, Operation::Upload, Operation::Resolve];
 
-/// How a case failed.
+/// The way in which a case failed.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Symptom {
     /// The verdict.
@@ -64,7 +64,7 @@ pub enum Subject {
     Relation(String),
     /// The process that drew the case was lost.
     Process {
-        /// How the process was lost.
+        /// The way in which the process was lost.
         kind: LossKind,
         /// The signal that ended the process.
         signal: Option<i32>,
@@ -77,7 +77,7 @@ pub enum Subject {
     Unknown,
 }
 
-/// Whether a value is above or below the legal values.
+/// The side of the legal values on which a value is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Direction {
     /// All wrong values are too high.

@@ -73,7 +73,7 @@ impl fmt::Display for Violation {
     }
 }
 
-/// How similar a failure is to a known one.
+/// The similarity of a failure to a known one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Likeness {
     /// The same violation, states and words.

@@ -237,7 +237,7 @@ pub enum Step {
         from: String,
         /// The single-sampled attachment.
         to: String,
-        /// How the samples become one value.
+        /// The conversion of the samples to one value.
         by: ResolveChoice,
         /// The contents of the samples, channel by channel.
         samples: Vec<Vec<Codes>>,
@@ -452,7 +452,7 @@ pub enum Step {
     Relation(String),
 }
 
-/// How the samples of a texel become one value.
+/// The conversion of a texel's samples to one value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ResolveChoice {

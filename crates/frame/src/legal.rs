@@ -239,7 +239,7 @@ pub struct LegalSet {
     statistics: Vec<(Aspect, AspectStatistics)>,
 }
 
-/// How much of one aspect a legal set asserts.
+/// The part of one aspect that a legal set asserts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct AspectStatistics {
     /// The number of channel values in all samples of the aspect.

@@ -61,7 +61,7 @@ pub struct FormatSupport {
     /// The actual encoding of the depth aspect; empty for formats without depth. There are several if the API
     /// does not reveal it: then all of a frame has the same one of them.
     pub depth: Vec<ChannelEncoding>,
-    /// How the depth aspect is read back, or the colour aspect of a format without depth.
+    /// The way to read back the depth aspect, or the colour aspect of a format without depth.
     pub read: ReadPath,
 }
 

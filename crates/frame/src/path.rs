@@ -56,7 +56,7 @@ macro_rules! path_values {
 }
 
 path_values! {
-    /// How attachments receive their initial contents.
+    /// The source of attachments' initial contents.
     Start(PathStart) = "start" {
         /// A transfer before the first pass.
         Transfer = "transfer",
@@ -76,7 +76,7 @@ path_values! {
         /// The second subpass of a render pass, after one that draws nothing.
         SecondSubpass = "second-subpass",
     }
-    /// How state is set.
+    /// The way to set state.
     State(PathState) = "state" {
         /// Between the draws, for all state that the API can set there without extensions.
         Dynamic = "dynamic",
@@ -153,7 +153,7 @@ path_values! {
         /// Strips and fans without indices while primitive restart is on; restart affects only indexed draws.
         RestartUnindexed = "restart-unindexed",
     }
-    /// How an attachment reaches the host.
+    /// The route by which an attachment reaches the host.
     End(PathEnd) = "end" {
         /// Directly, by a transfer of the attachment.
         Store = "store",
@@ -192,7 +192,7 @@ path_values! {
         /// One call for each clear, after a call that leaves the same contents undefined.
         Undefined = "undefined",
     }
-    /// How often queries are read.
+    /// The number of times that queries are read.
     Results(PathResults) = "results" {
         /// Once.
         Once = "once",
@@ -240,7 +240,7 @@ path_values! {
         /// Only attachments that something reads; the locations of the others are empty.
         Gaps = "gaps",
     }
-    /// How colors are resolved.
+    /// The way to resolve colors.
     Resolves(PathResolves) = "resolves" {
         /// Resolves are part of the pass.
         Attached = "attached",

@@ -37,7 +37,7 @@ pub(crate) struct Source<'a> {
     pub(crate) size: [u32; 2],
     /// The framebuffer that the attachment was drawn in, and its attachment point there.
     pub(crate) drawn: (glow::Framebuffer, u32),
-    /// How it reaches the host.
+    /// The route by which it reaches the host.
     pub(crate) end: PathEnd,
     /// The blits that produced the surface's texels.
     pub(crate) blits: Option<Blits>,

@@ -2,7 +2,7 @@
 
 use etalon_frame::FormatSupport;
 
-/// How an attachment's codes are read back.
+/// The way to read back an attachment's codes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ReadPlan {
     /// `glReadPixels` of colours in the format and type of uploads.
@@ -31,12 +31,12 @@ pub(crate) enum ReadPlan {
     Shader {
         /// True if depth is fetched.
         depth: bool,
-        /// How stencil is read.
+        /// The way to read stencil.
         stencil: ShaderStencil,
     },
 }
 
-/// How stencil is read if a shader reads depth.
+/// The way to read stencil if a shader reads depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ShaderStencil {
     /// No stencil.
@@ -51,7 +51,7 @@ pub(crate) enum ShaderStencil {
 #[derive(Clone, Debug)]
 pub(crate) struct Support {
     pub(crate) limits: FormatSupport,
-    /// How one sample is read. A shader always fetches multisampled attachments.
+    /// The way to read one sample. A shader always fetches multisampled attachments.
     pub(crate) read: ReadPlan,
     /// True if a shader's fetch determines the codes that `read` returns.
     pub(crate) fetched_exactly: bool,

@@ -11,7 +11,7 @@ const MAX_VALUE: usize = 4096;
 /// The labels of a run: keys with their values.
 pub type Labels = BTreeMap<String, String>;
 
-/// Why a text is not a label.
+/// An error from parsing a label.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum LabelError {
     /// There is no `=`.

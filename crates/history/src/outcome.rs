@@ -45,7 +45,7 @@ fn is_none(counts: &TexelCounts) -> bool {
     *counts == TexelCounts::default()
 }
 
-/// How much the legal sets assert about one aspect. A channel is one channel of one sample.
+/// The assertions of the legal sets about one aspect. A channel is one channel of one sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Asserted {

@@ -5,7 +5,7 @@
 pub struct Lesson {
     /// The method, as ids name it.
     pub method: &'static str,
-    /// How the method works, in a sentence.
+    /// An explanation of the method, in a sentence.
     pub works: &'static str,
     /// Where and why the method fails, in a sentence.
     pub fails: &'static str,

@@ -63,7 +63,7 @@ hooks! {
     whole {
         /// The stencil reference of a fragment whose shader writes one.
         exported(of: &Exported) -> u8;
-        /// Whether a bit of the sample mask that a shader reads is set.
+        /// Returns true if a bit of the sample mask that a shader reads is set.
         input_bit(of: &InputBit) -> bool;
         /// The stencil test.
         stencil_passes(face: &StencilFace, stored: u8) -> bool;
@@ -79,19 +79,19 @@ hooks! {
         bias_unit(encoding: ChannelEncoding, largest: f64) -> f64;
         /// The depth bias, given the least step and the slope.
         bias(state: &DepthBias, unit: f64, slope: f64) -> f64;
-        /// Whether points and lines are biased.
+        /// True if points and lines are biased.
         biases_lines() -> bool;
-        /// Whether points and lines face front.
+        /// True if points and lines face front.
         lines_face_front() -> bool;
         /// The clamping of a depth to the viewport's range.
         held_to_range(depth: f32, range: [f32; 2]) -> f32;
         /// The depth bounds test, given the bounds, the stored and the incoming depth.
         in_bounds(bounds: [f32; 2], stored: f32, incoming: f32) -> bool;
-        /// Whether fragments outside the depth bounds count as failing the depth test.
+        /// True if fragments outside the depth bounds count as failing the depth test.
         bounds_fail_as_depth() -> bool;
         /// The positions of samples, in 1/256 texel.
         sample_positions(standard: Vec<[u16; 2]>) -> Vec<[u16; 2]>;
-        /// Whether a sample is drawn, given its index and the number of samples.
+        /// Returns true if a sample is drawn, given its index and the number of samples.
         sample_drawn(state: &Multisample, sample: usize, samples: usize) -> bool;
         /// The sample at whose position a shader run takes its inputs, given its first sample and the
         /// number of samples; `None` for the centre.
@@ -171,7 +171,7 @@ hooks! {
             obeys: bool, encoding: ChannelEncoding, operation: LogicOperation, src: Codes, dst: Codes
         ) -> Codes = |bug| from_fn(|i| bug(obeys, encoding, operation, src[i], dst[i]));
 
-        /// Whether a fragment's alpha covers a sample, given its index and the number of samples.
+        /// Returns true if a fragment's alpha covers a sample, given its index and the number of samples.
         alpha_covers(f32, usize, usize) -> bool:
         alpha_covers(alpha: Real, sample: usize, samples: usize) -> Mask = |bug| alpha.map(|a| bug(a, sample, samples));
 
@@ -186,7 +186,7 @@ hooks! {
         mask_keeps(mask: &SampleMask<Real>, sample: usize, samples: usize) -> Mask =
             |bug| mask.bits.map(|bits| bug(mask.written(bits as u32), sample, samples));
 
-        /// Whether a shader keeps a fragment, given the value and its limit.
+        /// Returns true if a shader keeps a fragment, given the value and its limit.
         kept(f32, f32) -> bool:
         kept(kept: &Kept<Real>) -> Mask = |bug| from_fn(|i| bug(kept.value[i], kept.limit[i]));
     }

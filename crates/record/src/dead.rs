@@ -18,7 +18,7 @@ use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 state_enum! {
-    /// Why an expectation is dead.
+    /// The reason why an expectation is dead.
     DeadKind: array {
         /// A glob over ids, or an alternative in one, matches no case.
         NoCase = "no-case",

@@ -260,7 +260,7 @@ impl Globs {
     }
 }
 
-/// How a verdict relates to the expectations.
+/// The relation of a verdict to the expectations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Expectation<'a> {
     /// No expectation names the case.

@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 state_enum! {
-    /// Whether a value is above or below the legal values.
+    /// The side of the legal values on which a value is.
     Side: array {
         /// Above the highest value.
         High = "high",

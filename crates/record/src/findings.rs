@@ -50,7 +50,7 @@ pub struct Finding {
     /// The document, version and section that the driver breaks; empty only while the grade is `unread`.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub clause: String,
-    /// What was observed.
+    /// The evidence: observed texels, or a text.
     pub evidence: Evidence,
     /// The audit of the finding; absent until somebody other than its author has read it.
     #[serde(default, skip_serializing_if = "Option::is_none")]

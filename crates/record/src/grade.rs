@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 state_enum! {
-    /// How strong the evidence of a finding is.
+    /// The strength of a finding's evidence.
     Grade: array {
         /// The API's specification forbids the behaviour.
         Proven = "proven",

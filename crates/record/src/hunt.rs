@@ -83,7 +83,7 @@ pub struct Sighting {
 pub struct MutantRecord {
     /// The bug.
     pub mutant: MutantInfo,
-    /// Whether and how the bug was caught.
+    /// The bug's outcome.
     pub outcome: Catch,
     /// The verdicts of each area, in the order of the cases.
     pub areas: Vec<AreaTally>,

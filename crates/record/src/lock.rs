@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 /// The file that is locked. It is empty, and is never removed.
 pub(crate) const LOCK_FILE: &str = ".lock";
 
-/// How long to retry if another process has the lock.
+/// The time to retry if another process has the lock.
 const RETRY_TIME: Duration = Duration::from_secs(1);
 
 /// An exclusive lock on a folder. It is released when dropped, or when its process ends in any way.

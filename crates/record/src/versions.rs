@@ -67,7 +67,7 @@ pub struct CaseVersions {
     pub verdicts: Vec<Option<Verdict>>,
 }
 
-/// What a verdict means for a release.
+/// The meaning of a verdict for a release.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Standing {
     /// The case is drawn correctly.

@@ -56,7 +56,7 @@ struct Seen<'a> {
     context: &'a PassContext<'a>,
     draw: &'a Draw,
     units: f64,
-    /// How far a vertex made by clipping can be off along each axis, in units.
+    /// The maximum error of a vertex made by clipping along each axis, in units.
     off: [f64; 2],
 }
 

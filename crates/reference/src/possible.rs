@@ -1,6 +1,6 @@
 //! Three-valued answers: whether something happens under the rules.
 
-/// Whether something happens under the rules, in ascending order.
+/// The degree to which something can happen under the rules, in ascending order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) enum Possible {
     /// The event happens under no reading.

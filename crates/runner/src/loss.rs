@@ -1,11 +1,11 @@
-//! How a request to a worker can fail, and the resulting verdict.
+//! Failures of requests to a worker, and the resulting verdicts.
 
 use etalon_backend::BackendError;
 use etalon_frame::ErrorKind;
 use etalon_record::Verdict;
 use std::time::Duration;
 
-/// Why a request to a worker gave no result.
+/// An error from a request to a worker.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Failure {
     /// The backend's error; the worker still answers.
@@ -14,7 +14,7 @@ pub(crate) enum Failure {
     Lost(Loss),
 }
 
-/// How a worker was lost.
+/// The way in which a worker was lost.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Loss {
     /// The worker did not answer within this time.

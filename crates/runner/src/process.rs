@@ -24,7 +24,7 @@ use std::time::{Duration, Instant};
 const POLL_INTERVAL: Duration = Duration::from_millis(100);
 /// The time that a worker may take to exit after its pipe broke.
 const EXIT_TIMEOUT: Duration = Duration::from_secs(5);
-/// How long to wait for the rest of a worker's standard error.
+/// The time to wait for the rest of a worker's standard error.
 const LAST_WORDS: Duration = Duration::from_secs(2);
 /// The time that a worker which is no longer needed may take to exit.
 const CLOSE_TIMEOUT: Duration = Duration::from_secs(2);

@@ -16,7 +16,7 @@ use crate::launch::StartError;
 use etalon_diagnose::Symptom;
 use thiserror::Error;
 
-/// Why a case was not reduced.
+/// An error from reducing a case.
 #[derive(Debug, Error)]
 pub enum ReductionError {
     /// A worker did not start.
@@ -27,7 +27,7 @@ pub enum ReductionError {
     Lost {
         /// The name of the adapter.
         adapter: String,
-        /// Why the worker did not start.
+        /// The error from starting the worker.
         error: StartError,
     },
     /// The adapter lacks what the case needs.
@@ -57,7 +57,7 @@ pub enum ReductionError {
         case: String,
         /// The name of the adapter.
         adapter: String,
-        /// How the results of drawing the case differ.
+        /// The difference between the drawings of the case.
         flakiness: Flakiness,
     },
     /// The reduced case does not fail in a new process as it did before.
@@ -65,20 +65,20 @@ pub enum ReductionError {
     Unconfirmed {
         /// The id of the case that was reduced.
         case: String,
-        /// What the reduced case did instead.
+        /// The behaviour of the reduced case.
         why: Unconfirmed,
     },
 }
 
-/// How the results of repeatedly drawing one case differ.
+/// The difference between repeated drawings of one case.
 #[derive(Debug, Error)]
 pub enum Flakiness {
     /// The case fails only some of the times.
     #[error("it fails in {failing} of {drawings} drawings, in {processes} processes")]
     Sometimes {
-        /// How often the case failed.
+        /// The number of drawings that failed.
         failing: usize,
-        /// How often the case was drawn.
+        /// The number of drawings.
         drawings: usize,
         /// The number of processes.
         processes: usize,

@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 pub struct Draw {
     /// Vertices.
     pub mesh: Mesh,
-    /// How the mesh's vertices reach the pipeline.
+    /// The route by which the mesh's vertices reach the pipeline.
     pub fetch: Fetch,
     /// The topology.
     pub topology: PrimitiveTopology,

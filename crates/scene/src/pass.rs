@@ -48,7 +48,7 @@ pub struct DepthStencilResolve {
 }
 
 state_enum! {
-    /// How the samples of a texel become one value.
+    /// The conversion of a texel's samples to one value.
     ResolveMode {
         /// The aspect is not resolved and keeps its value.
         None = "none",

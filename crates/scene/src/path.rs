@@ -16,11 +16,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Path {
-    /// How attachments receive their initial contents.
+    /// The source of attachments' initial contents.
     pub start: PathStart,
     /// The API object for a pass.
     pub pass: PathPass,
-    /// How state is set.
+    /// The way to set state.
     pub state: PathState,
     /// The part of a texture that serves as an attachment.
     pub target: PathTarget,
@@ -28,13 +28,13 @@ pub struct Path {
     pub commands: PathCommands,
     /// The kind of draw calls.
     pub draws: PathDraws,
-    /// How an attachment reaches the host.
+    /// The route by which an attachment reaches the host.
     pub end: PathEnd,
     /// The render area.
     pub area: PathArea,
     /// The calls that clear within passes.
     pub clears: PathClears,
-    /// How often queries are read.
+    /// The number of times that queries are read.
     pub results: PathResults,
     /// The convention of the clip volume.
     pub clip: PathClip,
@@ -46,7 +46,7 @@ pub struct Path {
     pub tests: PathTests,
     /// The colour attachments of passes.
     pub colors: PathColors,
-    /// How colors are resolved.
+    /// The way to resolve colors.
     pub resolves: PathResolves,
     /// The format of the textures that color attachments are views of.
     pub views: PathViews,

@@ -30,7 +30,7 @@ pub struct Scene {
     /// The pool that fragment shaders fill and read, if any does.
     #[serde(default)]
     pub pool: Option<Pool>,
-    /// How the scene reaches the driver.
+    /// The path on which the scene reaches the driver.
     #[serde(default)]
     pub path: Path,
 }

@@ -24,7 +24,7 @@ struct Facts {
     position_only: bool,
     /// True if the shader reads interpolated texture coordinates as numbers.
     uv: bool,
-    /// How these are interpolated.
+    /// The interpolation of these values.
     interpolation: Interpolation,
     /// The points at which these are interpolated.
     sampling: InterpolationSampling,
@@ -58,7 +58,7 @@ struct Facts {
     cull_distances: u32,
     /// True if the shader counts its runs in a storage buffer.
     counter: bool,
-    /// How the shader uses the scene's pool.
+    /// The shader's use of the scene's pool.
     pool: PoolUse,
     /// True if the shader runs once per sample.
     per_sample: bool,
@@ -90,7 +90,7 @@ pub enum InterpolationSampling {
     Sample,
 }
 
-/// How a shader uses the scene's pool.
+/// A shader's use of the scene's pool.
 #[derive(PartialEq, Eq)]
 enum PoolUse {
     /// The shader does not use the pool.

@@ -12,7 +12,7 @@ pub const LEVEL: f64 = 0.001;
 /// reported if a change of up to this size is rejected at [`LEVEL`], not if the estimate exceeds it.
 pub const MINIMUM: f64 = 1.01;
 
-/// How many times farther than the ruler times must have moved, in logarithms, to count as changed.
+/// The factor by which times must have moved farther than the ruler, in logarithms, to count as changed.
 pub const BEYOND_RULER: f64 = 2.0;
 
 /// A ratio of times, after over before, with its interval of confidence 1 - [`LEVEL`]; from 0 to infinity if

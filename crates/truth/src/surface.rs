@@ -79,7 +79,7 @@ impl Edge {
     }
 }
 
-/// How much of a rectangle a polygon covers.
+/// The part of a rectangle that a polygon covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Overlap {
     /// The polygon misses the rectangle by more than rounding error.

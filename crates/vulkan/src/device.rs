@@ -57,7 +57,7 @@ pub(crate) struct Device {
     pub(crate) logic_enable: bool,
     /// The provoking vertices that the device supports in addition to the first.
     pub(crate) provoking: Provoking,
-    /// Whether advanced blending is coherent; `None` if the device lacks it.
+    /// True if advanced blending is coherent; `None` if the device lacks it.
     pub(crate) advanced_blend: Option<bool>,
     /// True if fragment shaders can write the stencil reference.
     pub(crate) stencil_export: bool,

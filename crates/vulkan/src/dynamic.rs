@@ -40,7 +40,7 @@ const STATES: [vk::DynamicState; 18] = [
     vk::DynamicState::BLEND_CONSTANTS,
 ];
 
-/// How the state of a draw is set.
+/// The way to set the state of a draw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Setting {
     /// True if all state is part of the pipeline.

@@ -43,7 +43,7 @@ pub(crate) struct AttachmentPlan {
     pub(crate) image: vk::Image,
     /// The part of the image that serves as the attachment.
     pub(crate) place: Place,
-    /// How the attachment reaches the host.
+    /// The route by which the attachment reaches the host.
     pub(crate) end: PathEnd,
     /// The image to which the attachment is copied before it is read.
     pub(crate) copy: Option<vk::Image>,

@@ -233,7 +233,7 @@ pub enum Binding {
 /// The type of a query.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum QueryType {
-    /// Whether any sample passed.
+    /// True if any sample passed.
     Occlusion,
     /// The number of fragment shader invocations. Not part of WebGPU, but a native feature of wgpu.
     FragmentInvocations,
@@ -368,7 +368,7 @@ pub struct RenderPass {
     pub depth_stencil: Option<DepthStencilAttachment>,
     /// The query set of occlusion queries.
     pub occlusion: Option<usize>,
-    /// Whether the pass begins the timed part of the frame, and whether it ends it.
+    /// True if the pass begins the timed part of the frame, and true if it ends it.
     pub timed: [bool; 2],
     /// The commands.
     pub commands: Vec<PassCommand>,

@@ -51,7 +51,7 @@ pub(crate) struct Counted {
     pub(crate) runs: Option<usize>,
 }
 
-/// How a query encloses a draw, and perhaps other draws.
+/// The range of draws that a query encloses.
 #[derive(Clone, Copy, Default)]
 struct Enclosed {
     /// The query, if it begins before the draw.

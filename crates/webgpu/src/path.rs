@@ -154,7 +154,7 @@ impl Shape {
     }
 }
 
-/// How attachments of a format are read by default.
+/// The default way to read attachments of a format.
 #[derive(Clone, Copy)]
 pub(crate) struct Reading {
     /// True if depth and stencil can be copied.

@@ -159,7 +159,7 @@ fn image(
     image
 }
 
-/// How one aspect reaches the buffer.
+/// The route by which one aspect reaches the buffer.
 struct Read<'a> {
     image: &'a ImageReading,
     target: Target,

@@ -64,7 +64,7 @@ impl CounterReading {
     }
 }
 
-/// How an aspect reaches the buffer.
+/// The route by which an aspect reaches the buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ReadMethod {
     /// Copied from the attachment.
@@ -98,7 +98,7 @@ pub struct ImageReading {
     /// The read path that the image declares. Multisampling is supported only if a shader returns the codes
     /// of a copy, or a shader also reads single samples; stencil is exact on both paths.
     pub read: ReadPath,
-    /// How the image reaches the buffer.
+    /// The route by which the image reaches the buffer.
     pub method: ReadMethod,
     /// The first byte.
     pub offset: u64,

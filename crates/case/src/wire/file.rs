@@ -112,7 +112,7 @@ pub(crate) struct SequenceWire {
     pub(crate) first: Value,
     /// The state of the other steps.
     pub(crate) then: Value,
-    /// How the steps are separated.
+    /// The kind of separation between the steps.
     pub(crate) across: Across,
     /// Counters by name; all are read back.
     #[serde(default)]
@@ -126,7 +126,7 @@ pub(crate) struct SequenceWire {
     pub(crate) path: BTreeMap<String, Value>,
 }
 
-/// How the steps of a sequence are separated.
+/// The kind of separation between a sequence's steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Across {

@@ -31,7 +31,7 @@ pub(crate) struct SceneWire {
     pub(crate) queries: QueryScope,
     /// The pool that fragment shaders fill and read.
     pub(crate) pool: Option<Pool>,
-    /// How the scene reaches the driver; the picture is the same.
+    /// The path on which the scene reaches the driver; it does not change the picture.
     #[serde(default)]
     pub(crate) path: Path,
 }
@@ -207,7 +207,7 @@ pub(crate) struct DrawWire {
     /// positive factor does not move a vertex in the picture.
     #[serde(default = "one")]
     pub(crate) w: Vec<f32>,
-    /// How the mesh's vertices reach the pipeline.
+    /// The route by which the mesh's vertices reach the pipeline.
     #[serde(default)]
     pub(crate) fetch: FetchWire,
     /// Instances of the mesh; by default, one without a colour of its own.

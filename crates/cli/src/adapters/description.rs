@@ -83,7 +83,7 @@ pub(super) struct Description {
     line: Option<String>,
     /// The version of the release: numbers with dots.
     version: Option<String>,
-    /// How to get the driver.
+    /// Instructions to get the driver.
     #[serde(default)]
     pub(super) remedy: String,
 }

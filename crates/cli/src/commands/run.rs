@@ -149,7 +149,7 @@ fn verdicts(run: &Run) -> BTreeMap<&str, BTreeMap<&str, u64>> {
     counts
 }
 
-/// How many bad verdicts of each kind must be confirmed; 0 is off.
+/// The number of bad verdicts of each kind that must be confirmed; 0 is off.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Recheck(u32);
 

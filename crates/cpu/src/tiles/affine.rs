@@ -32,7 +32,7 @@ pub(crate) struct Term {
     pub(crate) source: f32,
 }
 
-/// How the source is combined with the destination.
+/// The combination of source and destination.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Join {
     Sum,

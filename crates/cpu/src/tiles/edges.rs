@@ -22,7 +22,7 @@ pub(crate) struct Edges {
     bias: [i64; 3],
 }
 
-/// How much of a tile's samples a triangle covers.
+/// The part of a tile's samples that a triangle covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Touch {
     None,

@@ -15,7 +15,7 @@ use fearless_simd::{i32x8, i32x16, u32x8, u32x16};
 /// The number of lanes for narrow triangles.
 pub(crate) const NARROW: i32 = 8;
 
-/// How the opaque triangles of a draw change texels.
+/// The change of texels by a draw's opaque triangles.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Store {
     /// The indices of the draw and the paint.

@@ -24,7 +24,7 @@ pub(crate) struct Varying {
     pub(crate) constant: [f32; 4],
     /// The logic operation that replaces blending.
     pub(crate) logic: Option<LogicOperation>,
-    /// Whether the alpha of the first and of the second source is 1.
+    /// True if the alpha of the first and of the second source is 1.
     pub(crate) opaque: [bool; 2],
     pub(crate) channels: &'static [ChannelEncoding],
     pub(crate) layout: Layout,

@@ -10,7 +10,7 @@ pub struct BenchRecord {
     pub picture: Picture,
     /// The rounds, by number; empty if the picture may not be timed.
     pub rounds: Vec<Round>,
-    /// Why the case has fewer rounds than others, if an error ended them.
+    /// The error that ended the case's rounds before those of others, if any.
     pub ended: Option<Ended>,
     /// The reason why the case needs no more rounds, if there is one.
     pub enough: Option<Enough>,

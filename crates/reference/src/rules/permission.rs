@@ -54,7 +54,7 @@ impl AskedValues {
     }
 }
 
-/// Whether a permission was asked for since it was made or cloned. Ignored when permissions are compared.
+/// True if a permission was asked for since it was made or cloned. Ignored when permissions are compared.
 #[derive(Debug, Default)]
 struct Asked(AtomicBool);
 
@@ -516,7 +516,7 @@ rules! {
     mask_acts_first: bool,
     /// Counting of fragments discarded after forced early tests.
     early_counts: EarlyUpdates,
-    /// What a precise occlusion query counts with several samples.
+    /// The samples that a precise occlusion query counts, if there are several.
     samples_counted: SamplesCounted,
     /// True if clears, load and store operations, and resolves count nothing in an enclosing occlusion query;
     /// otherwise they may count.

@@ -34,7 +34,7 @@ pub(super) struct Timed {
     pub(super) changes: Changes,
     /// The last entry of triage of each change.
     pub(super) states: Vec<Option<TriageEntry>>,
-    /// Whether each change was found only with the last run.
+    /// True for each change that was found only with the last run.
     pub(super) fresh: Vec<bool>,
 }
 

@@ -4,7 +4,7 @@ use crate::words::plain;
 use etalon_record::{CaseVersions, Standing, Versions};
 use std::collections::BTreeMap;
 
-/// How a case's result changes over the releases.
+/// The sequence of a case's results over the releases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Course {
     /// Bad in some releases.

@@ -2,7 +2,7 @@
 
 use etalon_record::{Record, Verdict};
 
-/// How a record's verdict counts.
+/// The tone in which a record's verdict is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) enum Tone {
     /// The verdict as it is.

@@ -26,7 +26,7 @@ const MAX_SEARCHES: u32 = 8;
 pub(super) struct AdapterQueue {
     pub(super) launch: Launch,
     pub(super) adapter: AdapterRecord,
-    /// Why the driver does not start; if set, nothing is drawn.
+    /// The reason why the driver does not start; if set, nothing is drawn.
     pub(super) start_error: Option<String>,
     pub(super) failed_starts: FailedStarts,
     /// The indices of cases without a record, in drawing order, except those in `first`.

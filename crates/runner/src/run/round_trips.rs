@@ -66,7 +66,7 @@ pub(super) struct RoundTrips {
     failed: BTreeMap<TextureFormat, Failed>,
     /// Formats whose round trip the expectations skip, with the reason.
     unchecked: BTreeMap<TextureFormat, String>,
-    /// Why the driver no longer starts.
+    /// The reason why the driver no longer starts.
     not_started: Option<String>,
 }
 

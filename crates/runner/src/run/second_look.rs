@@ -152,7 +152,7 @@ fn draw(run: &AdapterRun<'_, '_>, worker: &mut WorkerProcess, number: usize) -> 
     worker.draw_case(number as u32, case, run.wait(case))
 }
 
-/// Why a case has a verdict that it does not have alone.
+/// The reason why a case has a verdict that it does not have alone.
 enum Cause {
     /// These cases, drawn before it in this order.
     Cases(Vec<usize>),

@@ -10,7 +10,7 @@ use serde::Serialize;
 use serde_json::json;
 use std::collections::{BTreeMap, HashMap};
 
-/// Whether a record is right or wrong, if it decides that.
+/// True if a record is right, false if it is wrong; `None` if it decides neither.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Standing {
     Right,

@@ -13,7 +13,7 @@ pub struct RunDiff {
     pub kind: &'static str,
     /// Reasons why the comparison can mislead: incomplete runs, other selections, other machines.
     pub warnings: Vec<String>,
-    /// What the comparison could not decide: missing records, unknown selections, unreadable frames.
+    /// The undecided rest of the comparison: missing records, unknown selections, unreadable frames.
     pub untold: Vec<String>,
     /// The headers side by side.
     pub facts: Vec<Fact>,
@@ -241,7 +241,7 @@ pub struct Change {
     pub what: Vec<&'static str>,
     /// The verdicts.
     pub verdict: [Verdict; 2],
-    /// Whether each record is unexpected.
+    /// True for each record that is unexpected.
     pub unexpected: [bool; 2],
     /// The most informative line of each record.
     pub headline: [String; 2],
