@@ -126,7 +126,7 @@ impl From<ReductionError> for Failure {
     fn from(error: ReductionError) -> Self {
         let code = match error {
             ReductionError::Start(_)
-            | ReductionError::Lost { .. }
+            | ReductionError::Lost(_)
             | ReductionError::Unconfirmed {
                 why: Unconfirmed::Start(_),
                 ..

@@ -41,7 +41,7 @@ pub use hunt::{HuntPlan, hunt};
 pub use launch::{Launch, Launcher, START_TIMEOUT, Setup, StartError};
 pub use protocol::Hello;
 pub use reduction::{
-    Flakiness, Looked, Reducer, ReductionError, Smallest, Unconfirmed, confirm, smallest,
+    Flakiness, Looked, Lost, Reducer, ReductionError, Smallest, Unconfirmed, confirm, smallest,
 };
 pub use run::{KeptFrames, Options, Plan, Rechecks, RunError, RunSummary, round_trips, run};
 pub use select::{Globs, SelectError, Selection, select};

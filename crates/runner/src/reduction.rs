@@ -8,7 +8,7 @@ mod reducer;
 mod smallest;
 mod steady;
 
-pub use oracle::{Unconfirmed, confirm};
+pub use oracle::{Lost, Unconfirmed, confirm};
 pub use reducer::{Looked, Reducer};
 pub use smallest::{Smallest, smallest};
 
@@ -23,13 +23,8 @@ pub enum ReductionError {
     #[error("{0}")]
     Start(#[from] StartError),
     /// A worker that a case ended did not start again.
-    #[error("the worker of {adapter} could not be started again: {error}")]
-    Lost {
-        /// The name of the adapter.
-        adapter: String,
-        /// The error from starting the worker.
-        error: StartError,
-    },
+    #[error("{0}")]
+    Lost(#[from] Lost),
     /// The adapter lacks what the case needs.
     #[error("{adapter} does not support {missing}")]
     NotSupported {

@@ -1,6 +1,5 @@
 //! The judge as oracle, with a driver's frames.
 
-use super::ReductionError;
 use crate::launch::{Launch, StartError};
 use crate::trial::Trials;
 use crate::worker::Worker;
@@ -15,6 +14,16 @@ use thiserror::Error;
 
 /// The time limit of a candidate if the original case hangs.
 const HUNG_TIME: Duration = Duration::from_secs(2);
+
+/// A worker that a candidate ended did not start again.
+#[derive(Debug, Error)]
+#[error("the worker of {adapter} could not be started again: {error}")]
+pub struct Lost {
+    /// The name of the adapter.
+    adapter: String,
+    /// The error from starting the worker.
+    error: StartError,
+}
 
 /// An error from confirming a failure.
 #[derive(Debug, Error)]
@@ -121,9 +130,9 @@ impl<'a> DriverOracle<'a> {
     ///
     /// # Errors
     /// If a worker that a candidate ended did not start again.
-    pub(super) fn finish(self) -> Result<(Trials, Record, Symptom), ReductionError> {
+    pub(super) fn finish(self) -> Result<(Trials, Record, Symptom), Lost> {
         match self.error {
-            Some(error) => Err(ReductionError::Lost {
+            Some(error) => Err(Lost {
                 adapter: self.trials.launch.adapter,
                 error,
             }),
