@@ -1,4 +1,4 @@
-//! The findings of `ci/findings`: all can be read, all are alive, and a page lists them.
+//! The findings of `ci/findings`: all can be read, all are alive, and pages list them.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::etalon;
@@ -9,9 +9,9 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// If this variable is set, the list is written anew instead of compared.
+/// If this variable is set, the pages are written anew instead of compared.
 const WRITE: &str = "ETALON_WRITE_FINDINGS";
-const BEGIN: &str = "<!-- findings: ETALON_WRITE_FINDINGS=1 cargo nextest run -p etalon the_page_lists_the_findings -->\n";
+const BEGIN: &str = "<!-- findings: ETALON_WRITE_FINDINGS=1 cargo nextest run -p etalon the_pages_list_the_findings -->\n";
 const END: &str = "<!-- end of findings -->\n";
 
 fn root() -> PathBuf {
@@ -81,34 +81,62 @@ fn no_finding_is_dead() {
     .stderr(contains("dead").not());
 }
 
-/// Returns the list: a table per driver, by the first word of the files' names.
-fn listed() -> String {
-    let mut drivers: BTreeMap<String, Vec<String>> = BTreeMap::new();
-    for (name, finding) in findings().iter().filter(|(name, _)| !is_numbered(name)) {
-        let driver = name.split('-').next().unwrap().to_owned();
-        let grade = finding.grade.name().replace('-', " ");
-        let row = format!(
-            "| [{}](findings/{name}.json) | {} | {grade} |",
-            finding.title,
-            releases(finding)
-        );
-        drivers.entry(driver).or_default().push(row);
+/// The bugs of each driver, by the first word of the files' names.
+fn by_driver() -> BTreeMap<String, Vec<(String, Finding)>> {
+    let mut drivers: BTreeMap<String, Vec<(String, Finding)>> = BTreeMap::new();
+    for (name, finding) in findings() {
+        if !is_numbered(&name) {
+            let driver = name.split('-').next().unwrap().to_owned();
+            drivers.entry(driver).or_default().push((name, finding));
+        }
     }
-    let tables = drivers.into_iter().map(|(driver, rows)| {
-        format!(
-            "## {driver}\n\n| bug | releases | grade |\n|---|---|---|\n{}\n\n",
-            rows.join("\n")
-        )
+    drivers
+}
+
+/// Returns the page of a driver's bugs.
+fn driver_page(driver: &str, bugs: &[(String, Finding)]) -> String {
+    let rows = bugs.iter().map(|(name, finding)| {
+        let grade = finding.grade.name().replace('-', " ");
+        let releases = releases(finding);
+        format!("| [{}]({name}.json) | {releases} | {grade} |\n", finding.title)
     });
-    tables.collect()
+    format!(
+        "# Bugs of {driver}\n\n{BEGIN}\n| bug | releases | grade |\n|---|---|---|\n{}\n[All drivers](../findings.md)\n",
+        rows.collect::<String>()
+    )
+}
+
+/// Returns the table of the drivers, with the number of their bugs.
+fn table_of_drivers() -> String {
+    let rows = by_driver().into_iter().map(|(driver, bugs)| {
+        let is_open = |(_, finding): &&(String, Finding)| is_in_newest_release(finding);
+        let open = bugs.iter().filter(is_open).count();
+        format!("| [{driver}](findings/{driver}.md) | {} | {open} |\n", bugs.len())
+    });
+    format!(
+        "| driver | bugs | in the newest release that was drawn |\n|---|---|---|\n{}",
+        rows.collect::<String>()
+    )
+}
+
+/// Whether no drawn release is known to be without the bug.
+fn is_in_newest_release(finding: &Finding) -> bool {
+    match &finding.versions {
+        None => single_release(finding).is_none(),
+        Some(range) => range.split(", ").all(|end| end.starts_with('>')),
+    }
+}
+
+/// The release that the finding's driver name ends with, if it names one.
+fn single_release(finding: &Finding) -> Option<&str> {
+    let last = finding.driver.trim_matches('*').rsplit(' ').next()?;
+    last.starts_with(|c: char| c.is_ascii_digit()).then_some(last)
 }
 
 /// Returns the releases that a finding is about, in words.
 fn releases(finding: &Finding) -> String {
-    let single = finding.driver.trim_matches('*').rsplit(' ').next().unwrap();
     match &finding.versions {
-        None if single.starts_with(|c: char| c.is_ascii_digit()) => single.to_owned(),
-        None => "all that were drawn".to_owned(),
+        None => single_release(finding).unwrap_or("all that were drawn").to_owned(),
         Some(range) => {
             let ends = range.split(", ").map(|end| match end.split_at(1) {
                 (">", rest) => format!("from {}", rest.trim_start_matches('=')),
@@ -120,16 +148,33 @@ fn releases(finding: &Finding) -> String {
     }
 }
 
+/// Writes a page anew if [`WRITE`] is set; else compares it.
+fn check_page(path: &Path, expected: &str) {
+    if std::env::var_os(WRITE).is_some() {
+        fs::write(path, expected).unwrap();
+        return;
+    }
+    let page = fs::read_to_string(path).unwrap_or_default();
+    assert_eq!(page, expected, "{}: set {WRITE} to write the page anew", path.display());
+}
+
 #[test]
-fn the_page_lists_the_findings() {
+fn the_pages_list_the_findings() {
     let path = root().join("ci/findings.md");
     let text = fs::read_to_string(&path).unwrap();
     let (before, rest) = text.split_once(BEGIN).unwrap();
-    let (list, after) = rest.split_once(END).unwrap();
-    let due = format!("\n{}", listed());
-    if std::env::var_os(WRITE).is_some() {
-        fs::write(&path, format!("{before}{BEGIN}{due}{END}{after}")).unwrap();
-        return;
+    let (_, after) = rest.split_once(END).unwrap();
+    check_page(&path, &format!("{before}{BEGIN}\n{}\n{END}{after}", table_of_drivers()));
+    let drivers = by_driver();
+    for (driver, bugs) in &drivers {
+        let path = root().join(format!("ci/findings/{driver}.md"));
+        check_page(&path, &driver_page(driver, bugs));
     }
-    assert_eq!(list, due, "set {WRITE} to write the list anew");
+    for entry in fs::read_dir(root().join("ci/findings")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|extension| extension == "md") {
+            let driver = path.file_stem().unwrap().to_str().unwrap();
+            assert!(drivers.contains_key(driver), "{}: no finding of this driver", path.display());
+        }
+    }
 }
