@@ -81,8 +81,8 @@ pub fn fit(
     if is_fixed {
         // Tries the usual steps 2^-n and 2^(1-n) before the whole range.
         let usual = [2.0, 1.0].map(|v: f64| (v * (1.0 - NARROW / 2.0), v * (1.0 + NARROW / 2.0)));
-        let whole = parts.clone();
-        let is_legal = |u: &(f64, f64)| whole.iter().any(|p| p.0 <= u.0 && u.1 <= p.1);
+        let legal = parts.clone();
+        let is_legal = |u: &(f64, f64)| legal.iter().any(|p| p.0 <= u.0 && u.1 <= p.1);
         parts.extend(usual.into_iter().filter(is_legal));
     }
     let mut best: Option<(u64, Fitted)> = None;
@@ -124,8 +124,8 @@ fn biased_encoding(scene: &Scene, limits: &Limits) -> Option<ChannelEncoding> {
     attachments.sort_unstable();
     attachments.dedup();
     match attachments[..] {
-        [one] if scene.attachments[one].format.has_depth() => {
-            Some(depth_encoding(scene, limits, one))
+        [attachment] if scene.attachments[attachment].format.has_depth() => {
+            Some(depth_encoding(scene, limits, attachment))
         }
         _ => None,
     }

@@ -447,7 +447,7 @@ impl<'a> Walk<'a> {
             .limits
             .sample_positions
             .get(&at.samples)
-            .and_then(|all| all.get(at.sample as usize))
+            .and_then(|positions| positions.get(at.sample as usize))
             .copied()
             .unwrap_or([128, 128]);
         let axis = |texel: u32, offset: u16| {
@@ -582,8 +582,8 @@ impl<'a> Walk<'a> {
 /// distinguish states that are otherwise equal.
 fn without_lone_geometry(mut setups: Vec<PassSetup>) -> Vec<PassSetup> {
     let mut times: FxHashMap<u64, u32> = FxHashMap::default();
-    let all = setups.iter_mut().flat_map(PassSetup::primitives_mut);
-    for geometry in all.filter_map(|primitive| primitive.geometry) {
+    let primitives = setups.iter_mut().flat_map(PassSetup::primitives_mut);
+    for geometry in primitives.filter_map(|primitive| primitive.geometry) {
         *times.entry(geometry).or_default() += 1;
     }
     for primitive in setups.iter_mut().flat_map(PassSetup::primitives_mut) {

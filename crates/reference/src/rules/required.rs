@@ -76,12 +76,12 @@ const DEPTH: [TextureFormat; 5] = [
 
 /// Returns all rows.
 pub fn rows() -> Vec<Required> {
-    let mut all = Vec::new();
-    vulkan(&mut all);
-    opengl(&mut all);
-    opengl_es(&mut all);
-    webgpu(&mut all);
-    all
+    let mut rows = Vec::new();
+    vulkan(&mut rows);
+    opengl(&mut rows);
+    opengl_es(&mut rows);
+    webgpu(&mut rows);
+    rows
 }
 
 /// Appends what an API requires from a version on, all from one section of its specification.
