@@ -202,7 +202,7 @@ impl<R> SampleMask<R> {
     pub fn written(&self, bits: u32) -> u32 {
         match self.turned_but {
             None => bits,
-            Some(own) => !bits ^ (1 << own),
+            Some(kept) => !bits ^ (1 << kept),
         }
     }
 }
