@@ -165,11 +165,11 @@ pub trait Steps {
     /// Returns the texels of a texture at a span.
     #[inline(always)]
     fn fetch(&self, surface: &Surface, x: usize, y: usize) -> [Real; 4] {
-        let at = y * surface.stride + x;
+        let offset = y * surface.stride + x;
         std::array::from_fn(|c| match surface.encodings.get(c) {
             Some(encoding) => {
                 let plane = surface.plane(c, 0);
-                Plain::<LANES>.decode(*encoding, std::array::from_fn(|i| plane[at + i]))
+                Plain::<LANES>.decode(*encoding, std::array::from_fn(|i| plane[offset + i]))
             }
             // A format without alpha is fetched with alpha 1.
             None => [if c == 3 { 1.0 } else { 0.0 }; LANES],
@@ -210,8 +210,8 @@ pub trait Steps {
 
     /// Returns the stencil reference of a fragment whose shader writes one.
     #[inline(always)]
-    fn exported(&self, of: &Exported) -> u8 {
-        exported_reference(of.written[of.lane])
+    fn exported(&self, fragment: &Exported) -> u8 {
+        exported_reference(fragment.written[fragment.lane])
     }
 
     /// Returns true if a stored value passes the stencil test.
@@ -243,11 +243,11 @@ pub trait Steps {
     /// Returns the texels whose colour is written, and the texels whose depth is written.
     #[inline(always)]
     fn written(&self, tests: &Tests) -> WrittenTexels {
-        let all: Mask =
+        let passing: Mask =
             std::array::from_fn(|i| tests.covered[i] & tests.stencil[i] & tests.depth[i]);
         WrittenTexels {
-            color: all,
-            depth: all,
+            color: passing,
+            depth: passing,
         }
     }
 
@@ -411,8 +411,8 @@ pub trait Steps {
 
     /// Returns true if a bit of the sample mask that a shader reads is set.
     #[inline(always)]
-    fn input_bit(&self, of: &InputBit) -> bool {
-        of.covered && of.drawn && of.shaded
+    fn input_bit(&self, bit: &InputBit) -> bool {
+        bit.covered && bit.drawn && bit.shaded
     }
 
     /// Returns the number of shader runs that share a texel's samples. The samples of a run are consecutive.

@@ -99,12 +99,16 @@ impl PrimitiveRun {
                 at: 0,
             }];
         };
-        let (mut first, mut at) = (0, 0);
+        let (mut first, mut start) = (0, 0);
         let runs = indices.split(|i| *i == RESTART).map(|run| {
             let count = run.len() / 3;
-            let this = Self { first, count, at };
+            let this = Self {
+                first,
+                count,
+                at: start,
+            };
             first += count;
-            at += run.len() + 1;
+            start += run.len() + 1;
             this
         });
         runs.collect()

@@ -15,7 +15,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Returns the sets of vector instructions that this machine has, with their names.
 fn levels() -> Vec<(&'static str, Level)> {
     let best = Level::new();
-    let mut all = Vec::new();
+    let mut levels = Vec::new();
     #[cfg(target_arch = "x86_64")]
     {
         let named = [
@@ -24,12 +24,12 @@ fn levels() -> Vec<(&'static str, Level)> {
             ("avx2", best.as_avx2().map(|s| s.level())),
             ("avx512", best.as_avx512().map(|s| s.level())),
         ];
-        all.extend(named.into_iter().filter_map(|(n, l)| Some((n, l?))));
+        levels.extend(named.into_iter().filter_map(|(n, l)| Some((n, l?))));
     }
-    if all.is_empty() {
-        all.push(("best", best));
+    if levels.is_empty() {
+        levels.push(("best", best));
     }
-    all
+    levels
 }
 
 fn drawn(mut prepared: impl Prepared) -> Frame {
@@ -48,30 +48,30 @@ fn compare(
     let mut scene = scene.clone();
     scene.read = (0..scene.attachments.len()).collect();
     Plan::new(&scene, 0)?;
-    let due = drawn(PreparedScene::new(scene.clone(), Faithful));
+    let expected = drawn(PreparedScene::new(scene.clone(), Faithful));
     for (name, machine) in machines {
         let plan = Plan::new(&scene, 0)?;
         let frame = drawn(TiledScene::new(scene.clone(), plan, *machine));
-        if frame != due {
+        if frame != expected {
             return Ok(Some(format!(
                 "{name}, {}: {}",
                 machine.threads,
-                difference(&frame, &due)
+                difference(&frame, &expected)
             )));
         }
     }
     Ok(None)
 }
 
-fn difference(frame: &Frame, due: &Frame) -> String {
-    if frame.counters != due.counters {
-        return format!("counters {:?} for {:?}", frame.counters, due.counters);
+fn difference(frame: &Frame, expected: &Frame) -> String {
+    if frame.counters != expected.counters {
+        return format!("counters {:?} for {:?}", frame.counters, expected.counters);
     }
-    for (image, due) in frame.images.iter().zip(&due.images) {
-        let mut codes = image.codes.iter().zip(&due.codes);
-        if let Some(at) = codes.position(|(a, b)| a != b) {
+    for (image, expected) in frame.images.iter().zip(&expected.images) {
+        let mut codes = image.codes.iter().zip(&expected.codes);
+        if let Some(index) = codes.position(|(a, b)| a != b) {
             let channels = image.channels.len();
-            let texel = at / channels / image.samples as usize;
+            let texel = index / channels / image.samples as usize;
             let (x, y) = (
                 texel % image.size[0] as usize,
                 texel / image.size[0] as usize,
@@ -80,10 +80,10 @@ fn difference(frame: &Frame, due: &Frame) -> String {
                 "{} {:?} {x},{y} sample {} channel {}: {} for {}",
                 image.attachment,
                 image.aspect,
-                at / channels % image.samples as usize,
-                at % channels,
-                image.codes[at],
-                due.codes[at]
+                index / channels % image.samples as usize,
+                index % channels,
+                image.codes[index],
+                expected.codes[index]
             );
         }
     }
@@ -92,12 +92,13 @@ fn difference(frame: &Frame, due: &Frame) -> String {
 
 /// Returns every level, each with one of three numbers of threads.
 fn machines(turn: usize) -> Vec<(&'static str, Machine)> {
-    let all = levels().into_iter().enumerate();
-    all.map(|(i, (name, level))| {
-        let threads = 1 + (turn + i) % 3;
-        (name, Machine { level, threads })
-    })
-    .collect()
+    let levels = levels().into_iter().enumerate();
+    levels
+        .map(|(i, (name, level))| {
+            let threads = 1 + (turn + i) % 3;
+            (name, Machine { level, threads })
+        })
+        .collect()
 }
 
 /// Returns one level with one number of threads. Consecutive turns go through all pairs.
