@@ -62,9 +62,9 @@ macro_rules! hooks {
 hooks! {
     whole {
         /// The stencil reference of a fragment whose shader writes one.
-        exported(of: &Exported) -> u8;
+        exported(fragment: &Exported) -> u8;
         /// Returns true if a bit of the sample mask that a shader reads is set.
-        input_bit(of: &InputBit) -> bool;
+        input_bit(bit: &InputBit) -> bool;
         /// The stencil test.
         stencil_passes(face: &StencilFace, stored: u8) -> bool;
         /// The stencil update, including the write mask.
