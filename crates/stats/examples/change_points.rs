@@ -64,8 +64,8 @@ fn main() -> ExitCode {
 /// The series of a machine and a size, the same each time.
 fn all(machine: Machine, size: u32) -> Vec<Series> {
     let mut random = Rand64::new(u128::from(size) + 1);
-    let one = |_| series(&mut random, machine, f64::from(size) / 100.0);
-    (0..SERIES).map(one).collect()
+    let make = |_| series(&mut random, machine, f64::from(size) / 100.0);
+    (0..SERIES).map(make).collect()
 }
 
 fn print(mut found: impl FnMut(&Series) -> Vec<usize>) {

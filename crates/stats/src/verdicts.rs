@@ -77,8 +77,12 @@ pub fn happenings<K: Copy>(runs: &[(K, Class)]) -> Vec<Happening<K>> {
             .map(|before| (runs[before].0, classes[before]));
         if let Some((after, last)) = before {
             let mut tell = |event| {
-                let at = runs[index].0;
-                found.push(Happening { event, after, at });
+                let run = runs[index].0;
+                found.push(Happening {
+                    event,
+                    after,
+                    at: run,
+                });
             };
             match (last, class) {
                 (Class::Missing, Class::Missing) => {}
@@ -166,7 +170,7 @@ pub fn scores<K: Ord + Copy>(runs: &[BTreeMap<K, Class>]) -> Vec<Scores> {
         let cases = run.iter().filter(|(_, class)| **class != Class::Missing);
         cases.map(|(case, _)| *case).collect()
     };
-    let common = runs.iter().map(there).reduce(|all, run| &all & &run);
+    let common = runs.iter().map(there).reduce(|common, run| &common & &run);
     let common = common.unwrap_or_default();
     let score = |run: &BTreeMap<K, Class>| Scores {
         common: Score::over(
