@@ -17,10 +17,10 @@ type Row = BTreeMap<String, String>;
 fn records(text: &str) -> Vec<Vec<String>> {
     let (mut records, mut record, mut field) = (Vec::new(), Vec::new(), String::new());
     let mut quoted = false;
-    let mut all = text.chars().peekable();
-    while let Some(c) = all.next() {
+    let mut chars = text.chars().peekable();
+    while let Some(c) = chars.next() {
         match c {
-            '"' if quoted && all.peek() == Some(&'"') => field.extend(all.next()),
+            '"' if quoted && chars.peek() == Some(&'"') => field.extend(chars.next()),
             '"' => quoted = !quoted,
             ',' if !quoted => record.push(std::mem::take(&mut field)),
             '\n' if !quoted => {
@@ -82,7 +82,7 @@ fn due(runs: &[&NewRun]) -> Told {
                 let ruler = run.ruler.as_deref().map(|ruler| format!(", ruler {ruler}"));
                 let ruler = ruler.unwrap_or_default();
                 let title = format!("{case} {} {}{ruler}", part.timeline, machine(run));
-                let all = [
+                let measured = [
                     &times.wall,
                     &times.cpu,
                     &times.gpu,
@@ -93,7 +93,7 @@ fn due(runs: &[&NewRun]) -> Told {
                     time(run),
                     run.commit.clone().unwrap_or_default(),
                     part.adapter.driver_version.clone(),
-                    all.map(|rounds| middle(rounds)),
+                    measured.map(|rounds| middle(rounds)),
                 );
                 tests.entry(title).or_default().push(row);
             }
