@@ -146,14 +146,14 @@ pub(crate) fn a_query_counts_what_it_encloses(s: &Subject) -> Checked {
 }
 
 pub(crate) fn each_sample_counts_by_itself(s: &Subject) -> Checked {
-    for (mask, due) in [(15, 1024), (5, 512), (0, 0)] {
+    for (mask, expected) in [(15, 1024), (5, 512), (0, 0)] {
         let frame = s.show(json!({
             "attachments": { "color": { "format": "rgba8unorm", "samples": 4 } },
             "draws": [{ "mesh": { "kind": "cover" }, "shader": "uniform_color", "counters": ["n"],
                         "multisample": { "mask": mask } }],
             "counters": { "n": "samples-passed" },
         }))?;
-        assert_eq!(frame.counters, [due], "{mask}");
+        assert_eq!(frame.counters, [expected], "{mask}");
     }
     Ok(())
 }

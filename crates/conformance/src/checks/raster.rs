@@ -104,7 +104,8 @@ pub(crate) fn a_scissor_leaves_the_texels_inside(s: &Subject) -> Checked {
         let scissor = json!({ "scissor": [x0, y0, width, height] });
         for draw in [whole(), json!({ "mesh": full() })] {
             let frame = drawn(s, with(draw, scissor.clone()))?;
-            let inside = |at: u32, from: u32, length: u32| (from..from + length).contains(&at);
+            let inside =
+                |position: u32, from: u32, length: u32| (from..from + length).contains(&position);
             frame.is_red(|x, y| inside(x, x0, width) && inside(y, y0, height));
         }
     }
@@ -291,11 +292,13 @@ pub(crate) fn polygons_may_be_drawn_as_their_edges(s: &Subject) -> Checked {
         Ok(())
     };
     let red: Vec<_> = (4..12)
-        .flat_map(|at| [(2, at), (at, 13), (at, at)])
+        .flat_map(|coordinate| [(2, coordinate), (coordinate, 13), (coordinate, coordinate)])
         .collect();
     let blue = [(5, 10), (4, 8), (12, 3), (15, 15)];
     edges(&[[2.5, 2.5], [2.5, 13.5], [13.5, 13.5]], &red, &blue)?;
-    let red: Vec<_> = (3..12).flat_map(|at| [(at, 2), (2, at)]).collect();
+    let red: Vec<_> = (3..12)
+        .flat_map(|coordinate| [(coordinate, 2), (2, coordinate)])
+        .collect();
     let blue = [(4, 4), (5, 6), (13, 13)];
     edges(&[[2.5, 2.5], [2.5, 12.5], [12.5, 2.5]], &red, &blue)
 }
