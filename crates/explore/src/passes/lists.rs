@@ -92,9 +92,9 @@ pub(crate) fn counters(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let mut edits = Vec::new();
     for part in parts(names.len()) {
         let gone = &names[part];
-        let whole = gone.len() == names.len();
+        let all_gone = gone.len() == names.len();
         let mut edit = Edit {
-            remove: if whole {
+            remove: if all_gone {
                 vec![place!["scene", "counters"]]
             } else {
                 gone.iter()
@@ -112,7 +112,7 @@ pub(crate) fn counters(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
                 let name = name.as_str()?;
                 gone.iter().any(|g| *g == name).then(|| below(&counters, i))
             });
-            if whole {
+            if all_gone {
                 edit.remove.push(counters.clone());
             } else {
                 edit.remove.extend(places);

@@ -19,8 +19,8 @@ pub(crate) fn meshes(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
         };
         let kind = mesh.get("kind").and_then(Value::as_str).unwrap_or_default();
         let rank = WHOLE.iter().position(|k| *k == kind);
-        for whole in &WHOLE[..rank.unwrap_or(WHOLE.len())] {
-            for mesh in wholes(mesh, whole, texel) {
+        for simpler in &WHOLE[..rank.unwrap_or(WHOLE.len())] {
+            for mesh in wholes(mesh, simpler, texel) {
                 edits.push(Edit::replacement(mesh_place.clone(), mesh));
             }
         }
@@ -37,12 +37,12 @@ fn wholes(mesh: &Map<String, Value>, kind: &str, texel: Option<[u32; 2]>) -> Vec
         list.cloned().unwrap_or_default()
     };
     let (values, z, windings) = (list("values"), list("z"), list("windings"));
-    let part_of = |key: &str, of: &[Value], part: usize| -> Option<Value> {
+    let part_of = |key: &str, items: &[Value], part: usize| -> Option<Value> {
         let single = mesh.get(key).filter(|v| !v.is_array() || key == "value");
-        if of.is_empty() {
+        if items.is_empty() {
             single.cloned()
         } else {
-            of.get(part % of.len()).cloned()
+            items.get(part % items.len()).cloned()
         }
     };
     let count = values.len().max(z.len()).max(1);
@@ -52,7 +52,7 @@ fn wholes(mesh: &Map<String, Value>, kind: &str, texel: Option<[u32; 2]>) -> Vec
         .min(count - 1);
     let order = std::iter::once(first).chain((0..count).filter(|i| *i != first));
     for part in order.take(PARTS) {
-        let mut whole = json!({ "kind": kind });
+        let mut replacement = json!({ "kind": kind });
         let keys = [
             ("value", part_of("value", &values, part)),
             ("z", part_of("z", &z, part)),
@@ -61,11 +61,11 @@ fn wholes(mesh: &Map<String, Value>, kind: &str, texel: Option<[u32; 2]>) -> Vec
         for (key, value) in keys {
             let fits = key != "winding" || kind == "full";
             if let Some(value) = value.filter(|_| fits) {
-                whole[key] = value;
+                replacement[key] = value;
             }
         }
-        if !meshes.contains(&whole) {
-            meshes.push(whole);
+        if !meshes.contains(&replacement) {
+            meshes.push(replacement);
         }
     }
     meshes

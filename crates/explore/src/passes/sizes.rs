@@ -62,7 +62,12 @@ struct Window {
 }
 
 impl Window {
-    fn crop_texels(self, attachment: &Value, own: &[crate::edit::Step], edit: &mut Edit) {
+    fn crop_texels(
+        self,
+        attachment: &Value,
+        attachment_place: &[crate::edit::Step],
+        edit: &mut Edit,
+    ) {
         let texels = &attachment["texels"];
         let Some(values) = texels["values"].as_array() else {
             return;
@@ -80,7 +85,7 @@ impl Window {
                 .collect(),
             _ => return,
         };
-        let place = below(&below(own, "texels"), "values");
+        let place = below(&below(attachment_place, "texels"), "values");
         edit.replace.push((place, json!(values)));
     }
 
@@ -88,10 +93,13 @@ impl Window {
     fn crop_rectangles(self, document: &Value, edit: &mut Edit) {
         for draw in draws_of(document) {
             self.crop(document, below(&draw, "scissor"), edit);
-            let whole = at(document, &below(&draw, "viewport")).is_none();
+            let full_viewport = at(document, &below(&draw, "viewport")).is_none();
             let mesh = below(&draw, "mesh");
             let texels = below(&mesh, "texels");
-            if let Some(corners) = at(document, &texels).and_then(numbers).filter(|_| whole) {
+            if let Some(corners) = at(document, &texels)
+                .and_then(numbers)
+                .filter(|_| full_viewport)
+            {
                 let [l, t] = [0, 1].map(|i| self.moved(corners[i], i));
                 let [r, b] = [0, 1].map(|i| self.moved(corners[i + 2], i));
                 edit.replace.push((texels, json!([l, t, r, b])));
@@ -131,9 +139,9 @@ impl Window {
 /// Returns four non-negative integers.
 fn numbers(value: &Value) -> Option<[u64; 4]> {
     let list = value.as_array()?.iter();
-    let whole = |v: &Value| v.as_f64().filter(|v| *v >= 0.0 && v.fract() == 0.0);
+    let as_integer = |v: &Value| v.as_f64().filter(|v| *v >= 0.0 && v.fract() == 0.0);
     let sizes: Vec<u64> = list
-        .map(|v| whole(v).map(|v| v as u64))
+        .map(|v| as_integer(v).map(|v| v as u64))
         .collect::<Option<_>>()?;
     sizes.try_into().ok()
 }

@@ -87,11 +87,12 @@ pub(crate) fn texels(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
         if attachment.get("texels").is_none() {
             continue;
         }
-        let own = place!["scene", "attachments", name.as_str()];
-        edits.push(Edit::removal(below(&own, "texels")));
+        let attachment_place = place!["scene", "attachments", name.as_str()];
+        edits.push(Edit::removal(below(&attachment_place, "texels")));
         if let Some(color) = color(attachment, texel) {
-            let mut edit = Edit::removal(below(&own, "texels"));
-            edit.replace.push((below(&own, "clear"), color));
+            let mut edit = Edit::removal(below(&attachment_place, "texels"));
+            edit.replace
+                .push((below(&attachment_place, "clear"), color));
             edits.push(edit);
         }
         // Makes all texels equal, for shaders that need uploaded texels.
@@ -100,7 +101,7 @@ pub(crate) fn texels(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
             && attachment["texels"]["kind"] != "grid"
         {
             let alike = vec![value; values.len()];
-            let place = below(&below(&own, "texels"), "values");
+            let place = below(&below(&attachment_place, "texels"), "values");
             edits.push(Edit::replacement(place, alike));
         }
     }
