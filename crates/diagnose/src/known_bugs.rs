@@ -262,8 +262,8 @@ impl<D: Driver> KnownBugs<D> {
 
     /// Returns the first finding that names a case and excuses a verdict.
     fn finding(&self, number: usize, verdict: Verdict) -> Option<&Known> {
-        let all = self.expectations.all();
-        let mut findings = self.named[number].findings.iter().map(|f| &all[*f]);
+        let entries = self.expectations.all();
+        let mut findings = self.named[number].findings.iter().map(|f| &entries[*f]);
         findings.find(|known| known.excuses(verdict))
     }
 
