@@ -77,9 +77,9 @@ pub(crate) struct Hit {
     pub(crate) sides: [Side; 3],
     /// True if the sample is certainly inside the viewport.
     pub(crate) in_viewport: bool,
-    /// True if the near and far planes certainly do not clip it.
+    /// True if the near and far planes certainly do not clip the sample.
     pub(crate) in_depth: bool,
-    /// True if certainly no clip distance clips it.
+    /// True if certainly no clip distance clips the sample.
     pub(crate) in_distances: bool,
 }
 
@@ -90,7 +90,7 @@ impl Hit {
     }
 }
 
-/// The origin of a fragment in the scene.
+/// The place of a fragment: its sample, pass, draw and primitive.
 #[derive(Clone, Copy)]
 pub(crate) struct Place<'a> {
     pub(crate) at: Sample,

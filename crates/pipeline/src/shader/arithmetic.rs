@@ -2,7 +2,7 @@
 
 use crate::arithmetic::Arithmetic;
 
-/// Returns a channel of a colour times its alpha; alpha itself unchanged.
+/// Returns a colour channel multiplied by alpha; alpha is returned unchanged.
 pub(super) fn premultiplied<A: Arithmetic>(a: &mut A, color: [A::Real; 4], c: usize) -> A::Real {
     if c == 3 {
         return color[3];
