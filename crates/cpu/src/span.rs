@@ -4,7 +4,7 @@ use crate::lanes::{Codes, LANES, Mask, Real};
 use crate::linear::{CENTER, UNITS, Varying};
 use crate::lists::Lists;
 use crate::memory::{Counted, Memory};
-use crate::steps::{Exported, InputBit, Path, Steps, Tests};
+use crate::steps::{ExportedReference, InputBit, Steps, TestOutcome, Tests};
 use crate::surface::{Surface, depth_encoding};
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind};
 use etalon_pipeline::shader::{
@@ -62,22 +62,22 @@ struct Face {
 type WrittenReferences = ([i32; LANES], i32);
 
 impl Face {
-    /// Returns the state of one texel: for the stencil test, or, with a path, for the update.
+    /// Returns the state of one texel: for the stencil test, or, with an outcome, for the update.
     #[inline(always)]
     fn of<S: Steps>(
         &self,
         steps: &S,
-        path: Option<Path>,
+        outcome: Option<TestOutcome>,
         lane: usize,
         sample: usize,
     ) -> StencilFace {
         let Some((written, plus)) = self.written else {
             return self.face;
         };
-        let reference = steps.exported(&Exported {
+        let reference = steps.exported(&ExportedReference {
             face: self.face,
             front: self.front,
-            path,
+            outcome,
             written,
             plus,
             lane,
@@ -479,9 +479,15 @@ impl<'a, S: Steps> SpanState<'a, S> {
             let passed = and(tests.covered, tests.stencil);
             let failed = and_not(tests.covered, tests.stencil);
             let depth_failed = and_not(passed, tests.depth);
-            self.stencil_update(span, sample, face, Path::Fail, failed);
-            self.stencil_update(span, sample, face, Path::DepthFail, depth_failed);
-            self.stencil_update(span, sample, face, Path::Pass, and(passed, tests.depth));
+            self.stencil_update(span, sample, face, TestOutcome::Fail, failed);
+            self.stencil_update(span, sample, face, TestOutcome::DepthFail, depth_failed);
+            self.stencil_update(
+                span,
+                sample,
+                face,
+                TestOutcome::Pass,
+                and(passed, tests.depth),
+            );
         }
         written.color
     }
@@ -523,7 +529,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         span: &Span<'_>,
         sample: usize,
         face: &Face,
-        path: Path,
+        outcome: TestOutcome,
         mask: Mask,
     ) {
         let Some(index) = self.stencil() else {
@@ -532,8 +538,8 @@ impl<'a, S: Steps> SpanState<'a, S> {
         let offset = self.at(index, span);
         let stored = &mut self.surfaces[index].stencil[sample][offset..offset + LANES];
         for (i, slot) in stored.iter_mut().enumerate() {
-            let face = face.of(self.steps, Some(path), i, sample);
-            let new = self.steps.stencil_write(&face, path, *slot);
+            let face = face.of(self.steps, Some(outcome), i, sample);
+            let new = self.steps.stencil_write(&face, outcome, *slot);
             *slot = if mask[i] { new } else { *slot };
         }
     }

@@ -20,7 +20,7 @@ use super::weights::{Constants, Weights};
 use crate::lanes::{Codes, LANES, Real};
 use crate::steps::{Faithful, Steps};
 use etalon_frame::ChannelEncoding;
-use etalon_pipeline::shader::Kept;
+use etalon_pipeline::shader::KeepCondition;
 use etalon_pipeline::{Arithmetic, BlendInput, Plain};
 use etalon_scene::{
     BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget, Draw, LogicOperation,
@@ -98,7 +98,7 @@ impl Paint {
         let state = &draw.multisample;
         let samples = pass.positions.len();
         if let Shading::Kept(limit) = shading {
-            let kept = Kept::unless_below([source[3]; LANES], [limit; LANES]);
+            let kept = KeepCondition::unless_below([source[3]; LANES], [limit; LANES]);
             if !Faithful.kept(&kept)[0] {
                 return Self::nothing();
             }

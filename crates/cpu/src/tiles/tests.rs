@@ -235,7 +235,7 @@ fn adapted(mut scene: Scene, turn: usize) -> Scene {
 }
 
 /// Returns true if all cases are compared, false for a sample.
-fn all() -> bool {
+fn compares_all() -> bool {
     std::env::var_os("ETALON_TESTS").is_some_and(|v| v == "all")
 }
 
@@ -244,7 +244,7 @@ fn scene_of(case: &CaseRef<'_>, turn: usize) -> Scenes {
     let id = case.id();
     // Smaller pictures replace large ones, and most of the matrix is one scene in different formats.
     let large = ["1280x720", "1920x1080", "1024x1024"];
-    let one_of_many = id.starts_with("perf/matrix/") && !turn.is_multiple_of(8) && !all();
+    let one_of_many = id.starts_with("perf/matrix/") && !turn.is_multiple_of(8) && !compares_all();
     if large.iter().any(|size| id.contains(size)) || one_of_many {
         Vec::new()
     } else {
@@ -259,7 +259,7 @@ fn kernels_draw_built_in_cases_as_spans_do() {
     let scenes = |i: usize| scene_of(&quick[i], i);
     let equal = compare_all(quick.len(), scenes, machines);
     assert!(equal > 1200, "{equal} quick cases have kernels");
-    let step = if all() { 1 } else { 8 };
+    let step = if compares_all() { 1 } else { 8 };
     let full: Vec<_> = library.cases(Profile::Full).step_by(step).collect();
     let scenes = |i: usize| scene_of(&full[i], i);
     let equal = compare_all(full.len(), scenes, machine);
@@ -269,7 +269,7 @@ fn kernels_draw_built_in_cases_as_spans_do() {
 #[test]
 fn kernels_draw_random_scenes_in_many_tiles_as_spans_do() {
     // Each scene is drawn in two sizes: 1,800 pictures, or 10,200.
-    let count = if all() { 1_700 } else { 300 };
+    let count = if compares_all() { 1_700 } else { 300 };
     let files = ["common", "extended", "multisample"].map(|flavor| {
         let text = format!(
             r#"{{"about":"t","spec":["t"],"axes":{{"seed":{{"from":5000,"count":{count}}}}},
