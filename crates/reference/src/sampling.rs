@@ -150,10 +150,10 @@ impl Walk<'_> {
             let reach = scaled.widen(step);
             match sampler.filter {
                 // The nearest texel changes at integers.
-                FilterMode::Nearest => whole(reach.low.floor(), reach.high.floor(), size),
+                FilterMode::Nearest => integers(reach.low.floor(), reach.high.floor(), size),
                 FilterMode::Linear => {
                     let (low, high) = (reach.low - 0.5, reach.high - 0.5);
-                    let mut stops = whole(low.ceil(), high.floor(), size);
+                    let mut stops = integers(low.ceil(), high.floor(), size);
                     stops.extend([low, high]);
                     stops
                 }
@@ -280,7 +280,7 @@ impl Walk<'_> {
 
 /// Returns the integers between two numbers, but at most twice the texture's size, which is enough to reach
 /// every texel.
-fn whole(low: f64, high: f64, size: u32) -> Vec<f64> {
+fn integers(low: f64, high: f64, size: u32) -> Vec<f64> {
     let most = 2 * size as usize + 1;
     std::iter::successors(Some(low), |v| Some(v + 1.0))
         .take_while(|v| *v <= high)
