@@ -161,7 +161,7 @@ mod tests {
     use crate::plain::Plain;
 
     /// Returns the specification's function in 64-bit floats, written independently.
-    fn due(mode: AdvancedBlend, s: f64, d: f64) -> f64 {
+    fn exact(mode: AdvancedBlend, s: f64, d: f64) -> f64 {
         let hard = |by: f64, other: f64| {
             if by <= 0.5 {
                 2.0 * by * other
@@ -209,7 +209,7 @@ mod tests {
                     let [s, d, sa, da] = [s, d, sa, da].map(f64::from);
                     let coverage = sa * da + sa * (1.0 - da) + da * (1.0 - sa);
                     let color =
-                        due(mode, s, d) * sa * da + s * sa * (1.0 - da) + d * da * (1.0 - sa);
+                        exact(mode, s, d) * sa * da + s * sa * (1.0 - da) + d * da * (1.0 - sa);
                     assert!((f64::from(alpha) - coverage).abs() < 1e-6);
                     assert!((f64::from(r) - color).abs() < 1e-6, "{mode:?} {s} {d}: {r}");
                 }

@@ -1,6 +1,6 @@
 //! 8-bit sRGB codes by tables, equal to the functions that define them.
 
-use crate::rounding::{unit, whole};
+use crate::rounding::{integer_part, unit};
 use etalon_frame::{ChannelEncoding, linear_to_srgb};
 use std::sync::LazyLock;
 
@@ -85,7 +85,7 @@ pub fn srgb_values(codes: &[u32], values: &mut [f32]) {
 /// Returns the part of a value from 0 to 1.
 #[inline(always)]
 fn part(value: f32) -> u32 {
-    whole(value * PARTS as f32)
+    integer_part(value * PARTS as f32)
 }
 
 /// Returns the code of a linear value by its definition.

@@ -139,7 +139,7 @@ mod tests {
     }
 
     /// Returns the transmittance that the moments of layers, given as depth and alpha, yield at each layer.
-    fn told(layers: &[(f32, f32)]) -> Vec<f32> {
+    fn transmittances(layers: &[(f32, f32)]) -> Vec<f32> {
         let params = Params::default();
         let mut sums = [[[0.0_f32; 1]; 4]; 2];
         for layer in layers {
@@ -163,7 +163,7 @@ mod tests {
     }
 
     /// Returns the transmittance in front of each layer, including a quarter of its own absorbance.
-    fn due(layers: &[(f32, f32)]) -> Vec<f32> {
+    fn exact_transmittances(layers: &[(f32, f32)]) -> Vec<f32> {
         let in_front = |depth: f32| {
             let nearer = layers.iter().filter(|l| l.0 < depth);
             nearer.map(|l| 1.0 - l.1).product::<f32>()
@@ -186,7 +186,10 @@ mod tests {
                         let drawn = [(second, alpha(1)), (third, alpha(3)), (first, alpha(9))];
                         for count in 1..=3 {
                             let layers = &drawn[..count];
-                            for (shown, expected) in told(layers).into_iter().zip(due(layers)) {
+                            for (shown, expected) in transmittances(layers)
+                                .into_iter()
+                                .zip(exact_transmittances(layers))
+                            {
                                 worst[count - 1] = worst[count - 1].max((shown - expected).abs());
                             }
                         }
@@ -204,7 +207,7 @@ mod tests {
         for alphas in [[1.0, 1.0], [1.0, 0.5], [0.0, 1.0], [1e-7, 1e-7], [0.0, 0.0]] {
             for depths in [[0.2, 0.8], [0.5, 0.5], [0.0, 1.0]] {
                 let layers = [(depths[0], alphas[0]), (depths[1], alphas[1])];
-                let shown = told(&layers).into_iter().zip(alphas);
+                let shown = transmittances(&layers).into_iter().zip(alphas);
                 for (value, alpha) in shown {
                     // Without alpha, nothing is visible.
                     let known = if alpha == 0.0 { 0.0 } else { value };
