@@ -2,7 +2,7 @@
 //! During `drifting.csv` its clock slowed down in steps: the last rounds took a tenth longer than the
 //! first. `steady.csv` is from a calmer minute.
 
-use crate::{most, told};
+use crate::{is_different, most};
 use etalon_stats::{Conclusion, LEVEL, POWER, Samples, Why, compare, smallest_visible};
 use oorandom::Rand64;
 
@@ -61,7 +61,7 @@ fn a_clock_that_slowed_down_is_seen_as_such() {
             let before = bench(&rounds[first..first + 12], 1.0);
             let after = bench(&rounds[second..second + 12], 1.0);
             let outcome = compare(&before, &after).outcome;
-            assert!(!told(outcome), "{first} {second} {outcome:?}");
+            assert!(!is_different(outcome), "{first} {second} {outcome:?}");
         }
     }
 }
@@ -76,7 +76,7 @@ fn the_same_work_is_not_called_different() {
         for _ in 0..trials {
             let (before, after) = drawn(&mut rounds, each, &mut random);
             let comparison = compare(&bench(&before, 1.0), &bench(&after, 1.0));
-            wrong += u32::from(told(comparison.outcome));
+            wrong += u32::from(is_different(comparison.outcome));
             let ratio = comparison.ratio;
             outside += u32::from(ratio.low > 1.0 || ratio.high < 1.0);
         }
@@ -105,7 +105,7 @@ fn planted_changes_are_found_in_recorded_samples() {
                 Conclusion::Faster
             };
             let outcome = compare(&before, &after).outcome;
-            assert!(outcome == expected || !told(outcome));
+            assert!(outcome == expected || !is_different(outcome));
             if change > smallest_visible(&before, &after).unwrap() {
                 above += 1;
                 found += u32::from(outcome == expected);

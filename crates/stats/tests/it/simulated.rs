@@ -1,6 +1,6 @@
 //! Simulated benches: planted changes are found, and the same thing twice is not called different.
 
-use crate::{most, told};
+use crate::{is_different, most};
 use etalon_stats::{
     CONFIDENCE, Conclusion, LEVEL, POWER, Samples, Why, compare, smallest_visible, summarize,
 };
@@ -129,7 +129,7 @@ fn the_same_thing_twice_is_seldom_called_different() {
             let before = bench(&mut random, first, rounds.0, 1.0);
             let after = bench(&mut random, second, rounds.1, 1.0);
             let comparison = compare(&before, &after);
-            wrong += u32::from(told(comparison.outcome));
+            wrong += u32::from(is_different(comparison.outcome));
             let ratio = comparison.ratio;
             outside += u32::from(ratio.low > 1.0 || ratio.high < 1.0);
         }
@@ -191,7 +191,10 @@ fn planted_changes_above_the_smallest_visible_are_found() {
                     below_found += u32::from(outcome == expected);
                 }
                 // The direction is never wrong.
-                assert!(outcome == expected || !told(outcome), "{noise:?} {factor}");
+                assert!(
+                    outcome == expected || !is_different(outcome),
+                    "{noise:?} {factor}"
+                );
             }
             println!(
                 "{change} {slower}: {found} of {above}, below {below_found} of {}",
