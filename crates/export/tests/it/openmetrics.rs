@@ -116,7 +116,7 @@ fn series<const N: usize>(metric: &str, labels: [(&str, &str); N]) -> Series {
 }
 
 /// The samples that these runs make.
-fn due(runs: &[&NewRun]) -> Samples {
+fn expected_samples(runs: &[&NewRun]) -> Samples {
     let mut samples = Samples::new();
     // Of two samples at one time, the later replaces the other.
     let mut records = BTreeMap::new();
@@ -217,6 +217,6 @@ proptest! {
         prop_assume!(!chosen.is_empty());
         let (out, _dir) = exported(&runs, Format::OpenMetrics, &selection);
         let text = fs::read_to_string(out.join("history.om")).unwrap();
-        prop_assert_eq!(read(&text), due(&chosen));
+        prop_assert_eq!(read(&text), expected_samples(&chosen));
     }
 }

@@ -72,10 +72,10 @@ fn read(out: &Path) -> BTreeMap<String, Vec<Row>> {
 }
 
 /// Time, commit, version and times of each run of each test.
-type Told = BTreeMap<String, Vec<(i64, String, String, [Option<f64>; 5])>>;
+type TestRows = BTreeMap<String, Vec<(i64, String, String, [Option<f64>; 5])>>;
 
-fn due(runs: &[&NewRun]) -> Told {
-    let mut tests = Told::new();
+fn expected_rows(runs: &[&NewRun]) -> TestRows {
+    let mut tests = TestRows::new();
     for run in runs {
         for part in &run.adapters {
             for (case, times) in &part.times {
@@ -102,7 +102,7 @@ fn due(runs: &[&NewRun]) -> Told {
     tests
 }
 
-fn told(tests: BTreeMap<String, Vec<Row>>) -> Told {
+fn exported_rows(tests: BTreeMap<String, Vec<Row>>) -> TestRows {
     let row = |row: Row| {
         let value = |name: &str| match row[name].as_str() {
             "" => None,
@@ -128,6 +128,6 @@ proptest! {
         let chosen = selected(&runs, &selection);
         prop_assume!(!chosen.is_empty());
         let (out, _dir) = exported(&runs, Format::Otava, &selection);
-        prop_assert_eq!(told(read(&out)), due(&chosen));
+        prop_assert_eq!(exported_rows(read(&out)), expected_rows(&chosen));
     }
 }
