@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
 /// Questions, scenes and methods, with a parameter inside its range.
-fn all() -> Vec<Value> {
+fn every_wire() -> Vec<Value> {
     let depth = [
         "depth16",
         "depth24",
@@ -132,7 +132,7 @@ fn made(wire: &Value) -> MethodScene {
 
 #[test]
 fn every_method_draws_every_scene() {
-    for wire in all() {
+    for wire in every_wire() {
         let MethodScene { scene, truth } = made(&wire);
         let picture = &scene.attachments[scene.read[0]];
         assert_eq!(picture.size, truth.size, "{wire}");
@@ -160,7 +160,7 @@ fn every_method_draws_every_scene() {
 
 #[test]
 fn methods_share_the_truth_unless_they_answer_other_questions() {
-    let wires = all();
+    let wires = every_wire();
     for a in &wires {
         for b in wires
             .iter()
@@ -191,7 +191,7 @@ fn parameters_out_of_range_are_refused_by_name() {
         ("tiles", json!(0.1), json!(5)),
     ];
     let mut refused = BTreeSet::new();
-    for wire in all() {
+    for wire in every_wire() {
         for (key, low, high) in &ends {
             if wire.get(*key).is_none() {
                 continue;
@@ -266,7 +266,7 @@ fn projected(draw: &etalon_scene::Draw) -> Vec<[f64; 3]> {
 
 #[test]
 fn the_driver_projects_to_the_surfaces_of_the_truth() {
-    for wire in all() {
+    for wire in every_wire() {
         if wire["question"] != "depth-precision" {
             continue;
         }
