@@ -88,7 +88,7 @@ fn codes_become_the_fractions_that_they_stand_for() {
 }
 
 /// Blends one colour over uploaded codes and compares the legal sets with the expected codes: at most `most`
-/// codes per channel are legal, and by the yardstick that one alone.
+/// codes per channel are legal, and by the yardstick only the expected one.
 fn blended(blend: &str, src: &str, dst: &str, expected: [i64; 4], most: u64) {
     let scene = scene(&format!(
         r#"{{"attachments":{{"color":{{"format":"rgba8unorm","size":[1,1],"texels":{{"kind":"rows","values":[{dst}]}}}}}},
