@@ -149,7 +149,8 @@ fn columns_of([a, b]: [SnapBox; 2], units: i64) -> Option<(usize, Range<i64>)> {
 
 impl Walk<'_> {
     /// Returns the number of columns in which a frame can have a fragment of a line, including invisible
-    /// ones, and a texel of each column of `required` that has none; `None` if a part of the line may be clipped.
+    /// ones, and a texel of each column of `required` that has none; `None` if a part of the line may be
+    /// clipped.
     fn fragments(
         &self,
         line: Line<'_>,
