@@ -61,7 +61,7 @@ impl Blits {
     /// Returns the blits in the order of their execution.
     pub fn blits(&self, aspects: &[Aspect]) -> Vec<Blit> {
         let [width, height] = self.size;
-        let whole = [[0, 0], self.size];
+        let full = [[0, 0], self.size];
         let blit = |from, to| {
             vec![Blit {
                 aspects: aspects.to_vec(),
@@ -72,7 +72,7 @@ impl Blits {
         match self.end {
             // The source mirrors one direction, the destination the other.
             PathEnd::BlitMirrored => blit([[0, height], [width, 0]], [[width, 0], [0, height]]),
-            PathEnd::BlitScaled => blit(whole, [[0, 0], self.size()]),
+            PathEnd::BlitScaled => blit(full, [[0, 0], self.size()]),
             _ => self.parts(aspects),
         }
     }
@@ -146,11 +146,11 @@ impl Blits {
 /// double beyond the encoding's range becomes 0.5: the texel was not halved.
 pub fn doubled(encoding: ChannelEncoding, code: u32) -> u32 {
     let value = encoding.value_of_order(encoding.order_of_code(code));
-    let (twice, whole) = (2.0 * value, (2.0 * value).round());
-    let is_near = (twice - whole).abs() <= 0.25;
+    let (twice, rounded) = (2.0 * value, (2.0 * value).round());
+    let is_near = (twice - rounded).abs() <= 0.25;
     match encoding.normalized_range() {
-        Some((_, most)) if whole > f64::from(most) => encoding.nearest_code(0.5),
-        _ if is_near => encoding.nearest_code(whole),
+        Some((_, most)) if rounded > f64::from(most) => encoding.nearest_code(0.5),
+        _ if is_near => encoding.nearest_code(rounded),
         _ => encoding.nearest_code(twice),
     }
 }

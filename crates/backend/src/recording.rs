@@ -164,7 +164,7 @@ pub struct RecordedImage {
     pub attachment: String,
     /// The aspect.
     pub aspect: Aspect,
-    /// The encodings of its channels.
+    /// The encodings of the image's channels.
     pub channels: Vec<ChannelEncoding>,
     /// Width and height.
     pub size: [u32; 2],

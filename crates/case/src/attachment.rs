@@ -131,15 +131,15 @@ fn texels(
             .collect()
     };
     let [width, height] = size.map(|s| s as usize);
-    let right_length = |length: usize, due: usize| {
-        if length == due {
+    let right_length = |length: usize, expected: usize| {
+        if length == expected {
             return Ok(());
         }
-        let message = format!("{length} texels are given, the attachment has {due}");
+        let message = format!("{length} texels are given, the attachment has {expected}");
         Err(At::new(message))
     };
-    let list = |values: &[[f64; 4]], due: usize| -> Result<Vec<Vec<u32>>, At> {
-        right_length(values.len(), due)?;
+    let list = |values: &[[f64; 4]], expected: usize| -> Result<Vec<Vec<u32>>, At> {
+        right_length(values.len(), expected)?;
         let each = values.iter().enumerate();
         each.map(|(i, texel)| code(texel).map_err(|e| e.index(i)))
             .collect()
@@ -158,9 +158,9 @@ fn texels(
         }),
         TexelsWire::Codes => return Ok(Contents::Texels(codes(format, size))),
     };
-    let all = rows.map_err(|e| e.key("values"))?.concat();
-    debug_assert_eq!(all.len(), width * height * channels);
-    Ok(Contents::Texels(all))
+    let codes = rows.map_err(|e| e.key("values"))?.concat();
+    debug_assert_eq!(codes.len(), width * height * channels);
+    Ok(Contents::Texels(codes))
 }
 
 fn encode(encoding: ChannelEncoding, value: f64) -> Result<u32, At> {

@@ -59,17 +59,17 @@ impl CaseRef<'_> {
         }
         let derived = wire.derived.get(name)?;
         let axis = wire.axes.get(&derived.axis)?;
-        let at =
+        let index =
             (self.file.positions(self.index)[derived.axis.as_str()] + derived.shift) % axis.len();
         let given = derived
             .values
             .as_ref()
-            .is_some_and(|values| at < values.len());
+            .is_some_and(|values| index < values.len());
         let path = ["derived", name, "values"].map(|key| Step::Key(key.to_owned()));
         Some(if given {
-            path.into_iter().chain([Step::Index(at)]).collect()
+            path.into_iter().chain([Step::Index(index)]).collect()
         } else {
-            self.value_of(&derived.axis, at)
+            self.value_of(&derived.axis, index)
         })
     }
 
@@ -80,11 +80,11 @@ impl CaseRef<'_> {
 
     /// Returns the path of a value of an axis: below `value` if it has a name, the whole axis if that is a
     /// range.
-    fn value_of(&self, axis: &str, at: usize) -> Vec<Step> {
+    fn value_of(&self, axis: &str, index: usize) -> Vec<Step> {
         let mut path = vec![Step::Key("axes".to_owned()), Step::Key(axis.to_owned())];
-        if let Some(listed) = self.file.json()["axes"][axis].get(at) {
-            path.push(Step::Index(at));
-            if *listed != self.file.wire.axes[axis][at].value {
+        if let Some(listed) = self.file.json()["axes"][axis].get(index) {
+            path.push(Step::Index(index));
+            if *listed != self.file.wire.axes[axis][index].value {
                 path.push(Step::Key("value".to_owned()));
             }
         }
@@ -100,25 +100,25 @@ impl CaseRef<'_> {
             .iter()
             .map(|(name, axis)| (name, axis.len()))
             .collect();
-        let own = self.file.positions(self.index);
+        let positions = self.file.positions(self.index);
         let mut found = None;
         for (axis, length) in &lengths {
-            let others = (0..*length).filter(|at| *at != own[axis.as_str()]);
+            let others = (0..*length).filter(|value| *value != positions[axis.as_str()]);
             let mut tried = 0;
-            let all = others.take(TRIED).all(|other| {
+            let always_fails = others.take(TRIED).all(|other| {
                 tried += 1;
                 let place = |(name, length): &(&String, usize)| {
-                    let at = if name == axis {
+                    let value = if name == axis {
                         other
                     } else {
-                        own[name.as_str()]
+                        positions[name.as_str()]
                     };
-                    (at, *length)
+                    (value, *length)
                 };
                 let index = lengths
                     .iter()
                     .map(place)
-                    .fold(0, |index, (at, length)| index * length + at);
+                    .fold(0, |index, (value, length)| index * length + value);
                 Self {
                     file: self.file,
                     index,
@@ -126,7 +126,7 @@ impl CaseRef<'_> {
                 .try_build()
                 .is_ok()
             });
-            if tried > 0 && all && found.replace((*axis).clone()).is_some() {
+            if tried > 0 && always_fails && found.replace((*axis).clone()).is_some() {
                 return None;
             }
         }

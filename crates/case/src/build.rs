@@ -23,8 +23,8 @@ impl CaseRef<'_> {
     /// # Errors
     /// With file, line and key, if a value is of the wrong type or a state is impossible.
     pub fn build(&self) -> Result<Case, CaseError> {
-        self.try_build().map_err(|at| {
-            let blamed = self.blame(at);
+        self.try_build().map_err(|error| {
+            let blamed = self.blame(error);
             blamed.locate(self.file.name(), &self.file.text)
         })
     }

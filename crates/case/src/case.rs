@@ -61,9 +61,10 @@ impl Case {
     /// frame. The frames are read in the order of [`Case::scenes`].
     pub fn preparations(&self) -> impl Iterator<Item = (&Scene, Vec<u32>)> {
         let again = self.variants.iter().filter_map(|v| v.submissions);
-        let own = std::iter::once(1).chain(again.map(NonZeroU32::get));
+        let submissions = std::iter::once(1).chain(again.map(NonZeroU32::get));
         let others = self.variants.iter().filter(|v| v.submissions.is_none());
-        std::iter::once((&self.scene, own.collect())).chain(others.map(|v| (&v.scene, vec![1])))
+        std::iter::once((&self.scene, submissions.collect()))
+            .chain(others.map(|v| (&v.scene, vec![1])))
     }
 
     /// Returns the index of the scene by which a frame is judged: 0 for the case's own scene, even if it is
@@ -78,8 +79,8 @@ impl Case {
 
     /// Returns the requirements of the case, in ascending order and without duplicates.
     pub fn requirements(&self) -> Vec<Requirement> {
-        let all: BTreeSet<_> = self.scenes().flat_map(Scene::requirements).collect();
-        all.into_iter().collect()
+        let requirements: BTreeSet<_> = self.scenes().flat_map(Scene::requirements).collect();
+        requirements.into_iter().collect()
     }
 
     /// Returns true if the case draws what some version of an API requires of every adapter. An adapter that

@@ -72,22 +72,30 @@ mod tests {
     #[test]
     fn every_bit_of_every_channel_is_seen_both_ways_and_every_number_is_normal() {
         for format in TextureFormat::ALL.into_iter().filter(|f| f.is_color()) {
-            let all = codes(format, SIZE);
+            let codes = codes(format, SIZE);
             let channels = format.color_channels();
-            assert_eq!(all.len(), (SIZE[0] * SIZE[1]) as usize * channels.len());
+            assert_eq!(codes.len(), (SIZE[0] * SIZE[1]) as usize * channels.len());
             for (c, encoding) in channels.iter().enumerate() {
-                let own = || all.iter().skip(c).step_by(channels.len()).copied();
+                let channel_codes = || codes.iter().skip(c).step_by(channels.len()).copied();
                 let expected = encoding.mask();
-                assert_eq!(own().fold(0, |a, b| a | b), expected, "{format} {c}: ones");
-                assert_eq!(own().fold(expected, |a, b| a & b), 0, "{format} {c}: zeros");
+                assert_eq!(
+                    channel_codes().fold(0, |a, b| a | b),
+                    expected,
+                    "{format} {c}: ones"
+                );
+                assert_eq!(
+                    channel_codes().fold(expected, |a, b| a & b),
+                    0,
+                    "{format} {c}: zeros"
+                );
                 if encoding.is_float() {
-                    for code in own() {
+                    for code in channel_codes() {
                         let value = encoding.value_of_order(encoding.order_of_code(code));
                         assert!(value.is_finite() && value != 0.0, "{format} {c}: {code:x}");
                         assert_eq!(encoding.nearest_code(value), code, "{format} {c}");
                     }
                 } else {
-                    let different = own().collect::<BTreeSet<_>>().len() as u32;
+                    let different = channel_codes().collect::<BTreeSet<_>>().len() as u32;
                     let left_out = matches!(encoding, ChannelEncoding::Snorm(_));
                     assert_eq!(
                         different,
@@ -103,9 +111,9 @@ mod tests {
     fn rows_columns_and_channels_differ() {
         for format in TextureFormat::ALL.into_iter().filter(|f| f.is_color()) {
             let channels = format.color_channels().len();
-            let all = codes(format, SIZE);
+            let codes = codes(format, SIZE);
             let [width, height] = SIZE.map(|s| s as usize);
-            let texel = |x: usize, y: usize| &all[(y * width + x) * channels..][..channels];
+            let texel = |x: usize, y: usize| &codes[(y * width + x) * channels..][..channels];
             let row = |y| (0..width).flat_map(|x| texel(x, y)).collect::<Vec<_>>();
             let column = |x| (0..height).flat_map(|y| texel(x, y)).collect::<Vec<_>>();
             let rows: BTreeSet<_> = (0..height).map(row).collect();
@@ -113,7 +121,7 @@ mod tests {
             assert_eq!((rows.len(), columns.len()), (height, width), "{format}");
             for a in 0..channels {
                 for b in 0..a {
-                    let same = all.chunks(channels).all(|t| t[a] == t[b]);
+                    let same = codes.chunks(channels).all(|t| t[a] == t[b]);
                     assert!(!same, "{format}: channels {a} and {b}");
                 }
             }

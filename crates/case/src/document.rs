@@ -19,22 +19,22 @@ impl CaseRef<'_> {
     /// With file, line and key, if the case cannot be built, or a method's scene cannot be written.
     pub fn document(&self) -> Result<Value, CaseError> {
         self.try_document()
-            .map_err(|at| at.locate(self.file.name(), &self.file.text))
+            .map_err(|error| error.locate(self.file.name(), &self.file.text))
     }
 
     fn try_document(&self) -> Result<Value, At> {
         let wire = &self.file.wire;
         let values = self.values();
-        let mut all = Map::new();
-        all.insert("about".to_owned(), json!(wire.about));
-        all.insert("spec".to_owned(), json!(wire.spec));
+        let mut document = Map::new();
+        document.insert("about".to_owned(), json!(wire.about));
+        document.insert("spec".to_owned(), json!(wire.spec));
         if self.file.is_method() {
             let scene = self.method_case(&values)?.scene;
             let scene = scene_json(&scene).map_err(|e| At::new(e).key("method"))?;
-            all.insert("scene".to_owned(), scene);
-            return Ok(Value::Object(all));
+            document.insert("scene".to_owned(), scene);
+            return Ok(Value::Object(document));
         }
-        all.insert("scene".to_owned(), self.scene_value(&values)?);
+        document.insert("scene".to_owned(), self.scene_value(&values)?);
         let filled = |changes: &BTreeMap<String, Value>| -> Result<Value, At> {
             let each = changes.iter();
             let each = each.map(|(pointer, v)| Ok((pointer.clone(), substitute(v, &values)?)));
@@ -43,29 +43,29 @@ impl CaseRef<'_> {
         if !wire.variants.is_empty() {
             let mut variants = Vec::new();
             for variant in &wire.variants {
-                let mut one = json!({ "name": variant.name });
+                let mut object = json!({ "name": variant.name });
                 if !variant.patch.is_empty() {
-                    one["patch"] = filled(&variant.patch)?;
+                    object["patch"] = filled(&variant.patch)?;
                 }
                 if !variant.permute.is_empty() {
-                    one["permute"] = json!(variant.permute);
+                    object["permute"] = json!(variant.permute);
                 }
-                variants.push(one);
+                variants.push(object);
             }
-            all.insert("variants".to_owned(), Value::Array(variants));
+            document.insert("variants".to_owned(), Value::Array(variants));
         }
         if !wire.submissions.is_empty() {
-            all.insert("submissions".to_owned(), json!(wire.submissions));
+            document.insert("submissions".to_owned(), json!(wire.submissions));
         }
         for (key, value) in [("relation", &wire.relation), ("expect", &wire.expect)] {
             if !value.is_null() {
-                all.insert(key.to_owned(), substitute(value, &values)?);
+                document.insert(key.to_owned(), substitute(value, &values)?);
             }
         }
         if !wire.judged_as.is_empty() {
-            all.insert("judged_as".to_owned(), filled(&wire.judged_as)?);
+            document.insert("judged_as".to_owned(), filled(&wire.judged_as)?);
         }
-        Ok(Value::Object(all))
+        Ok(Value::Object(document))
     }
 }
 

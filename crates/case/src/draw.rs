@@ -304,15 +304,15 @@ fn check_pool(wire: &DrawWire, target: &Target<'_>) -> Result<(), At> {
 }
 
 /// Returns the counters that a draw adds to.
-fn counters(wire: &DrawWire, all: &[Counter]) -> Result<Vec<usize>, At> {
+fn counters(wire: &DrawWire, available: &[Counter]) -> Result<Vec<usize>, At> {
     let mut result: Vec<usize> = Vec::new();
     for (i, name) in wire.counters.iter().enumerate() {
         let check = || -> Result<usize, At> {
-            let found = all.iter().position(|c| &c.name == name);
+            let found = available.iter().position(|c| &c.name == name);
             let index = found.ok_or_else(|| At::new(format!("there is no counter `{name}`")))?;
-            let kind = all[index].kind;
+            let kind = available[index].kind;
             let clash = |other: &usize| {
-                let other = all[*other].kind;
+                let other = available[*other].kind;
                 other == kind || (other.is_occlusion() && kind.is_occlusion())
             };
             if result.iter().any(clash) {
@@ -324,7 +324,7 @@ fn counters(wire: &DrawWire, all: &[Counter]) -> Result<Vec<usize>, At> {
         };
         result.push(check().map_err(|e| e.index(i))?);
     }
-    let runs = |i: &usize| all[*i].kind == CounterKind::ShaderRuns;
+    let runs = |i: &usize| available[*i].kind == CounterKind::ShaderRuns;
     if result.iter().any(runs) != wire.shader.counts_runs() {
         return Err(At::new(format!(
             "a counter of shader runs needs a shader that counts its runs, and such a shader needs one; \
@@ -350,8 +350,8 @@ fn check_integers(wire: &DrawWire, target: &Target<'_>, targets: &[ColorTarget])
             return Err(At::new("integers cannot be blended").key("blend"));
         }
     }
-    let whole = |v: &f32| v.fract() == 0.0 && (0.0..=255.0).contains(v);
-    if wire.shader.writes_integers() && !wire.params.color.0.iter().all(whole) {
+    let is_byte = |v: &f32| v.fract() == 0.0 && (0.0..=255.0).contains(v);
+    if wire.shader.writes_integers() && !wire.params.color.0.iter().all(is_byte) {
         return Err(At::new("integers must be from 0 to 255")
             .key("color")
             .key("params"));
@@ -435,8 +435,8 @@ fn check_references(texture: Option<&Attachment>) -> Result<(), At> {
     };
     let fits = |texel: &[u32]| {
         let [front, depth, _, back] = [0, 1, 2, 3].map(|c| f32::from_bits(texel[c]));
-        let whole = |v: f32| v.fract() == 0.0 && v.abs() <= MOST;
-        whole(front) && whole(back) && (0.0..=1.0).contains(&depth)
+        let is_integer = |v: f32| v.fract() == 0.0 && v.abs() <= MOST;
+        is_integer(front) && is_integer(back) && (0.0..=1.0).contains(&depth)
     };
     if texels.chunks_exact(4).all(fits) {
         return Ok(());
@@ -475,7 +475,7 @@ pub(crate) fn write_mask(letters: &str) -> Result<u8, At> {
 }
 
 fn color_targets(wire: &DrawWire, count: usize) -> Result<Vec<ColorTarget>, At> {
-    let one = |blend, letters: &str| -> Result<ColorTarget, At> {
+    let target = |blend, letters: &str| -> Result<ColorTarget, At> {
         Ok(ColorTarget {
             blend,
             advanced: wire.advanced_blend,
@@ -483,7 +483,7 @@ fn color_targets(wire: &DrawWire, count: usize) -> Result<Vec<ColorTarget>, At> 
         })
     };
     let Some(list) = &wire.targets else {
-        return Ok(vec![one(wire.blend, &wire.write_mask)?; count]);
+        return Ok(vec![target(wire.blend, &wire.write_mask)?; count]);
     };
     if wire.blend.is_some() || wire.write_mask != "rgba" {
         return Err(At::new("`targets` excludes `blend` and `write_mask`").key("targets"));
@@ -496,7 +496,7 @@ fn color_targets(wire: &DrawWire, count: usize) -> Result<Vec<ColorTarget>, At> 
         .key("targets"));
     }
     let each = list.iter().enumerate();
-    each.map(|(i, t)| one(t.blend, &t.write_mask).map_err(|e| e.index(i).key("targets")))
+    each.map(|(i, t)| target(t.blend, &t.write_mask).map_err(|e| e.index(i).key("targets")))
         .collect()
 }
 
@@ -687,7 +687,7 @@ mod tests {
             "passes": [{ "color": ["color"], "draws": [draw] }],
             "read": ["color"]
         });
-        parse_scene(&scene).err().map(|at| format!("{at:?}"))
+        parse_scene(&scene).err().map(|error| format!("{error:?}"))
     }
 
     #[test]
@@ -810,12 +810,14 @@ mod tests {
         let both = r#""shader":"weighted_accumulate","advanced_blend":"screen""#;
         let uint = r#""shader":"uint_color","advanced_blend":"screen""#;
         let with = |keys: &str| format!("{flat},{keys}");
-        let one = r#"{"operation":"add","src_factor":"one","dst_factor":"one"}"#;
-        for (color, keys, due) in [
+        let component = r#"{"operation":"add","src_factor":"one","dst_factor":"one"}"#;
+        for (color, keys, expected) in [
             (r#"["color"]"#, with(r#""logic":"xor""#), "excludes"),
             (
                 r#"["color"]"#,
-                with(&format!(r#""blend":{{"color":{one},"alpha":{one}}}"#)),
+                with(&format!(
+                    r#""blend":{{"color":{component},"alpha":{component}}}"#
+                )),
                 "excludes",
             ),
             (r#"["color"]"#, with(r#""targets":[{}]"#), "excludes"),
@@ -828,7 +830,7 @@ mod tests {
             (r#"["integer"]"#, uint.to_owned(), "values from 0 to 1"),
         ] {
             let error = build(color, &keys).expect_err("it is refused");
-            assert!(error.contains(due), "{error}");
+            assert!(error.contains(expected), "{error}");
         }
         let unknown = flat.replace("color-burn", "hue");
         assert!(build(r#"["color"]"#, &unknown).is_err());

@@ -151,13 +151,16 @@ mod tests {
             { "each": { "top": [0, 4], "clear": [{ "depth": 1 }, null] }, "rect": [0, "$top"], "clear": "$clear", "z": "$axis" },
             { "end": true },
         ]);
-        let due = json!([
+        let expected = json!([
             0,
             { "rect": [0, 0], "clear": { "depth": 1 }, "z": "$axis" },
             { "rect": [0, 4], "clear": null, "z": "$axis" },
             { "end": true },
         ]);
-        assert_eq!(unrolled(json!({ "draws": list })), json!({ "draws": due }));
+        assert_eq!(
+            unrolled(json!({ "draws": list })),
+            json!({ "draws": expected })
+        );
     }
 
     #[test]
@@ -167,11 +170,11 @@ mod tests {
             "color": "$color",
             "draws": [{ "each": { "row": "$rows" }, "at": ["$row", "$color"] }],
         }]);
-        let due = json!([
+        let expected = json!([
             { "color": "a", "draws": [{ "at": [1, "a"] }] },
             { "color": "b", "draws": [{ "at": [2, "b"] }, { "at": [3, "b"] }] },
         ]);
-        assert_eq!(unrolled(list), due);
+        assert_eq!(unrolled(list), expected);
     }
 
     #[test]

@@ -18,7 +18,8 @@ impl CaseRef<'_> {
     pub fn expanded(&self) -> Result<Value, CaseError> {
         let key = self.file.scene_key();
         let value = substitute(self.file.scene_value(), &self.values());
-        let value = value.map_err(|at| at.key(key).locate(self.file.name(), &self.file.text))?;
+        let value =
+            value.map_err(|error| error.key(key).locate(self.file.name(), &self.file.text))?;
         Ok(json!({ key: value }))
     }
 }

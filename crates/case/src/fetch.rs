@@ -30,8 +30,8 @@ pub(crate) fn fetch(
         return Ok((mesh, fetch));
     };
     repeatable(&mesh, topology, instances).map_err(|e| e.key("instances"))?;
-    let all = instances.colors.iter().cycle().map(|c| c.0);
-    let colors: Vec<_> = all.take(parts(instances)).collect();
+    let repeated = instances.colors.iter().cycle().map(|c| c.0);
+    let colors: Vec<_> = repeated.take(parts(instances)).collect();
     fetch.instances = colors.len() as u32;
     fetch.first_instance = instances.first;
     Ok((mesh.instanced(&colors), fetch))
@@ -66,7 +66,7 @@ fn offsets(mesh: &Mesh, wire: FetchWire) -> Result<(), At> {
 /// Checks that indices fit into 16 bits. The greatest one restarts strips, but is a vertex in lists.
 fn short_indices(mesh: &Mesh, topology: PrimitiveTopology, base: i32) -> Result<(), At> {
     let moved = base.min(0).unsigned_abs();
-    let all = mesh.indices.iter().flatten();
+    let indices = mesh.indices.iter().flatten();
     let restarts = mesh.indices.iter().flatten().any(|i| *i == u32::MAX);
     let lists = [
         PrimitiveTopology::PointList,
@@ -75,7 +75,11 @@ fn short_indices(mesh: &Mesh, topology: PrimitiveTopology, base: i32) -> Result<
     ];
     let kept = u32::from(restarts || !lists.contains(&topology));
     let most = u32::from(RESTART_16) - kept;
-    let greatest = all.filter(|i| **i != u32::MAX).max().copied().unwrap_or(0);
+    let greatest = indices
+        .filter(|i| **i != u32::MAX)
+        .max()
+        .copied()
+        .unwrap_or(0);
     if greatest + moved > most {
         return Err(At::new(format!(
             "indices must be at most {most}, {} is given",
@@ -116,8 +120,8 @@ fn repeatable(
         PrimitiveTopology::TriangleList => Some(3),
         _ => None,
     };
-    let whole = size.is_some_and(|size| mesh.vertices.len().is_multiple_of(size));
-    if mesh.indices.is_none() && !whole {
+    let has_whole_primitives = size.is_some_and(|size| mesh.vertices.len().is_multiple_of(size));
+    if mesh.indices.is_none() && !has_whole_primitives {
         return Err(At::new(
             "instances of strips or of incomplete primitives need indices",
         ));
@@ -184,10 +188,16 @@ mod tests {
     fn instances_are_the_mesh_again() {
         let full = json!({ "kind": "full" });
         let keys = json!({ "instances": { "colors": [0, 1, 0.5], "first": 2 } });
-        let one = draw(full.clone(), json!({})).expect("it is valid");
-        let all = draw(full, keys.clone()).expect("it is valid");
-        assert_eq!(all.mesh.vertices.len(), 3 * one.mesh.vertices.len());
-        assert_eq!((all.fetch.instances, all.fetch.first_instance), (3, 2));
+        let single = draw(full.clone(), json!({})).expect("it is valid");
+        let instanced = draw(full, keys.clone()).expect("it is valid");
+        assert_eq!(
+            instanced.mesh.vertices.len(),
+            3 * single.mesh.vertices.len()
+        );
+        assert_eq!(
+            (instanced.fetch.instances, instanced.fetch.first_instance),
+            (3, 2)
+        );
         let mut more = keys.clone();
         more["instances"]["count"] = json!(4);
         let more = draw(json!({ "kind": "full" }), more).expect("it is valid");

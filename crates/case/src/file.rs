@@ -125,8 +125,8 @@ impl CaseFile {
                 ));
             }
         }
-        let unknown = |due: &BTreeMap<String, String>| -> Option<At> {
-            due.iter().find_map(|(axis, name)| {
+        let unknown = |chosen: &BTreeMap<String, String>| -> Option<At> {
+            chosen.iter().find_map(|(axis, name)| {
                 let values = wire.axes.get(axis).map_or(&[][..], |axis| axis);
                 let known = values.iter().any(|v| v.name == *name);
                 let message = format!("no axis `{axis}` has a value `{name}`");
@@ -134,15 +134,15 @@ impl CaseFile {
             })
         };
         let wrong = match &wire.quick {
-            Some(QuickWire::Where(due)) => unknown(due).map(|at| at.key("where")),
+            Some(QuickWire::Where(chosen)) => unknown(chosen).map(|error| error.key("where")),
             Some(QuickWire::Any(rows)) => {
                 let mut rows = rows.iter().enumerate();
-                rows.find_map(|(i, due)| Some(unknown(due)?.index(i).key("any")))
+                rows.find_map(|(i, chosen)| Some(unknown(chosen)?.index(i).key("any")))
             }
             _ => None,
         };
-        if let Some(at) = wrong {
-            return Err(fail(at.key("quick")));
+        if let Some(error) = wrong {
+            return Err(fail(error.key("quick")));
         }
         if !wire.method.is_null()
             && let Some(quick) = &wire.quick
@@ -190,23 +190,24 @@ impl CaseFile {
             (Profile::Quick, Some(QuickWire::Pairwise)) => self.covering(Cover::Pairs),
             (Profile::Quick, Some(QuickWire::Each(n))) => self.covering(Cover::Each(n.get())),
             (Profile::Quick, Some(QuickWire::First(n))) => (0..self.count.min(n.get())).collect(),
-            (Profile::Quick, Some(QuickWire::Where(due))) => {
-                (0..self.count).filter(|i| self.has(*i, due)).collect()
+            (Profile::Quick, Some(QuickWire::Where(chosen))) => {
+                (0..self.count).filter(|i| self.has(*i, chosen)).collect()
             }
             (Profile::Quick, Some(QuickWire::Any(rows))) => (0..self.count)
-                .filter(|i| rows.iter().any(|due| self.has(*i, due)))
+                .filter(|i| rows.iter().any(|chosen| self.has(*i, chosen)))
                 .collect(),
             _ => (0..self.count).collect(),
         };
-        let one = move |index| CaseRef { file: self, index };
-        indices.into_iter().map(one)
+        let case = move |index| CaseRef { file: self, index };
+        indices.into_iter().map(case)
     }
 
     /// Returns true if the case at an index of the product has these values.
-    fn has(&self, index: usize, due: &BTreeMap<String, String>) -> bool {
-        let at = self.positions(index);
-        due.iter()
-            .all(|(axis, name)| self.wire.axes[axis][at[axis.as_str()]].name == *name)
+    fn has(&self, index: usize, chosen: &BTreeMap<String, String>) -> bool {
+        let positions = self.positions(index);
+        chosen
+            .iter()
+            .all(|(axis, name)| self.wire.axes[axis][positions[axis.as_str()]].name == *name)
     }
 
     /// Returns the indices in the product of a covering array's rows, ascending.
@@ -214,11 +215,11 @@ impl CaseFile {
         let lengths: Vec<usize> = self.wire.axes.values().map(|axis| axis.len()).collect();
         let index = |row: &Vec<usize>| {
             let axes = row.iter().zip(&lengths);
-            axes.fold(0, |index, (at, length)| index * length + at)
+            axes.fold(0, |index, (value, length)| index * length + value)
         };
-        let mut all: Vec<usize> = pairwise::rows(&lengths, cover).iter().map(index).collect();
-        all.sort_unstable();
-        all
+        let mut indices: Vec<usize> = pairwise::rows(&lengths, cover).iter().map(index).collect();
+        indices.sort_unstable();
+        indices
     }
 
     pub(crate) fn positions(&self, mut index: usize) -> BTreeMap<&str, usize> {
@@ -245,11 +246,11 @@ impl CaseRef<'_> {
         if self.file.is_method() {
             axes.sort_by_key(|(axis, _)| *axis != METHOD);
         }
-        for (axis, at) in axes {
+        for (axis, value) in axes {
             id.push('/');
             id.push_str(axis);
             id.push('=');
-            id.push_str(&self.file.wire.axes[axis][at].name);
+            id.push_str(&self.file.wire.axes[axis][value].name);
         }
         id
     }
@@ -260,13 +261,13 @@ impl CaseRef<'_> {
         let positions = self.file.positions(self.index);
         let mut values: BTreeMap<&str, &Value> = positions
             .iter()
-            .map(|(axis, at)| (*axis, &wire.axes[*axis][*at].value))
+            .map(|(axis, value)| (*axis, &wire.axes[*axis][*value].value))
             .collect();
         for (name, derived) in &wire.derived {
             let list = &wire.axes[&derived.axis];
-            let at = (positions[derived.axis.as_str()] + derived.shift) % list.len();
-            let given = derived.values.as_ref().and_then(|values| values.get(at));
-            values.insert(name, given.unwrap_or(&list[at].value));
+            let index = (positions[derived.axis.as_str()] + derived.shift) % list.len();
+            let given = derived.values.as_ref().and_then(|values| values.get(index));
+            values.insert(name, given.unwrap_or(&list[index].value));
         }
         values
     }

@@ -137,16 +137,16 @@ mod tests {
         let ids = |file: &CaseFile, profile| -> Vec<String> {
             file.cases(profile).map(|c| c.id()).collect()
         };
-        let whole = file("");
-        let all = ids(&whole, Profile::Full);
-        assert_eq!(all.len(), 27);
-        assert_eq!(ids(&whole, Profile::Quick), all);
+        let plain = file("");
+        let full = ids(&plain, Profile::Full);
+        assert_eq!(full.len(), 27);
+        assert_eq!(ids(&plain, Profile::Quick), full);
         let pairwise = file(r#""quick":"pairwise","#);
-        assert_eq!(ids(&pairwise, Profile::Full), all);
+        assert_eq!(ids(&pairwise, Profile::Full), full);
         let some = ids(&pairwise, Profile::Quick);
         assert_eq!(some, ids(&pairwise, Profile::Quick));
         assert!((9..20).contains(&some.len()), "{}", some.len());
-        assert!(some.iter().all(|id| all.contains(id)));
+        assert!(some.iter().all(|id| full.contains(id)));
         for (x, y) in [("a", "b"), ("a", "c"), ("b", "c")] {
             for (i, j) in (1..=3).flat_map(|i| (1..=3).map(move |j| (i, j))) {
                 let (x, y) = (format!("/{x}={i}"), format!("/{y}={j}"));

@@ -18,9 +18,11 @@ impl CaseFile {
     /// Returns the first warnings; none of them is an error. They concern axes and derived values that
     /// nothing uses, and draws whose shader reads a parameter that the file does not give.
     pub fn warnings(&self) -> Vec<CaseError> {
-        let mut all = self.unused();
-        all.extend(self.missing_params());
-        let located = all.into_iter().map(|at| at.locate(self.name(), &self.text));
+        let mut warnings = self.unused();
+        warnings.extend(self.missing_params());
+        let located = warnings
+            .into_iter()
+            .map(|warning| warning.locate(self.name(), &self.text));
         let mut seen = BTreeSet::new();
         located
             .filter(|warning| seen.insert(warning.to_string()))
@@ -44,11 +46,11 @@ impl CaseFile {
     /// Returns a warning at a key of the file; numbers are indices into lists.
     pub fn warning(&self, keys: &[&str], message: impl Into<String>) -> CaseError {
         let steps = keys.iter().rev();
-        let at = steps.fold(At::new(message), |at, key| match key.parse() {
-            Ok(index) => at.index(index),
-            Err(_) => at.key(key),
+        let place = steps.fold(At::new(message), |place, key| match key.parse() {
+            Ok(index) => place.index(index),
+            Err(_) => place.key(key),
         });
-        at.locate(self.name(), &self.text)
+        place.locate(self.name(), &self.text)
     }
 
     fn unused(&self) -> Vec<At> {
@@ -121,13 +123,18 @@ impl CaseFile {
                             "the shader {shader} reads `params.{name}`, which is not given and is therefore 0: give it, even if it is \
                              [0, 0, 0, 0]"
                         );
-                        let at = At::new(message);
-                        let at = if self.wire.sequence.is_null() {
-                            at.index(d).key("draws").index(p).key("passes").key("scene")
+                        let place = At::new(message);
+                        let place = if self.wire.sequence.is_null() {
+                            place
+                                .index(d)
+                                .key("draws")
+                                .index(p)
+                                .key("passes")
+                                .key("scene")
                         } else {
-                            at.key("sequence")
+                            place.key("sequence")
                         };
-                        found.push(at);
+                        found.push(place);
                     }
                 }
             }
@@ -187,7 +194,7 @@ mod tests {
       { "mesh": { "kind": "full" }, "shader": "uniform_color" } ] } ],
     "read": ["c"] } }"#;
         let file = CaseFile::parse("t.json", text).expect("parses");
-        let told: Vec<(usize, String)> = file
+        let found: Vec<(usize, String)> = file
             .warnings()
             .into_iter()
             .map(|w| (w.line, w.key))
@@ -198,18 +205,18 @@ mod tests {
             (8, "scene.passes[0].draws[0]"),
             (9, "scene.passes[0].draws[1]"),
         ];
-        assert_eq!(told, expected.map(|(line, key)| (line, key.to_owned())));
+        assert_eq!(found, expected.map(|(line, key)| (line, key.to_owned())));
     }
 
     #[test]
     fn the_built_in_files_have_no_warnings() {
         let library = Library::built_in().expect("built-in files parse");
-        let all: Vec<String> = library
+        let warnings: Vec<String> = library
             .files()
             .iter()
             .flat_map(|f| f.warnings())
             .map(|w| w.to_string())
             .collect();
-        assert!(all.is_empty(), "{}", all.join("\n"));
+        assert!(warnings.is_empty(), "{}", warnings.join("\n"));
     }
 }

@@ -37,15 +37,15 @@ pub(crate) fn rows(lengths: &[usize], cover: Cover) -> Vec<Vec<usize>> {
 }
 
 fn pairs(lengths: &[usize]) -> Vec<Pair> {
-    let mut all = Vec::new();
+    let mut pairs = Vec::new();
     for a in 0..lengths.len() {
         for b in a + 1..lengths.len() {
             for i in 0..lengths[a] {
-                all.extend((0..lengths[b]).map(|j| (a, i, b, j)));
+                pairs.extend((0..lengths[b]).map(|j| (a, i, b, j)));
             }
         }
     }
-    all
+    pairs
 }
 
 struct State<'a> {
@@ -109,9 +109,11 @@ impl<'a> State<'a> {
             }
             let met = |value: usize| {
                 let others = row.iter().enumerate();
-                let open = others.filter(|(other, at)| match at {
-                    Some(at) if *other < axis => self.open.contains(&(*other, *at, axis, value)),
-                    Some(at) => self.open.contains(&(axis, value, *other, *at)),
+                let open = others.filter(|(other, taken)| match taken {
+                    Some(taken) if *other < axis => {
+                        self.open.contains(&(*other, *taken, axis, value))
+                    }
+                    Some(taken) => self.open.contains(&(axis, value, *other, *taken)),
                     None => false,
                 });
                 open.count()
@@ -121,7 +123,7 @@ impl<'a> State<'a> {
             let best = values.min_by_key(|v| (usize::MAX - met(*v), self.used[axis][*v]));
             row[axis] = best;
         }
-        row.into_iter().map(|at| at.unwrap_or(0)).collect()
+        row.into_iter().map(|value| value.unwrap_or(0)).collect()
     }
 }
 
@@ -152,8 +154,12 @@ mod tests {
                 let found = rows.iter().any(|r| r[a] == i && r[b] == j);
                 assert!(found, "{lengths:?}: {i} and {j} of axes {a} and {b}");
             }
-            let all: usize = lengths.iter().product();
-            assert!(rows.len() <= all, "{lengths:?}: {} of {all}", rows.len());
+            let product: usize = lengths.iter().product();
+            assert!(
+                rows.len() <= product,
+                "{lengths:?}: {} of {product}",
+                rows.len()
+            );
         }
         assert!(rows(&[8, 3, 2, 6, 4], Cover::Pairs).len() < 100, "of 1152");
     }
@@ -161,7 +167,7 @@ mod tests {
     #[test]
     fn every_value_stands_as_often_as_is_asked() {
         for lengths in shapes() {
-            let all: usize = lengths.iter().product();
+            let product: usize = lengths.iter().product();
             for times in [1, 2, 3, 100] {
                 let rows = rows(&lengths, Cover::Each(times));
                 let distinct: HashSet<_> = rows.iter().collect();
@@ -170,7 +176,7 @@ mod tests {
                     for value in 0..*length {
                         let found = rows.iter().filter(|r| r[axis] == value).count();
                         // The values of one axis can only occur as often as the others have combinations.
-                        let expected = times.min(all / length).min(3);
+                        let expected = times.min(product / length).min(3);
                         assert!(
                             found >= expected,
                             "{lengths:?}: value {value} of axis {axis} occurs {found} times"

@@ -32,10 +32,10 @@ pub(crate) fn operations(wire: &PassWire, target: &PassTarget) -> Result<PassOpe
         depth,
         stencil,
     } = &wire.operations;
-    for (i, one) in color.iter().enumerate() {
+    for (i, operations) in color.iter().enumerate() {
         let check = || -> Result<(), At> {
             let format = color_at(target, i)?;
-            match one.load {
+            match operations.load {
                 LoadOperation::Load => Ok(()),
                 LoadOperation::Clear(value) => {
                     color_value(format, value).map_err(|e| e.key("clear").key("load"))
@@ -72,27 +72,30 @@ fn is_default<V: PartialEq>(operations: &Operations<V>) -> bool {
 
 /// Returns the clear commands of a pass.
 pub(crate) fn clears(wire: &PassWire, target: &PassTarget) -> Result<Vec<Clear>, At> {
-    let mut all: Vec<Clear> = Vec::new();
-    for (i, one) in wire.clears.iter().enumerate() {
+    let mut clears: Vec<Clear> = Vec::new();
+    for (i, listed) in wire.clears.iter().enumerate() {
         let made = || -> Result<Clear, At> {
-            if one.before > target.draws {
+            if listed.before > target.draws {
                 let message = format!("the pass has {} draws", target.draws);
                 return Err(At::new(message).key("before"));
             }
-            if all.last().is_some_and(|last| last.before > one.before) {
+            if clears
+                .last()
+                .is_some_and(|last| last.before > listed.before)
+            {
                 let message = "clears must be in the order of the draws that they precede";
                 return Err(At::new(message).key("before"));
             }
             Ok(Clear {
-                before: one.before,
-                target: clear_target(one, wire.depth_stencil_read_only, target)?,
-                rect: rect(one, target.size).map_err(|e| e.key("rect"))?,
+                before: listed.before,
+                target: clear_target(listed, wire.depth_stencil_read_only, target)?,
+                rect: rect(listed, target.size).map_err(|e| e.key("rect"))?,
             })
         };
         let clear = made().map_err(|e| e.index(i))?;
-        all.push(clear);
+        clears.push(clear);
     }
-    Ok(all)
+    Ok(clears)
 }
 
 fn clear_target(
@@ -177,8 +180,8 @@ fn color_at(target: &PassTarget, location: usize) -> Result<TextureFormat, At> {
 }
 
 fn color_value(format: TextureFormat, value: [f32; 4]) -> Result<(), At> {
-    let whole = |v: &f32| v.fract() == 0.0 && (0.0..=255.0).contains(v);
-    if format.is_integer() && !value.iter().all(whole) {
+    let is_byte = |v: &f32| v.fract() == 0.0 && (0.0..=255.0).contains(v);
+    if format.is_integer() && !value.iter().all(is_byte) {
         return Err(At::new("integers must be from 0 to 255"));
     }
     if !value.iter().all(|v| v.is_finite()) {
@@ -237,9 +240,9 @@ mod tests {
     }
 
     #[track_caller]
-    fn refused(pass: &str, due: &str) {
+    fn refused(pass: &str, expected: &str) {
         let error = build(pass).expect_err("it is refused");
-        assert!(error.contains(due), "{error}");
+        assert!(error.contains(expected), "{error}");
     }
 
     #[test]
@@ -269,19 +272,19 @@ mod tests {
         let [color, both, depth] = &scene.passes[0].clears[..] else {
             panic!("{:?}", scene.passes[0].clears);
         };
-        let due = ClearTarget::Color {
+        let expected = ClearTarget::Color {
             location: 0,
             value: [0.0, 1.0, 0.0, 1.0],
             write_mask: 0b1001,
         };
-        assert_eq!((color.target, color.rect), (due, Some([1, 2, 3, 2])));
-        let due = ClearTarget::DepthStencil {
+        assert_eq!((color.target, color.rect), (expected, Some([1, 2, 3, 2])));
+        let expected = ClearTarget::DepthStencil {
             depth: Some(0.5),
             stencil: Some(3),
             depth_write: false,
             stencil_write_mask: 15,
         };
-        assert_eq!((both.target, both.rect), (due, None));
+        assert_eq!((both.target, both.rect), (expected, None));
         assert!(!depth.target.is_masked());
     }
 
@@ -313,16 +316,16 @@ mod tests {
     #[test]
     fn a_read_only_pass_neither_clears_nor_discards() {
         let read_only = |keys: &str| with(&format!(r#""depth_stencil_read_only":true,{keys}"#));
-        let due = "declares that it writes neither depth nor stencil";
+        let message = "declares that it writes neither depth nor stencil";
         refused(
             &read_only(r#""operations":{"depth":{"load":{"clear":1}}}"#),
-            due,
+            message,
         );
         refused(
             &read_only(r#""operations":{"depth":{"store":"discard"}}"#),
-            due,
+            message,
         );
-        refused(&read_only(r#""clears":[{"before":0,"depth":1}]"#), due);
+        refused(&read_only(r#""clears":[{"before":0,"depth":1}]"#), message);
         let color = r#""clears":[{"before":0,"color":0,"value":[0,0,0,0]}]"#;
         assert!(build(&read_only(color)).is_ok());
     }
@@ -339,7 +342,7 @@ mod tests {
             (made.depth, made.stencil),
             (ResolveMode::Min, ResolveMode::None)
         );
-        for (from, keys, due) in [
+        for (from, keys, expected) in [
             (
                 "many",
                 r#""to":"d16","depth":"min""#,
@@ -367,7 +370,7 @@ mod tests {
                 "stencil: the pass has no stencil",
             ),
         ] {
-            refused(&resolve(from, keys), due);
+            refused(&resolve(from, keys), expected);
         }
         let none =
             r#""color":["color"],"draws":[],"depth_stencil_resolve":{"to":"depth","depth":"min"}"#;
@@ -380,7 +383,7 @@ mod tests {
     #[test]
     fn values_places_and_order_are_checked() {
         let clears = |clears: &str| with(&format!(r#""clears":[{clears}]"#));
-        for (one, due) in [
+        for (list, expected) in [
             (r#"{"before":1,"depth":1}"#, "before: the pass has 0 draws"),
             (
                 r#"{"before":0}"#,
@@ -428,7 +431,7 @@ mod tests {
                 "write_mask",
             ),
         ] {
-            refused(&clears(one), due);
+            refused(&clears(list), expected);
         }
         let draw = r#"{"mesh":{"kind":"full"},"shader":"uniform_color"}"#;
         let turned = format!(

@@ -25,8 +25,8 @@ pub(crate) fn check_path(scene: &Scene) -> Result<(), At> {
 /// Returns the reason why a value applies to nothing in the scene.
 fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
     let any = |holds: &dyn Fn(usize, &Attachment) -> bool| {
-        let mut all = scene.attachments.iter().enumerate();
-        all.any(|(index, attachment)| holds(index, attachment))
+        let mut attachments = scene.attachments.iter().enumerate();
+        attachments.any(|(index, attachment)| holds(index, attachment))
     };
     let read = |index: usize, a: &Attachment| a.samples == 1 && scene.read.contains(&index);
     // Formats whose values a blit might round.

@@ -45,9 +45,9 @@ impl Place {
         let mut bound: Vec<Bound> = Vec::new();
         let mut steps = path.iter();
         loop {
-            if let Some(at) = bound.iter().position(|b| b.is_named_by(value)) {
+            if let Some(index) = bound.iter().position(|b| b.is_named_by(value)) {
                 // An item's value can refer to names of the items around it.
-                bound.truncate(at + 1);
+                bound.truncate(index + 1);
                 let Some(named) = bound.pop() else { break };
                 bound.truncate(named.around);
                 (start, value) = (named.value.start(), named.value);
@@ -65,12 +65,12 @@ impl Place {
                     .map(|(step, item, copy)| (step, item.start(), item, copy)),
                 _ => None,
             };
-            let Some((step, at, next, copy)) = next else {
+            let Some((step, next_start, next, copy)) = next else {
                 found.push(step.clone());
                 break;
             };
             found.push(step);
-            (start, value) = (at, next);
+            (start, value) = (next_start, next);
             bind(value, copy, &found, &mut bound);
         }
         found.extend(steps.cloned());
@@ -148,11 +148,11 @@ fn bind<'a>(item: &'a Value<'a>, copy: usize, path: &[Step], bound: &mut Vec<Bou
         let Some(value) = list.elements.get(copy) else {
             continue;
         };
-        let own = || {
+        let default_path = || {
             let keys = [EACH, name].map(|key| Step::Key(key.to_owned()));
             path.iter().cloned().chain(keys).collect()
         };
-        let mut path: Vec<Step> = from.unwrap_or_else(own);
+        let mut path: Vec<Step> = from.unwrap_or_else(default_path);
         path.push(Step::Index(copy));
         bound.push(Bound {
             name,

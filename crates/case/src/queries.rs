@@ -64,23 +64,23 @@ mod tests {
 
     #[test]
     fn scopes_that_say_nothing_or_cut_passes_are_refused() {
-        let one: &[&[&[&str]]] = &[&[&["a"], &["b"]]];
+        let single: &[&[&[&str]]] = &[&[&["a"], &["b"]]];
         let several: &[&[&[&str]]] = &[&[&["a"], &["a"], &["b"]]];
-        let whole: &[&[&[&str]]] = &[&[&["a"], &["a"]], &[], &[&["a"]]];
+        let whole_passes: &[&[&[&str]]] = &[&[&["a"], &["a"]], &[], &[&["a"]]];
         for (queries, path, passes, words) in [
-            ("pass", json!({}), one, "no query encloses"),
-            ("frame", json!({}), one, "no query encloses"),
+            ("pass", json!({}), single, "no query encloses"),
+            ("frame", json!({}), single, "no query encloses"),
             ("frame", json!({}), several, "the same counters"),
             (
                 "frame",
                 json!({ "start": "draw" }),
-                whole,
+                whole_passes,
                 "the same counters",
             ),
             (
                 "frame",
                 json!({ "commands": "several" }),
-                whole,
+                whole_passes,
                 "command buffer",
             ),
         ] {
@@ -88,9 +88,9 @@ mod tests {
             assert!(error.message.contains(words), "{}", error.message);
         }
         for (queries, path, passes) in [
-            ("draw", json!({}), one),
+            ("draw", json!({}), single),
             ("pass", json!({ "commands": "several" }), several),
-            ("frame", json!({ "commands": "secondary" }), whole),
+            ("frame", json!({ "commands": "secondary" }), whole_passes),
         ] {
             let parsed = parse_scene(&scene(queries, path, passes));
             assert!(parsed.is_ok(), "{queries}: {parsed:?}");

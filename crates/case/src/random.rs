@@ -76,8 +76,8 @@ impl Palette {
             }
             Self::Bits => {
                 let between = |most: f64, v: f64| {
-                    let at = v * most;
-                    at.floor() % 2.0 == 0.0 && (0.05..0.95).contains(&at.fract())
+                    let scaled = v * most;
+                    scaled.floor() % 2.0 == 0.0 && (0.05..0.95).contains(&scaled.fract())
                 };
                 let fits = |v: &f64| between(255.0, *v) && between(1023.0, *v);
                 let mut from = (code * 4..1024).map(|k| f64::from(k) / 1024.0);
@@ -400,16 +400,16 @@ impl Maker {
     /// Returns texels of stencil references (many equal the scene's in the relevant bits), written depths,
     /// and values that decide a discard.
     fn references(&mut self) -> Value {
-        let own = self.reference;
+        let reference = self.reference;
         let values: Vec<Value> = (0..SIZE)
             .map(|_| {
-                let mut one = || {
+                let mut next_reference = || {
                     let other = self.dice.range(0, 255);
                     let high = *self.dice.of(&[0, 0, 256, -256, 768]);
-                    let low = *self.dice.of(&[own, own, own + 1, other]);
+                    let low = *self.dice.of(&[reference, reference, reference + 1, other]);
                     i64::from(low) + high
                 };
-                let (front, back) = (one(), one());
+                let (front, back) = (next_reference(), next_reference());
                 let blue = self.dice.range(0, 3).min(1);
                 json!([front, self.depth(), blue, back])
             })
@@ -450,10 +450,10 @@ impl Maker {
         let mut front = face(&mut self.dice, compares[0]);
         let mut back = face(&mut self.dice, compares[1]);
         if self.extra == Extra::SeparateMasks {
-            for one in [&mut front, &mut back] {
-                one["read_mask"] = json!(self.dice.of(&masks));
-                one["write_mask"] = json!(self.dice.of(&masks));
-                one["reference"] = json!(self.dice.range(1, 254));
+            for side in [&mut front, &mut back] {
+                side["read_mask"] = json!(self.dice.of(&masks));
+                side["write_mask"] = json!(self.dice.of(&masks));
+                side["reference"] = json!(self.dice.range(1, 254));
             }
         }
         json!({

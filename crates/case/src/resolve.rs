@@ -137,16 +137,16 @@ fn pass(
             Some(made.map_err(|e| e.key("depth_stencil_resolve"))?)
         }
     };
-    let all: Vec<&Attachment> = color
+    let targets: Vec<&Attachment> = color
         .iter()
         .chain(&depth_stencil)
         .map(|i| &attachments[*i])
         .collect();
-    let Some(first) = all.first() else {
+    let Some(first) = targets.first() else {
         return Err(At::new("a pass needs an attachment"));
     };
     let shape = |a: &Attachment| (a.size, a.samples);
-    if let Some(other) = all.iter().find(|a| shape(a) != shape(first)) {
+    if let Some(other) = targets.iter().find(|a| shape(a) != shape(first)) {
         return Err(At::new(format!(
             "`{}` and `{}` differ in size or samples",
             first.name, other.name
@@ -173,8 +173,8 @@ fn pass(
             counters,
             pool,
         };
-        for one in tiles(d, first.size).map_err(|e| e.index(i).key("draws"))? {
-            let draw = draw(&one, &target).map_err(|e| e.index(i).key("draws"))?;
+        for tile in tiles(d, first.size).map_err(|e| e.index(i).key("draws"))? {
+            let draw = draw(&tile, &target).map_err(|e| e.index(i).key("draws"))?;
             if wire.depth_stencil_read_only && writes_depth_stencil(&draw) {
                 return Err(
                     At::new("the pass declares that it writes neither depth nor stencil")

@@ -31,21 +31,21 @@ pub fn scene_json(scene: &Scene) -> Result<Value, &'static str> {
         .map(|p| pass(scene, p))
         .collect::<Result<_, _>>()?;
     let read: Vec<&str> = scene.read.iter().map(|i| name(scene, *i)).collect();
-    let mut all = Keys::default();
-    all.add("attachments", Value::Object(attachments));
-    all.add("passes", passes);
-    all.add("read", read);
+    let mut keys = Keys::default();
+    keys.add("attachments", Value::Object(attachments));
+    keys.add("passes", passes);
+    keys.add("read", read);
     if !scene.counters.is_empty() {
         let counters = scene.counters.iter();
         let counters = counters.map(|c| (c.name.clone(), plain(&c.kind)));
-        all.add("counters", counters.collect::<Map<_, _>>());
+        keys.add("counters", counters.collect::<Map<_, _>>());
     }
-    all.differing("queries", &scene.query_scope, &QueryScope::Draw);
+    keys.differing("queries", &scene.query_scope, &QueryScope::Draw);
     if let Some(pool) = &scene.pool {
-        all.add("pool", plain(pool));
+        keys.add("pool", plain(pool));
     }
-    all.differing("path", &scene.path, &Path::default());
-    Ok(all.done())
+    keys.differing("path", &scene.path, &Path::default());
+    Ok(keys.done())
 }
 
 /// The keys of an object.
@@ -165,13 +165,13 @@ fn texels(attachment: &Attachment, codes: &[u32]) -> Result<Value, &'static str>
         })
     };
     let texel = |codes: &[u32]| -> Result<Value, &'static str> {
-        let mut all: Vec<Value> = encodings
+        let mut values: Vec<Value> = encodings
             .iter()
             .zip(codes)
             .map(value)
             .collect::<Result<_, _>>()?;
-        all.resize(4, json!(0));
-        Ok(Value::Array(all))
+        values.resize(4, json!(0));
+        Ok(Value::Array(values))
     };
     let [width, _] = attachment.size.map(|side| side as usize);
     let channels = encodings.len();
@@ -197,14 +197,16 @@ fn texels(attachment: &Attachment, codes: &[u32]) -> Result<Value, &'static str>
 
 fn pass(scene: &Scene, pass: &Pass) -> Result<Value, &'static str> {
     let mut keys = Keys::default();
-    let names = |all: &[usize]| -> Vec<&str> { all.iter().map(|i| name(scene, *i)).collect() };
+    let names = |attachments: &[usize]| -> Vec<&str> {
+        attachments.iter().map(|i| name(scene, *i)).collect()
+    };
     if !pass.color.is_empty() {
         keys.add("color", names(&pass.color));
     }
     if pass.resolve.iter().any(Option::is_some) {
-        let all = pass.resolve.iter();
-        let all: Vec<Option<&str>> = all.map(|r| r.map(|i| name(scene, i))).collect();
-        keys.add("resolve", json!(all));
+        let targets = pass.resolve.iter();
+        let target_names: Vec<Option<&str>> = targets.map(|r| r.map(|i| name(scene, i))).collect();
+        keys.add("resolve", json!(target_names));
     }
     if let Some(index) = pass.depth_stencil {
         keys.add("depth_stencil", name(scene, index));
@@ -213,11 +215,11 @@ fn pass(scene: &Scene, pass: &Pass) -> Result<Value, &'static str> {
         keys.add("depth_stencil_read_only", true);
     }
     if let Some(resolve) = pass.depth_stencil_resolve {
-        let mut own = Keys::default();
-        own.add("to", name(scene, resolve.to));
-        own.differing("depth", &resolve.depth, &ResolveMode::None);
-        own.differing("stencil", &resolve.stencil, &ResolveMode::None);
-        keys.add("depth_stencil_resolve", own.done());
+        let mut resolve_keys = Keys::default();
+        resolve_keys.add("to", name(scene, resolve.to));
+        resolve_keys.differing("depth", &resolve.depth, &ResolveMode::None);
+        resolve_keys.differing("stencil", &resolve.stencil, &ResolveMode::None);
+        keys.add("depth_stencil_resolve", resolve_keys.done());
     }
     if pass.operations != PassOperations::default() {
         keys.add("operations", operations(&pass.operations));
@@ -235,11 +237,11 @@ fn pass(scene: &Scene, pass: &Pass) -> Result<Value, &'static str> {
     Ok(keys.done())
 }
 
-fn operations(all: &PassOperations) -> Value {
+fn operations(operations: &PassOperations) -> Value {
     let mut keys = Keys::default();
-    keys.differing("color", &all.color, &Vec::new());
-    keys.differing("depth", &all.depth, &Operations::default());
-    keys.differing("stencil", &all.stencil, &Operations::default());
+    keys.differing("color", &operations.color, &Vec::new());
+    keys.differing("depth", &operations.depth, &Operations::default());
+    keys.differing("stencil", &operations.stencil, &Operations::default());
     keys.done()
 }
 
@@ -288,8 +290,9 @@ fn clear(clear: &Clear) -> Value {
 }
 
 fn letters(mask: u8) -> String {
-    let all = "rgba".chars().enumerate();
-    all.filter(|(bit, _)| mask >> bit & 1 == 1)
+    let letters = "rgba".chars().enumerate();
+    letters
+        .filter(|(bit, _)| mask >> bit & 1 == 1)
         .map(|(_, letter)| letter)
         .collect()
 }
@@ -327,8 +330,8 @@ fn draw(scene: &Scene, pass: &Pass, draw: &Draw) -> Result<Value, &'static str> 
     keys.differing("front_face", &draw.front_face, &FrontFace::Ccw);
     keys.differing("polygon_mode", &draw.polygon_mode, &PolygonMode::Fill);
     keys.differing("rasterizer_discard", &draw.rasterizer_discard, &false);
-    let whole = Viewport::whole(scene.pass_size(pass));
-    keys.differing("viewport", &draw.viewport, &whole);
+    let full_viewport = Viewport::whole(scene.pass_size(pass));
+    keys.differing("viewport", &draw.viewport, &full_viewport);
     keys.differing("scissor", &draw.scissor, &None);
     keys.differing("clip_distances", &draw.clip_distances, &u8::MAX);
     if draw.depth_bias != DepthBias::default() {
@@ -342,12 +345,12 @@ fn draw(scene: &Scene, pass: &Pass, draw: &Draw) -> Result<Value, &'static str> 
     keys.differing("depth_bounds", &draw.depth_bounds, &None);
     keys.differing("depth", &draw.depth, &None);
     if let Some(stencil) = &draw.stencil {
-        let mut own = Keys::default();
-        own.add("front", face(&stencil.front));
+        let mut stencil_keys = Keys::default();
+        stencil_keys.add("front", face(&stencil.front));
         if stencil.back != stencil.front {
-            own.add("back", face(&stencil.back));
+            stencil_keys.add("back", face(&stencil.back));
         }
-        keys.add("stencil", own.done());
+        keys.add("stencil", stencil_keys.done());
     }
     targets(draw, &mut keys);
     keys.differing("logic", &draw.logic, &None);
@@ -359,13 +362,13 @@ fn draw(scene: &Scene, pass: &Pass, draw: &Draw) -> Result<Value, &'static str> 
             min_sample_shading,
             sample_coverage,
         } = draw.multisample;
-        let mut own = Keys::default();
-        own.differing("mask", &mask, &u32::MAX);
-        own.differing("alpha_to_coverage", &alpha_to_coverage, &false);
-        own.differing("alpha_to_one", &alpha_to_one, &false);
-        own.differing("min_sample_shading", &min_sample_shading, &None);
-        own.differing("sample_coverage", &sample_coverage, &None);
-        keys.add("multisample", own.done());
+        let mut multisample_keys = Keys::default();
+        multisample_keys.differing("mask", &mask, &u32::MAX);
+        multisample_keys.differing("alpha_to_coverage", &alpha_to_coverage, &false);
+        multisample_keys.differing("alpha_to_one", &alpha_to_one, &false);
+        multisample_keys.differing("min_sample_shading", &min_sample_shading, &None);
+        multisample_keys.differing("sample_coverage", &sample_coverage, &None);
+        keys.add("multisample", multisample_keys.done());
     }
     if draw.blend_constant.map(f32::to_bits) != [0; 4] {
         keys.add("blend_constant", splat(draw.blend_constant));
@@ -394,22 +397,22 @@ fn targets(draw: &Draw, keys: &mut Keys) {
     if let Some(advanced) = first.advanced {
         keys.add("advanced_blend", plain(&advanced));
     }
-    let one = |keys: &mut Keys, target: &etalon_scene::ColorTarget| {
+    let add_target = |keys: &mut Keys, target: &etalon_scene::ColorTarget| {
         keys.differing("blend", &target.blend, &None);
         if target.write_mask != 0b1111 {
             keys.add("write_mask", letters(target.write_mask));
         }
     };
     if draw.targets.iter().all(|t| t == first) {
-        one(keys, first);
+        add_target(keys, first);
         return;
     }
-    let all = draw.targets.iter().map(|target| {
-        let mut own = Keys::default();
-        one(&mut own, target);
-        own.done()
+    let targets = draw.targets.iter().map(|target| {
+        let mut target_keys = Keys::default();
+        add_target(&mut target_keys, target);
+        target_keys.done()
     });
-    keys.add("targets", all.collect::<Vec<_>>());
+    keys.add("targets", targets.collect::<Vec<_>>());
 }
 
 /// Adds the mesh, which consists of one equal part per instance, and its fetch.
@@ -425,35 +428,39 @@ fn mesh(draw: &Draw, keys: &mut Keys) {
     let Mesh { vertices, indices } = &draw.mesh;
     let parts = instances.max(1) as usize;
     let count = vertices.len() / parts;
-    let own = &vertices[..count];
+    let first_copy = &vertices[..count];
     let mut mesh = Keys::default();
     mesh.add("kind", "vertices");
-    let positions = own.iter().map(|v| {
+    let positions = first_copy.iter().map(|v| {
         let flat = v.position[3].to_bits() == 1.0_f32.to_bits();
         shorts(&v.position[..if flat { 3 } else { 4 }])
     });
     mesh.add("positions", positions.collect::<Vec<_>>());
-    let color = own.first().map_or([0.0; 4], |v| v.color);
-    let alike = own
+    let color = first_copy.first().map_or([0.0; 4], |v| v.color);
+    let alike = first_copy
         .iter()
         .all(|v| v.color.map(f32::to_bits) == color.map(f32::to_bits));
     if instances > 0 {
         // Instances have colours of their own.
     } else if !alike {
-        let colors = own.iter().map(|v| splat(v.color));
+        let colors = first_copy.iter().map(|v| splat(v.color));
         mesh.add("values", colors.collect::<Vec<_>>());
     } else if color.map(f32::to_bits) != [0; 4] {
         mesh.add("values", vec![splat(color)]);
     }
-    if own.iter().any(|v| v.uv.map(f32::to_bits) != [0; 2]) {
-        let uv = own.iter().map(|v| shorts(&v.uv));
+    if first_copy.iter().any(|v| v.uv.map(f32::to_bits) != [0; 2]) {
+        let uv = first_copy.iter().map(|v| shorts(&v.uv));
         mesh.add("uv", uv.collect::<Vec<_>>());
     }
-    if let Some(all) = indices {
+    if let Some(repeated) = indices {
         // Restart indices separate the instances.
-        let length = (all.len() + 1) / parts - usize::from(instances > 0);
-        let length = if instances == 0 { all.len() } else { length };
-        let indices = all[..length].iter().map(|i| match *i {
+        let length = (repeated.len() + 1) / parts - usize::from(instances > 0);
+        let length = if instances == 0 {
+            repeated.len()
+        } else {
+            length
+        };
+        let indices = repeated[..length].iter().map(|i| match *i {
             RESTART => Value::Null,
             i => json!(i),
         });
@@ -470,10 +477,10 @@ fn mesh(draw: &Draw, keys: &mut Keys) {
     }
     if instances > 0 {
         let firsts = vertices.iter().step_by(count.max(1));
-        let mut own = Keys::default();
+        let mut instance_keys = Keys::default();
         let colors = firsts.map(|v| splat(v.color));
-        own.add("colors", colors.collect::<Vec<_>>());
-        own.differing("first", &first_instance, &0);
-        keys.add("instances", own.done());
+        instance_keys.add("colors", colors.collect::<Vec<_>>());
+        instance_keys.differing("first", &first_instance, &0);
+        keys.add("instances", instance_keys.done());
     }
 }

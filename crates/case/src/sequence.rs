@@ -103,8 +103,8 @@ fn merge(value: &mut Value, change: &Value) {
 fn bound(pass: &Value) -> Vec<String> {
     let lists = ["color", "resolve"].map(|key| pass[key].as_array());
     let listed = lists.into_iter().flatten().flatten();
-    let all = listed.chain([&pass["depth_stencil"]]);
-    all.filter_map(Value::as_str).map(str::to_owned).collect()
+    let names = listed.chain([&pass["depth_stencil"]]);
+    names.filter_map(Value::as_str).map(str::to_owned).collect()
 }
 
 /// Moves a pass to the second framebuffer.
@@ -174,13 +174,13 @@ mod tests {
         assert!(draw.passes[0].draws[1].depth.is_some_and(|d| !d.write));
 
         let pass = made("pass");
-        let all: Vec<_> = pass.passes.iter().map(compares).collect();
-        assert_eq!(all, [&expected[..2], &expected[2..3], &expected[3..]]);
+        let compared: Vec<_> = pass.passes.iter().map(compares).collect();
+        assert_eq!(compared, [&expected[..2], &expected[2..3], &expected[3..]]);
 
         let framebuffer = made("framebuffer");
-        let all: Vec<_> = framebuffer.passes.iter().map(compares).collect();
+        let compared: Vec<_> = framebuffer.passes.iter().map(compares).collect();
         assert_eq!(
-            all,
+            compared,
             [
                 &expected[..1],
                 &expected[..1],
@@ -195,10 +195,10 @@ mod tests {
             .iter()
             .map(|p| name(p.color[0]))
             .collect();
-        let (one, other) = ("color", "color-other");
-        assert_eq!(drawn, [one, other, one, other, one]);
+        let (color, color_other) = ("color", "color-other");
+        assert_eq!(drawn, [color, color_other, color, color_other, color]);
         let read: Vec<_> = framebuffer.read.iter().map(|i| name(*i)).collect();
-        assert_eq!(read, [one, other]);
+        assert_eq!(read, [color, color_other]);
     }
 
     #[test]

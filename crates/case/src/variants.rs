@@ -23,10 +23,10 @@ pub struct Variant {
 
 /// Returns the frames of a scene that is submitted several times.
 pub(crate) fn read_again(scene: &Scene, submissions: &[NonZeroU32]) -> Result<Vec<Variant>, At> {
-    let mut all: Vec<Variant> = Vec::new();
+    let mut variants: Vec<Variant> = Vec::new();
     for (i, number) in submissions.iter().enumerate() {
         let name = format!("{number}-more");
-        if all.iter().any(|v| v.name == name) {
+        if variants.iter().any(|v| v.name == name) {
             return Err(At::new(format!("{number} occurs twice")).index(i));
         }
         if number.get() > MOST_SUBMISSIONS {
@@ -34,13 +34,13 @@ pub(crate) fn read_again(scene: &Scene, submissions: &[NonZeroU32]) -> Result<Ve
                 format!("a scene can be submitted at most {MOST_SUBMISSIONS} further times");
             return Err(At::new(message).index(i));
         }
-        all.push(Variant {
+        variants.push(Variant {
             name,
             scene: scene.clone(),
             submissions: Some(*number),
         });
     }
-    Ok(all)
+    Ok(variants)
 }
 
 /// The maximum number of submissions between two read-backs.

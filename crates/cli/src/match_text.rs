@@ -5,16 +5,16 @@ use etalon_diagnose::Match;
 /// Returns the reason why a failure matches a finding.
 pub(crate) fn why(found: &Match) -> String {
     let Match { case, states, .. } = found;
-    let Some(beyond) = &found.beyond else {
+    let Some(difference) = &found.difference else {
         return format!("{case} reduces to the same states and violation");
     };
     let mut text = format!("matches the reduced {case} ({states})");
-    if let Some(violation) = &beyond.violation {
+    if let Some(violation) = &difference.violation {
         text.push_str(&format!(", which violates {violation}"));
     }
-    if !beyond.states.is_empty() {
-        text.push_str(&format!("; also {}", beyond.states));
-    } else if beyond.violation.is_none() {
+    if !difference.states.is_empty() {
+        text.push_str(&format!("; also {}", difference.states));
+    } else if difference.violation.is_none() {
         text.push_str(", with other values");
     }
     text

@@ -33,22 +33,22 @@ pub(crate) fn texels([width, height]: [u32; 2]) -> impl Iterator<Item = (u32, u3
 
 /// Asserts that every sample has the codes that are expected at its column and row.
 #[track_caller]
-pub(crate) fn check<C: AsRef<[u32]>>(image: &Image, due: impl Fn(u32, u32) -> C) {
-    check_samples(image, |x, y, _| due(x, y));
+pub(crate) fn check<C: AsRef<[u32]>>(image: &Image, expected: impl Fn(u32, u32) -> C) {
+    check_samples(image, |x, y, _| expected(x, y));
 }
 
 /// Asserts that every sample has the codes that are expected at its column, row and index.
 #[track_caller]
-pub(crate) fn check_samples<C: AsRef<[u32]>>(image: &Image, due: impl Fn(u32, u32, u32) -> C) {
+pub(crate) fn check_samples<C: AsRef<[u32]>>(image: &Image, expected: impl Fn(u32, u32, u32) -> C) {
     let Image {
         attachment, aspect, ..
     } = image;
     for (x, y) in texels(image.size) {
         for sample in 0..image.samples {
-            let (came, due) = (image.sample(x, y, sample), due(x, y, sample));
+            let (came, expected) = (image.sample(x, y, sample), expected(x, y, sample));
             assert_eq!(
                 came,
-                due.as_ref(),
+                expected.as_ref(),
                 "{attachment} {aspect} at ({x}, {y}), sample {sample}"
             );
         }
@@ -65,46 +65,51 @@ pub(crate) trait Expect {
     }
 
     /// Asserts the codes of a colour attachment.
-    fn color_is<C: AsRef<[u32]>>(&self, attachment: &str, due: impl Fn(u32, u32) -> C);
+    fn color_is<C: AsRef<[u32]>>(&self, attachment: &str, expected: impl Fn(u32, u32) -> C);
 
     /// Asserts the depths of an attachment.
-    fn depth_is(&self, attachment: &str, due: impl Fn(u32, u32) -> f64);
+    fn depth_is(&self, attachment: &str, expected: impl Fn(u32, u32) -> f64);
 
     /// Asserts the stencil values of an attachment.
-    fn stencil_is(&self, attachment: &str, due: impl Fn(u32, u32) -> u32);
+    fn stencil_is(&self, attachment: &str, expected: impl Fn(u32, u32) -> u32);
 }
 
 impl Expect for Frame {
     #[track_caller]
-    fn color_is<C: AsRef<[u32]>>(&self, attachment: &str, due: impl Fn(u32, u32) -> C) {
-        check(color(self, attachment), due);
+    fn color_is<C: AsRef<[u32]>>(&self, attachment: &str, expected: impl Fn(u32, u32) -> C) {
+        check(color(self, attachment), expected);
     }
 
     #[track_caller]
-    fn depth_is(&self, attachment: &str, due: impl Fn(u32, u32) -> f64) {
+    fn depth_is(&self, attachment: &str, expected: impl Fn(u32, u32) -> f64) {
         let image = depth(self, attachment);
-        check(image, |x, y| [image.channels[0].nearest_code(due(x, y))]);
+        check(image, |x, y| {
+            [image.channels[0].nearest_code(expected(x, y))]
+        });
     }
 
     #[track_caller]
-    fn stencil_is(&self, attachment: &str, due: impl Fn(u32, u32) -> u32) {
-        check(stencil(self, attachment), |x, y| [due(x, y)]);
+    fn stencil_is(&self, attachment: &str, expected: impl Fn(u32, u32) -> u32) {
+        check(stencil(self, attachment), |x, y| [expected(x, y)]);
     }
 }
 
 /// Asserts that numbers are within `off` of others.
 #[track_caller]
-pub(crate) fn check_near(came: &[f64], due: &[f64], off: f64) {
-    assert_eq!(came.len(), due.len());
+pub(crate) fn check_near(came: &[f64], expected: &[f64], off: f64) {
+    assert_eq!(came.len(), expected.len());
     let near = |(a, b): (&f64, &f64)| (a - b).abs() <= off;
-    assert!(came.iter().zip(due).all(near), "{came:?}, expected {due:?}");
+    assert!(
+        came.iter().zip(expected).all(near),
+        "{came:?}, expected {expected:?}"
+    );
 }
 
 /// Asserts that codes differ from others by at most 1.
 #[track_caller]
-pub(crate) fn check_within_one(came: &[u32], due: [u32; 4]) {
-    let near = came.iter().zip(due).all(|(a, b)| a.abs_diff(b) <= 1);
-    assert!(near, "{came:?}, expected {due:?}");
+pub(crate) fn check_within_one(came: &[u32], expected: [u32; 4]) {
+    let near = came.iter().zip(expected).all(|(a, b)| a.abs_diff(b) <= 1);
+    assert!(near, "{came:?}, expected {expected:?}");
 }
 
 /// Returns the values of a texel's channels.

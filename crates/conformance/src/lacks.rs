@@ -73,9 +73,9 @@ impl Lacks {
     pub fn check(&self, limits: &Limits) {
         let expected = self.limits(limits.api);
         let only = |by: &Limits, not_by: &Limits| -> Vec<String> {
-            let all = requirements().into_iter();
-            let only =
-                all.filter(|r| by.missing(&[*r]).is_some() && not_by.missing(&[*r]).is_none());
+            let requirements = requirements().into_iter();
+            let only = requirements
+                .filter(|r| by.missing(&[*r]).is_some() && not_by.missing(&[*r]).is_none());
             only.map(|r| r.to_string()).collect()
         };
         let (lost, gained) = (only(limits, &expected), only(&expected, limits));
@@ -92,14 +92,14 @@ fn names(names: Names, name: &str) -> bool {
 /// Returns everything that a driver can lack.
 fn requirements() -> Vec<Requirement> {
     let features = Feature::ALL.iter().copied().map(Requirement::Feature);
-    let mut all: Vec<_> = features.collect();
+    let mut requirements: Vec<_> = features.collect();
     for format in TextureFormat::ALL.iter().copied() {
-        all.extend([
+        requirements.extend([
             Requirement::Format(format),
             Requirement::Drawing(format),
             Requirement::Blending(format),
             Requirement::Samples(format, 4),
         ]);
     }
-    all
+    requirements
 }

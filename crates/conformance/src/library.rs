@@ -46,7 +46,7 @@ pub fn draw_library(subject: &Subject<'_>, profile: Profile, share: Share) {
 /// If anything fails, or if nothing was drawn.
 pub fn draw_area(subject: &Subject<'_>, area: &str, profile: Profile, share: Share) {
     let library = Library::built_in().unwrap();
-    let (mut denied, mut all) = (0, 0);
+    let (mut denied, mut total) = (0, 0);
     let mut chosen = Vec::new();
     for file in library
         .files()
@@ -54,7 +54,7 @@ pub fn draw_area(subject: &Subject<'_>, area: &str, profile: Profile, share: Sha
         .filter(|f| f.name().starts_with(area))
     {
         let cases: Vec<_> = file.cases(profile).collect();
-        all += cases.len();
+        total += cases.len();
         let step = match share {
             Share::Sample(most) => cases.len().div_ceil(most).max(1),
             Share::All => 1,
@@ -86,6 +86,6 @@ pub fn draw_area(subject: &Subject<'_>, area: &str, profile: Profile, share: Sha
         check_shape(&case.scene, &frame);
         subject.check_silence(&case.id.to_string());
     }
-    println!("{share:?} of {profile:?}: {drawn} drawn, {denied} denied, of {all} cases");
+    println!("{share:?} of {profile:?}: {drawn} drawn, {denied} denied, of {total} cases");
     assert!(drawn > 0, "no built-in case can be drawn");
 }

@@ -106,17 +106,17 @@ mod tests {
         };
         let undrawn = CHECKS.iter().filter(|check| !drawn(check));
         let undrawn: Vec<_> = undrawn.map(|check| check.name).collect();
-        let due: Vec<_> = NOT_DRAWN_ANYWHERE.iter().map(|(name, _)| *name).collect();
-        assert_eq!(undrawn, due);
+        let expected: Vec<_> = NOT_DRAWN_ANYWHERE.iter().map(|(name, _)| *name).collect();
+        assert_eq!(undrawn, expected);
     }
 
     #[test]
     fn checks_draw_unless_the_driver_lacks_what_they_need() {
-        let which = |name: &str, due: Prediction| -> Vec<_> {
+        let which = |name: &str, expected: Prediction| -> Vec<_> {
             let known = known(name);
             let checks = CHECKS
                 .iter()
-                .filter(|check| predict(check, &known) == Some(due));
+                .filter(|check| predict(check, &known) == Some(expected));
             checks.map(|check| check.name).collect()
         };
         let skipped = [
@@ -132,7 +132,7 @@ mod tests {
             "passes::what_was_resolved_is_tested",
         ];
         assert_eq!(which("gl:llvmpipe", Prediction::Skips), skipped);
-        let due = [
+        let expected = [
             "limits::limits_are_at_least_the_required_ones",
             "limits::formats_are_described_without_contradiction",
             "prepared::denials_are_named",
@@ -140,7 +140,7 @@ mod tests {
         for known in KNOWN {
             assert_eq!(
                 which(known.name, Prediction::OnlyLooks),
-                due,
+                expected,
                 "{}",
                 known.name
             );

@@ -155,7 +155,7 @@ impl<'a> Subject<'a> {
 /// Asserts that each image is the requested one, and complete.
 #[track_caller]
 pub(crate) fn check_shape(scene: &Scene, frame: &Frame) {
-    let due: Vec<_> = scene
+    let expected: Vec<_> = scene
         .read
         .iter()
         .map(|index| &scene.attachments[*index])
@@ -163,7 +163,7 @@ pub(crate) fn check_shape(scene: &Scene, frame: &Frame) {
         .collect();
     let images = frame.images.iter();
     let came: Vec<_> = images.map(|i| (&i.attachment, i.aspect)).collect();
-    assert_eq!(came, due);
+    assert_eq!(came, expected);
     for image in &frame.images {
         assert_eq!(image.codes.len(), image.expected_len());
     }

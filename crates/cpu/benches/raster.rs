@@ -43,13 +43,13 @@ fn small_triangles() -> Scene {
     mesh.vertices = (0..1_000_000_u32)
         .flat_map(|i| {
             let (x, y) = ((i % 640) as f32 * 2.0, (i / 640 % 720) as f32);
-            let at = |dx: f32, dy: f32| {
+            let corner = |dx: f32, dy: f32| {
                 let mut vertex = first;
                 let clip = |v: f32, size: f32| v / size * 2.0 - 1.0;
                 vertex.position = [clip(x + dx, 1280.0), -clip(y + dy, 720.0), 0.5, 1.0];
                 vertex
             };
-            [at(0.0, 0.0), at(0.0, 1.5), at(2.5, 0.0)]
+            [corner(0.0, 0.0), corner(0.0, 1.5), corner(2.5, 0.0)]
         })
         .collect();
     scene

@@ -34,8 +34,8 @@ pub(crate) fn is_beside(vertices: &[Vertex]) -> bool {
         |[_, y, _, w]| y < -w,
         |[_, y, _, w]| y > w,
     ];
-    let all = |beyond: &fn([f32; 4]) -> bool| vertices.iter().all(|v| beyond(v.position));
-    beyond.iter().any(all)
+    let all_beyond = |beyond: &fn([f32; 4]) -> bool| vertices.iter().all(|v| beyond(v.position));
+    beyond.iter().any(all_beyond)
 }
 
 /// An edge with the side that the triangle is on.

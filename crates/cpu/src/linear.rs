@@ -12,32 +12,38 @@ pub(crate) const UNITS: i64 = 1 << SUB_PIXEL_BITS;
 /// A value over a primitive.
 #[derive(Clone, Copy)]
 pub(crate) struct Varying {
-    /// The value, or, if `whole` is present, the value over w.
+    /// The value, or, if `reciprocal_w` is present, the value over w.
     value: DepthPlane,
     /// 1 over w, if the value is linear in space.
-    whole: Option<DepthPlane>,
+    reciprocal_w: Option<DepthPlane>,
 }
 
 impl Varying {
     /// Returns a value that is linear over the window.
     pub(crate) fn linear(value: DepthPlane) -> Self {
-        Self { value, whole: None }
+        Self {
+            value,
+            reciprocal_w: None,
+        }
     }
 
     /// Returns a value that is linear in space, from the plane of the value over w and the plane of 1 over w.
-    pub(crate) fn perspective(value: DepthPlane, whole: DepthPlane) -> Self {
-        let whole = Some(whole);
-        Self { value, whole }
+    pub(crate) fn perspective(value: DepthPlane, reciprocal_w: DepthPlane) -> Self {
+        let reciprocal_w = Some(reciprocal_w);
+        Self {
+            value,
+            reciprocal_w,
+        }
     }
 
     /// Returns the values at one point of each texel of a span.
     pub(crate) fn at(&self, x: usize, y: usize, points: &[Point; LANES]) -> [f32; LANES] {
         std::array::from_fn(|lane| {
-            let at = position(x + lane, y, points[lane]);
-            let value = self.value.at(at);
-            match self.whole {
+            let point = position(x + lane, y, points[lane]);
+            let value = self.value.at(point);
+            match self.reciprocal_w {
                 None => value as f32,
-                Some(whole) => (value / whole.at(at)) as f32,
+                Some(reciprocal_w) => (value / reciprocal_w.at(point)) as f32,
             }
         })
     }

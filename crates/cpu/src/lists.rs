@@ -67,23 +67,23 @@ impl Lists {
             color: [[0.0; LANES]; 4],
             depth: [2.0; LANES],
         };
-        let mut all = Vec::new();
+        let mut ranks = Vec::new();
         for lane in 0..LANES {
             let head = self.head(x + lane, y).map_or(0, |head| self.heads[head]);
             let mut number = head;
             let mut rank = 0;
             while let Some(stored) = number.checked_sub(1).and_then(|i| self.nodes.get(i)) {
-                if rank == all.len() {
-                    all.push(nothing);
+                if rank == ranks.len() {
+                    ranks.push(nothing);
                 }
-                all[rank].depth[lane] = stored.depth;
-                for (channel, value) in all[rank].color.iter_mut().zip(stored.color) {
+                ranks[rank].depth[lane] = stored.depth;
+                for (channel, value) in ranks[rank].color.iter_mut().zip(stored.color) {
                     channel[lane] = value;
                 }
                 number = stored.behind;
                 rank += 1;
             }
         }
-        all
+        ranks
     }
 }

@@ -87,10 +87,10 @@ pub(crate) fn run<S: Steps>(
 
 /// Performs the clears of load operations.
 fn load(scene: &Scene, pass: &Pass, surfaces: &mut [Surface], steps: &impl Steps) {
-    let all = None;
+    let everywhere = None;
     for (location, index) in pass.color.iter().enumerate() {
         if let LoadOperation::Clear(value) = pass.color_operations(location).load {
-            clear_color(&mut surfaces[*index], value, 0b1111, all, steps);
+            clear_color(&mut surfaces[*index], value, 0b1111, everywhere, steps);
         }
     }
     let Some(index) = pass.depth_stencil else {
@@ -100,10 +100,10 @@ fn load(scene: &Scene, pass: &Pass, surfaces: &mut [Surface], steps: &impl Steps
     if let LoadOperation::Clear(value) = pass.operations.depth.load
         && let Some(encoding) = depth_encoding(scene.attachments[index].format)
     {
-        surface.fill(0, steps.clear_code(encoding, value), all);
+        surface.fill(0, steps.clear_code(encoding, value), everywhere);
     }
     if let LoadOperation::Clear(value) = pass.operations.stencil.load {
-        surface.fill_stencil(value, 0xff, all);
+        surface.fill_stencil(value, 0xff, everywhere);
     }
 }
 

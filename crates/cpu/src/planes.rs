@@ -134,8 +134,8 @@ impl Planes {
         if self.leaves {
             let [left, top, right, bottom] = self.viewport;
             for (lane, covered) in mask.iter_mut().enumerate() {
-                let at = position(x + lane, y, sample);
-                *covered &= (left..right).contains(&at.x) && (top..bottom).contains(&at.y);
+                let point = position(x + lane, y, sample);
+                *covered &= (left..right).contains(&point.x) && (top..bottom).contains(&point.y);
             }
         }
         for distance in &self.distances {
@@ -159,8 +159,9 @@ fn distances(draw: &Draw, points: [Point; 3], vertices: [Vertex; 3]) -> Vec<Dept
     let count = draw.clipping_distances().count_ones() as usize;
     // The distances over w are linear in the window, and have the same signs.
     let over_w = |v: Vertex, n: usize| f64::from(v.distances[n]) / f64::from(v.position[3]);
-    let all = (0..count).map(|n| vertices.map(|v| over_w(v, n)));
-    all.filter(|values| values.iter().any(|v| *v < 0.0))
+    let distances = (0..count).map(|n| vertices.map(|v| over_w(v, n)));
+    distances
+        .filter(|values| values.iter().any(|v| *v < 0.0))
         .map(|values| {
             if signed_area(points) == 0 {
                 return DepthPlane::along([points[0], points[1]], [values[0], values[1]]);
@@ -173,8 +174,8 @@ fn distances(draw: &Draw, points: [Point; 3], vertices: [Vertex; 3]) -> Vec<Dept
 /// Returns the active clip distances of a vertex.
 pub(crate) fn clipping(draw: &Draw, vertex: &etalon_scene::Vertex) -> [f32; MOST_DISTANCES] {
     let mut result = [0.0; MOST_DISTANCES];
-    let all = clip_distances(draw.shader, vertex).into_iter().enumerate();
-    let clip = all.filter(|(n, _)| draw.clipping_distances() & (1 << n) != 0);
+    let distances = clip_distances(draw.shader, vertex).into_iter().enumerate();
+    let clip = distances.filter(|(n, _)| draw.clipping_distances() & (1 << n) != 0);
     for (slot, (_, distance)) in result.iter_mut().zip(clip) {
         *slot = distance;
     }

@@ -220,8 +220,8 @@ fn fill<S: Steps>(
     let (left, right) = bound(|p| p.x, bounds[0], bounds[2]);
     let (top, bottom) = bound(|p| p.y, bounds[1], bounds[3]);
     // Enough masks for any sample count.
-    let mut all = [[false; LANES]; MOST_SAMPLES];
-    let masks = &mut all[..samples.len().min(MOST_SAMPLES)];
+    let mut all_masks = [[false; LANES]; MOST_SAMPLES];
+    let masks = &mut all_masks[..samples.len().min(MOST_SAMPLES)];
     for y in top..bottom {
         for x in (left / LANES * LANES..right).step_by(LANES) {
             let mut any = false;
@@ -269,8 +269,8 @@ fn fill_cut<S: Steps>(
     [left, top, right, bottom]: Bounds,
     state: &mut SpanState<'_, S>,
 ) {
-    let mut all = [[false; LANES]; MOST_SAMPLES];
-    let masks = &mut all[..samples.len().min(MOST_SAMPLES)];
+    let mut all_masks = [[false; LANES]; MOST_SAMPLES];
+    let masks = &mut all_masks[..samples.len().min(MOST_SAMPLES)];
     for y in top..bottom {
         for x in (left / LANES * LANES..right).step_by(LANES) {
             let mut any = false;
@@ -357,8 +357,8 @@ fn line<S: Steps>(
         let along = center(cell) - from;
         let cross = cross_from + (cross_to - cross_from) * along / (to - from);
         let cross = cross.div_euclid(UNITS);
-        let at = if steep { (cross, cell) } else { (cell, cross) };
-        texel(at, &masks, front, a.color, planes, bounds, state);
+        let position = if steep { (cross, cell) } else { (cell, cross) };
+        texel(position, &masks, front, a.color, planes, bounds, state);
     }
 }
 

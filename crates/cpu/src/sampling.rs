@@ -9,13 +9,13 @@ use etalon_scene::{FilterMode, Sampler};
 pub(crate) fn sample(surface: &Surface, sampler: Sampler, u: Real, v: Real) -> [Real; 4] {
     let mut result = [[0.0; LANES]; 4];
     for lane in 0..LANES {
-        let at = [
+        let coordinates = [
             u[lane] * surface.width as f32,
             v[lane] * surface.height as f32,
         ];
         let texel = match sampler.filter {
-            FilterMode::Nearest => tap(surface, sampler, at.map(|c| c.floor() as i64)),
-            FilterMode::Linear => weighted(surface, sampler, at.map(|c| c - 0.5)),
+            FilterMode::Nearest => tap(surface, sampler, coordinates.map(|c| c.floor() as i64)),
+            FilterMode::Linear => weighted(surface, sampler, coordinates.map(|c| c - 0.5)),
         };
         for (channel, value) in result.iter_mut().zip(texel) {
             channel[lane] = value;
@@ -24,10 +24,10 @@ pub(crate) fn sample(surface: &Surface, sampler: Sampler, u: Real, v: Real) -> [
     result
 }
 
-fn tap(surface: &Surface, sampler: Sampler, at: [i64; 2]) -> [f32; 4] {
+fn tap(surface: &Surface, sampler: Sampler, position: [i64; 2]) -> [f32; 4] {
     let [across, down] = sampler.address;
-    let x = texel_position(across, at[0], surface.width as u32);
-    let y = texel_position(down, at[1], surface.height as u32);
+    let x = texel_position(across, position[0], surface.width as u32);
+    let y = texel_position(down, position[1], surface.height as u32);
     std::array::from_fn(|c| match surface.encodings.get(c) {
         Some(encoding) => {
             let code = surface.plane(c, 0)[y * surface.stride + x];
@@ -40,9 +40,9 @@ fn tap(surface: &Surface, sampler: Sampler, at: [i64; 2]) -> [f32; 4] {
 }
 
 /// Returns the weighted average at a position that is relative to the centre of the first texel.
-fn weighted(surface: &Surface, sampler: Sampler, at: [f32; 2]) -> [f32; 4] {
-    let first = at.map(f32::floor);
-    let weight = [at[0] - first[0], at[1] - first[1]];
+fn weighted(surface: &Surface, sampler: Sampler, position: [f32; 2]) -> [f32; 4] {
+    let first = position.map(f32::floor);
+    let weight = [position[0] - first[0], position[1] - first[1]];
     let mut sum = [0.0; 4];
     for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
         let part = |axis: usize, far: i64| match far {

@@ -4,7 +4,7 @@ use crate::lanes::{Codes, LANES, Mask, Real};
 use crate::linear::{CENTER, UNITS, Varying};
 use crate::lists::Lists;
 use crate::memory::{Counted, Memory};
-use crate::steps::{Exported, InputBit, Path, Steps, Tests};
+use crate::steps::{ExportedReference, InputBit, Steps, TestOutcome, Tests};
 use crate::surface::{Surface, depth_encoding};
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind};
 use etalon_pipeline::shader::{
@@ -62,22 +62,22 @@ struct Face {
 type WrittenReferences = ([i32; LANES], i32);
 
 impl Face {
-    /// Returns the state of one texel: for the stencil test, or, with a path, for the update.
+    /// Returns the state of one texel: for the stencil test, or, with an outcome, for the update.
     #[inline(always)]
     fn of<S: Steps>(
         &self,
         steps: &S,
-        path: Option<Path>,
+        outcome: Option<TestOutcome>,
         lane: usize,
         sample: usize,
     ) -> StencilFace {
         let Some((written, plus)) = self.written else {
             return self.face;
         };
-        let reference = steps.exported(&Exported {
+        let reference = steps.exported(&ExportedReference {
             face: self.face,
             front: self.front,
-            path,
+            outcome,
             written,
             plus,
             lane,
@@ -105,12 +105,12 @@ fn and_not(a: Mask, b: Mask) -> Mask {
     std::array::from_fn(|i| a[i] & !b[i])
 }
 
-fn load(plane: &[u32], at: usize) -> Codes {
-    std::array::from_fn(|i| plane[at + i])
+fn load(plane: &[u32], offset: usize) -> Codes {
+    std::array::from_fn(|i| plane[offset + i])
 }
 
-fn store(plane: &mut [u32], at: usize, codes: Codes, mask: Mask) {
-    for (i, slot) in plane[at..at + LANES].iter_mut().enumerate() {
+fn store(plane: &mut [u32], offset: usize, codes: Codes, mask: Mask) {
+    for (i, slot) in plane[offset..offset + LANES].iter_mut().enumerate() {
         *slot = if mask[i] { codes[i] } else { *slot };
     }
 }
@@ -375,8 +375,8 @@ impl<'a, S: Steps> SpanState<'a, S> {
         let columns: Vec<u32> = lanes.map(|(lane, _)| (span.x + lane) as u32).collect();
         for some in columns.chunks(TOGETHER) {
             // The remaining lanes repeat the last texel, at no extra cost.
-            let at: [u32; TOGETHER] = std::array::from_fn(|i| some[i.min(some.len() - 1)]);
-            let zeros = cost(at, span.y as u32, steps);
+            let padded: [u32; TOGETHER] = std::array::from_fn(|i| some[i.min(some.len() - 1)]);
+            let zeros = cost(padded, span.y as u32, steps);
             for (x, zero) in some.iter().zip(zeros) {
                 let lane = *x as usize - span.x;
                 output.color.iter_mut().for_each(|c| c[lane] += zero);
@@ -479,9 +479,15 @@ impl<'a, S: Steps> SpanState<'a, S> {
             let passed = and(tests.covered, tests.stencil);
             let failed = and_not(tests.covered, tests.stencil);
             let depth_failed = and_not(passed, tests.depth);
-            self.stencil_update(span, sample, face, Path::Fail, failed);
-            self.stencil_update(span, sample, face, Path::DepthFail, depth_failed);
-            self.stencil_update(span, sample, face, Path::Pass, and(passed, tests.depth));
+            self.stencil_update(span, sample, face, TestOutcome::Fail, failed);
+            self.stencil_update(span, sample, face, TestOutcome::DepthFail, depth_failed);
+            self.stencil_update(
+                span,
+                sample,
+                face,
+                TestOutcome::Pass,
+                and(passed, tests.depth),
+            );
         }
         written.color
     }
@@ -492,8 +498,8 @@ impl<'a, S: Steps> SpanState<'a, S> {
         else {
             return mask;
         };
-        let at = self.at(index, span);
-        let stored = load(self.surfaces[index].plane(0, sample), at);
+        let offset = self.at(index, span);
+        let stored = load(self.surfaces[index].plane(0, sample), offset);
         let stored = Plain::<LANES>.decode(encoding, stored);
         let inside = std::array::from_fn(|i| self.steps.in_bounds(bounds, stored[i], incoming[i]));
         and(mask, inside)
@@ -509,12 +515,12 @@ impl<'a, S: Steps> SpanState<'a, S> {
         let Some(index) = self.stencil() else {
             return [true; LANES];
         };
-        let at = self.at(index, span);
+        let offset = self.at(index, span);
         let seen = self.steps.stored_sample(Aspect::Stencil, sample);
         let stored = &self.surfaces[index].stencil[seen];
         std::array::from_fn(|i| {
             let face = face.of(self.steps, None, i, sample);
-            self.steps.stencil_passes(&face, stored[at + i])
+            self.steps.stencil_passes(&face, stored[offset + i])
         })
     }
 
@@ -523,17 +529,17 @@ impl<'a, S: Steps> SpanState<'a, S> {
         span: &Span<'_>,
         sample: usize,
         face: &Face,
-        path: Path,
+        outcome: TestOutcome,
         mask: Mask,
     ) {
         let Some(index) = self.stencil() else {
             return;
         };
-        let at = self.at(index, span);
-        let stored = &mut self.surfaces[index].stencil[sample][at..at + LANES];
+        let offset = self.at(index, span);
+        let stored = &mut self.surfaces[index].stencil[sample][offset..offset + LANES];
         for (i, slot) in stored.iter_mut().enumerate() {
-            let face = face.of(self.steps, Some(path), i, sample);
-            let new = self.steps.stencil_write(&face, path, *slot);
+            let face = face.of(self.steps, Some(outcome), i, sample);
+            let new = self.steps.stencil_write(&face, outcome, *slot);
             *slot = if mask[i] { new } else { *slot };
         }
     }
@@ -561,8 +567,13 @@ impl<'a, S: Steps> SpanState<'a, S> {
 
     fn depth_write(&mut self, span: &Span<'_>, sample: usize, codes: Codes, mask: Mask) {
         if let Some(index) = self.pass.depth_stencil {
-            let at = self.at(index, span);
-            store(self.surfaces[index].plane_mut(0, sample), at, codes, mask);
+            let offset = self.at(index, span);
+            store(
+                self.surfaces[index].plane_mut(0, sample),
+                offset,
+                codes,
+                mask,
+            );
         }
     }
 
@@ -583,14 +594,14 @@ impl<'a, S: Steps> SpanState<'a, S> {
                 color[3] = [1.0; LANES];
             }
             let encodings = self.encodings[t];
-            let at = self.at(*index, span);
+            let offset = self.at(*index, span);
             let surface = &mut self.surfaces[*index];
             let channels = surface.encodings.len();
             // Missing colour channels of the destination are 0, and a missing alpha is 1.
             let dst = |alpha: f32| {
                 std::array::from_fn(|c| match c {
                     _ if c < channels => {
-                        let stored = load(surface.plane(c, seen), at);
+                        let stored = load(surface.plane(c, seen), offset);
                         self.steps.color_value(encodings[c], stored)
                     }
                     3 => [alpha; LANES],
@@ -618,13 +629,13 @@ impl<'a, S: Steps> SpanState<'a, S> {
                 let plane = surface.plane_mut(c, sample);
                 let mut codes = self.steps.color_codes(encodings[c], value[c]);
                 if let Some(operation) = self.draw.logic {
-                    let stored = load(plane, at);
+                    let stored = load(plane, offset);
                     let obeys = self.logic[t];
                     codes = self
                         .steps
                         .logic(obeys, encodings[c], operation, codes, stored);
                 }
-                store(plane, at, codes, mask);
+                store(plane, offset, codes, mask);
             }
         }
     }

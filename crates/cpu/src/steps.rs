@@ -8,7 +8,7 @@ pub use crate::lanes::{Codes, LANES, Mask, Real};
 use crate::sampling::sample;
 use crate::surface::Surface;
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind};
-use etalon_pipeline::shader::{Kept, SampleMask};
+use etalon_pipeline::shader::{KeepCondition, SampleMask};
 use etalon_pipeline::{
     Arithmetic, BlendInput, Plain, advanced_blend, blend, compare, exported_reference,
     stencil_passes, stencil_write,
@@ -21,7 +21,7 @@ use etalon_scene::{
 
 /// The outcome of a fragment's stencil and depth test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Path {
+pub enum TestOutcome {
     /// The stencil test fails.
     Fail,
     /// The stencil test passes and the depth test fails.
@@ -30,7 +30,7 @@ pub enum Path {
     Pass,
 }
 
-impl Path {
+impl TestOutcome {
     /// Returns the face's operation for this outcome.
     #[inline(always)]
     pub fn operation(self, face: &StencilFace) -> StencilOperation {
@@ -44,13 +44,13 @@ impl Path {
 
 /// A use of the stencil reference that a shader wrote.
 #[derive(Clone, Copy, Debug)]
-pub struct Exported {
+pub struct ExportedReference {
     /// The state of the fragment's face, with the draw's reference.
     pub face: StencilFace,
     /// True if that face is the front.
     pub front: bool,
     /// The outcome of the tests, for the update; `None` for the stencil test.
-    pub path: Option<Path>,
+    pub outcome: Option<TestOutcome>,
     /// The references that the shader wrote, one per texel.
     pub written: [i32; LANES],
     /// The amount that the shader added to the references for the sample.
@@ -152,7 +152,7 @@ pub struct Stored<'a> {
 
 /// The steps that a planted bug can override. The defaults are the pipeline's.
 pub trait Steps {
-    /// Does nothing. A planted bug of memory changes what is stored at this moment.
+    /// Does nothing. A planted memory bug overrides this to change what is stored.
     #[inline(always)]
     fn reached(&self, _moment: Moment, _scene: &Scene, _stored: Stored<'_>) {}
 
@@ -165,11 +165,11 @@ pub trait Steps {
     /// Returns the texels of a texture at a span.
     #[inline(always)]
     fn fetch(&self, surface: &Surface, x: usize, y: usize) -> [Real; 4] {
-        let at = y * surface.stride + x;
+        let offset = y * surface.stride + x;
         std::array::from_fn(|c| match surface.encodings.get(c) {
             Some(encoding) => {
                 let plane = surface.plane(c, 0);
-                Plain::<LANES>.decode(*encoding, std::array::from_fn(|i| plane[at + i]))
+                Plain::<LANES>.decode(*encoding, std::array::from_fn(|i| plane[offset + i]))
             }
             // A format without alpha is fetched with alpha 1.
             None => [if c == 3 { 1.0 } else { 0.0 }; LANES],
@@ -184,7 +184,7 @@ pub trait Steps {
 
     /// Returns the texels whose fragments the shader does not discard.
     #[inline(always)]
-    fn kept(&self, kept: &Kept<Real>) -> Mask {
+    fn kept(&self, kept: &KeepCondition<Real>) -> Mask {
         let (value, limit) = (kept.value, kept.limit);
         if kept.strict {
             std::array::from_fn(|i| value[i] > limit[i])
@@ -210,8 +210,8 @@ pub trait Steps {
 
     /// Returns the stencil reference of a fragment whose shader writes one.
     #[inline(always)]
-    fn exported(&self, of: &Exported) -> u8 {
-        exported_reference(of.written[of.lane])
+    fn exported(&self, fragment: &ExportedReference) -> u8 {
+        exported_reference(fragment.written[fragment.lane])
     }
 
     /// Returns true if a stored value passes the stencil test.
@@ -222,8 +222,8 @@ pub trait Steps {
 
     /// Returns the stencil value that a fragment leaves.
     #[inline(always)]
-    fn stencil_write(&self, face: &StencilFace, path: Path, stored: u8) -> u8 {
-        stencil_write(face, path.operation(face), stored)
+    fn stencil_write(&self, face: &StencilFace, outcome: TestOutcome, stored: u8) -> u8 {
+        stencil_write(face, outcome.operation(face), stored)
     }
 
     /// Returns the codes of depths, for comparing and storing.
@@ -243,11 +243,11 @@ pub trait Steps {
     /// Returns the texels whose colour is written, and the texels whose depth is written.
     #[inline(always)]
     fn written(&self, tests: &Tests) -> WrittenTexels {
-        let all: Mask =
+        let passing: Mask =
             std::array::from_fn(|i| tests.covered[i] & tests.stencil[i] & tests.depth[i]);
         WrittenTexels {
-            color: all,
-            depth: all,
+            color: passing,
+            depth: passing,
         }
     }
 
@@ -411,8 +411,8 @@ pub trait Steps {
 
     /// Returns true if a bit of the sample mask that a shader reads is set.
     #[inline(always)]
-    fn input_bit(&self, of: &InputBit) -> bool {
-        of.covered && of.drawn && of.shaded
+    fn input_bit(&self, bit: &InputBit) -> bool {
+        bit.covered && bit.drawn && bit.shaded
     }
 
     /// Returns the number of shader runs that share a texel's samples. The samples of a run are consecutive.

@@ -132,11 +132,11 @@ impl Surface {
                 self.planes[c].clone_from_slice(source.plane(c, 0));
                 continue;
             }
-            for at in 0..self.stride * self.height {
+            for offset in 0..self.stride * self.height {
                 for (s, code) in codes.iter_mut().enumerate() {
-                    *code = source.plane(c, s)[at];
+                    *code = source.plane(c, s)[offset];
                 }
-                self.planes[c][at] = resolve(*encoding, &codes);
+                self.planes[c][offset] = resolve(*encoding, &codes);
             }
         }
     }
@@ -179,11 +179,11 @@ impl Surface {
         let mut codes = Vec::with_capacity(count);
         for y in 0..self.height {
             for x in 0..self.width {
-                let at = y * self.stride + x;
+                let offset = y * self.stride + x;
                 for s in 0..self.samples {
                     match aspect {
-                        Aspect::Stencil => codes.push(u32::from(self.stencil[s][at])),
-                        _ => codes.extend((0..channels).map(|c| self.plane(c, s)[at])),
+                        Aspect::Stencil => codes.push(u32::from(self.stencil[s][offset])),
+                        _ => codes.extend((0..channels).map(|c| self.plane(c, s)[offset])),
                     }
                 }
             }
@@ -195,10 +195,10 @@ impl Surface {
 /// Sets each value of a plane to a function of the values of all samples.
 fn fold<T: Copy>(samples: &[Vec<T>], target: &mut [T], resolve: impl Fn(&[T]) -> T) {
     let mut values = Vec::with_capacity(samples.len());
-    for (at, one) in target.iter_mut().enumerate() {
+    for (offset, value) in target.iter_mut().enumerate() {
         values.clear();
-        values.extend(samples.iter().map(|plane| plane[at]));
-        *one = resolve(&values);
+        values.extend(samples.iter().map(|plane| plane[offset]));
+        *value = resolve(&values);
     }
 }
 

@@ -44,13 +44,13 @@ fn a_slanted_triangle_has_depths_between_its_vertices() {
         "depth":{"compare":"less","write":true}}]}],"read":["depth"]}}"#,
     );
     let image = &frame.images[0];
-    let at = |x| f32::from_bits(image.sample(x, 9, 0)[0]);
+    let depth_at = |x| f32::from_bits(image.sample(x, 9, 0)[0]);
     for x in 0..16 {
         let expected = 0.25 * (x as f32 + 0.5) / 16.0;
         assert!(
-            (at(x) - expected).abs() < 1e-6,
+            (depth_at(x) - expected).abs() < 1e-6,
             "{x}: {} for {expected}",
-            at(x)
+            depth_at(x)
         );
     }
 }
@@ -64,7 +64,7 @@ fn layers(shader: &str) -> (u64, Vec<u32>) {
             "params":{{"back_color":[20,0,0,0]}},"counters":["shaded"],"depth":{{"compare":"less","write":true}}}}"#
         )
     };
-    let all = [
+    let layers = [
         layer(0.25, "[1,0,0,1]"),
         layer(0.5, "[0,1,0,1]"),
         layer(0.75, "[0,0,1,1]"),
@@ -74,7 +74,7 @@ fn layers(shader: &str) -> (u64, Vec<u32>) {
         "attachments":{{"color":{{"format":"rgba8unorm","size":[20,8]}},"depth":{{"format":"depth32float","clear":1}}}},
         "counters":{{"shaded":"fragment-invocations"}},
         "passes":[{{"color":["color"],"depth_stencil":"depth","draws":[{}]}}],"read":["color"]}}}}"#,
-        all.join(",")
+        layers.join(",")
     ));
     (frame.counters[0], frame.images[0].codes.clone())
 }

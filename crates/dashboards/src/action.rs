@@ -49,7 +49,7 @@ mod tests {
 
     #[test]
     fn the_reach_is_that_of_the_farther_end() {
-        let one = |name: &str, time, interval| Benchmark {
+        let benchmark = |name: &str, time, interval| Benchmark {
             name: name.to_owned(),
             times: [(
                 time,
@@ -61,16 +61,17 @@ mod tests {
             .into(),
             extra: String::new(),
         };
-        let all = [
-            one("a", Time::Wall, Some([0.25, 0.625])),
-            one("b", Time::Wall, None),
-            one("c", Time::Gpu, None),
+        let benchmarks = [
+            benchmark("a", Time::Wall, Some([0.25, 0.625])),
+            benchmark("b", Time::Wall, None),
+            benchmark("c", Time::Gpu, None),
         ];
-        let value: serde_json::Value = serde_json::from_slice(&action(&all).unwrap()).unwrap();
-        let due = serde_json::json!([
+        let value: serde_json::Value =
+            serde_json::from_slice(&action(&benchmarks).unwrap()).unwrap();
+        let expected = serde_json::json!([
             { "name": "a", "unit": "ns", "value": 5e8, "range": "± 250000000" },
             { "name": "b", "unit": "ns", "value": 5e8 },
         ]);
-        assert_eq!(value, due);
+        assert_eq!(value, expected);
     }
 }

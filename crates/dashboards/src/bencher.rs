@@ -42,14 +42,14 @@ fn measure(time: Time) -> String {
 /// # Errors
 /// If a value has no JSON form.
 pub fn bencher(benchmarks: &[Benchmark]) -> serde_json::Result<Vec<u8>> {
-    let mut all: BTreeMap<&str, BTreeMap<String, Metric>> = BTreeMap::new();
+    let mut by_benchmark: BTreeMap<&str, BTreeMap<String, Metric>> = BTreeMap::new();
     for benchmark in benchmarks {
-        let measures = all.entry(&benchmark.name).or_default();
+        let measures = by_benchmark.entry(&benchmark.name).or_default();
         for (time, figure) in &benchmark.times {
             measures.insert(measure(*time), Metric::new(figure));
         }
     }
-    file(&all)
+    file(&by_benchmark)
 }
 
 #[cfg(test)]
@@ -63,18 +63,18 @@ mod tests {
             (Time::Wall, figure(0.5, Some([0.25, 1.0]))),
             (Time::Gpu, figure(1.5e-12, None)),
         ];
-        let one = Benchmark {
+        let benchmark = Benchmark {
             name: "a b".to_owned(),
             times: times.into(),
             extra: String::new(),
         };
-        let text = String::from_utf8(bencher(&[one]).unwrap()).unwrap();
+        let text = String::from_utf8(bencher(&[benchmark]).unwrap()).unwrap();
         let value: serde_json::Value = serde_json::from_str(&text).unwrap();
-        let due = serde_json::json!({ "a b": {
+        let expected = serde_json::json!({ "a b": {
             "latency": { "value": 5e8, "lower_value": 2.5e8, "upper_value": 1e9 },
             "gpu-time": { "value": 0.002 },
         }});
-        assert_eq!(value, due);
+        assert_eq!(value, expected);
         assert!(text.ends_with("}\n"));
     }
 }

@@ -88,11 +88,11 @@ pub fn bless(
         }
         let pattern = |glob: &String| glob.contains(['*', '?', '[', '{']);
         let one_adapter = known.adapters.len() == 1 && !known.adapters.iter().any(pattern);
-        let whole = ids
+        let all_drawn = ids
             .iter()
             .filter(|id| expectations.names(number, id))
             .all(|id| drawn[number].contains(id.as_str()));
-        if worse[number] == 0 && whole && (one_adapter || all_adapters) {
+        if worse[number] == 0 && all_drawn && (one_adapter || all_adapters) {
             blessing.removed.push(known.clone());
         } else {
             blessing.to_narrow.push(known.clone());

@@ -204,9 +204,9 @@ mod tests {
                 "{id}: {globs:?}"
             );
         }
-        let whole = Condition::of(&drawn, &drawn);
+        let complete = Condition::of(&drawn, &drawn);
         assert_eq!(
-            (whole.text(), whole.globs("blend/f", &drawn)),
+            (complete.text(), complete.globs("blend/f", &drawn)),
             (
                 "all that were drawn: 16".to_owned(),
                 Some(vec!["blend/f/*".to_owned()])

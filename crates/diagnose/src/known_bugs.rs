@@ -4,12 +4,12 @@
 //! findings are drawn on it and reduced in the same way. A match is therefore observed, not guessed: it
 //! names a case that is reduced to the same states and the same violation on this driver, and a finding
 //! whose bug is gone matches nothing. Only cases from which a scene could derive are drawn, and a few of
-//! each finding for their likeness; each is reduced once.
+//! each finding for their similarity; each is reduced once.
 
-use crate::matching::{Beyond, Match};
+use crate::matching::{Difference, Match};
 use crate::signature::Signature;
 use crate::symptom::Symptom;
-use crate::traits::{Likeness, Traits};
+use crate::traits::{Similarity, Traits};
 use etalon_frame::Aspect;
 use etalon_record::{AdapterRecord, Expectations, Known, Record, Verdict};
 use serde_json::{Value, json};
@@ -196,7 +196,7 @@ impl<D: Driver> KnownBugs<D> {
             for number in self.may_leave(traits) {
                 let place = (number, part);
                 self.reduced(place, traits)?;
-                if self.likeness(place, verdict, traits) == Some(Likeness::Same)
+                if self.similarity(place, verdict, traits) == Some(Similarity::Same)
                     && self.is_steady(place)
                 {
                     return Ok(Some(self.matched(place, verdict, traits, None)));
@@ -218,30 +218,30 @@ impl<D: Driver> KnownBugs<D> {
         }
         let places = self.tried.keys().copied();
         let alike =
-            places.filter_map(|place| Some((place, self.likeness(place, verdict, traits)?)));
-        let mut alike: Vec<((usize, Part), Likeness)> = alike.collect();
+            places.filter_map(|place| Some((place, self.similarity(place, verdict, traits)?)));
+        let mut alike: Vec<((usize, Part), Similarity)> = alike.collect();
         // Prefers the case that shares the most with the failure.
-        alike.sort_by_key(|(place, likeness)| {
+        alike.sort_by_key(|(place, similarity)| {
             let known = self.left(*place).map(|r| &r.traits);
             let way = known.is_none_or(|k| k.way != traits.way);
             let shared = known.map_or(0, |k| k.words.shared(&traits.words));
-            (*likeness, way, Reverse(shared))
+            (*similarity, way, Reverse(shared))
         });
         // A failure that needs other scenes first was not reduced, so it has all states of its scene.
-        alike.retain(|(_, likeness)| steady || *likeness != Likeness::Elsewhere);
+        alike.retain(|(_, similarity)| steady || *similarity != Similarity::Elsewhere);
         // Some failures depend on state that earlier draws left in the driver.
         let mut alike = alike.into_iter();
         let best = alike.find(|(place, _)| !steady || self.is_steady(*place));
-        Ok(best.map(|(place, likeness)| {
-            if steady && likeness == Likeness::Same && verdict.is_violation() {
+        Ok(best.map(|(place, similarity)| {
+            if steady && similarity == Similarity::Same && verdict.is_violation() {
                 return self.matched(place, verdict, traits, None);
             }
             let known = self.left(place).map(|r| &r.traits);
-            let beyond = known.map(|k| Beyond {
+            let difference = known.map(|k| Difference {
                 states: traits.states.without(&k.states),
-                violation: (likeness == Likeness::Elsewhere).then(|| k.way.to_string()),
+                violation: (similarity == Similarity::Elsewhere).then(|| k.way.to_string()),
             });
-            self.matched(place, verdict, traits, beyond)
+            self.matched(place, verdict, traits, difference)
         }))
     }
 
@@ -250,20 +250,20 @@ impl<D: Driver> KnownBugs<D> {
         self.tried.get(&place)?.reduced.as_ref()?.as_ref()
     }
 
-    fn likeness(
+    fn similarity(
         &self,
         place: (usize, Part),
         verdict: Verdict,
         traits: &Traits,
-    ) -> Option<Likeness> {
+    ) -> Option<Similarity> {
         self.finding(place.0, verdict)?;
-        traits.likeness(&self.left(place)?.traits)
+        traits.similarity(&self.left(place)?.traits)
     }
 
     /// Returns the first finding that names a case and excuses a verdict.
     fn finding(&self, number: usize, verdict: Verdict) -> Option<&Known> {
-        let all = self.expectations.all();
-        let mut findings = self.named[number].findings.iter().map(|f| &all[*f]);
+        let entries = self.expectations.all();
+        let mut findings = self.named[number].findings.iter().map(|f| &entries[*f]);
         findings.find(|known| known.excuses(verdict))
     }
 
@@ -272,7 +272,7 @@ impl<D: Driver> KnownBugs<D> {
         place: (usize, Part),
         verdict: Verdict,
         traits: &Traits,
-        beyond: Option<Beyond>,
+        difference: Option<Difference>,
     ) -> Match {
         let known = self.finding(place.0, verdict);
         let states = self
@@ -283,7 +283,7 @@ impl<D: Driver> KnownBugs<D> {
             title: known.map(|k| k.reason.clone()).unwrap_or_default(),
             case: self.named[place.0].id.clone(),
             states: states.clone(),
-            beyond,
+            difference,
         }
     }
 

@@ -14,12 +14,12 @@ pub struct Match {
     /// The states of the reduced case.
     pub states: Signature,
     /// The difference; `None` if the failure is the same.
-    pub beyond: Option<Beyond>,
+    pub difference: Option<Difference>,
 }
 
 /// The difference between two similar failures.
 #[derive(Clone, Debug)]
-pub struct Beyond {
+pub struct Difference {
     /// The states of the failure that the reduced case lacks.
     pub states: Signature,
     /// The violation of the case, if it differs.
@@ -29,6 +29,6 @@ pub struct Beyond {
 impl Match {
     /// Returns true if the reduced case and failure have the same states, words and violation.
     pub fn is_exact(&self) -> bool {
-        self.beyond.is_none()
+        self.difference.is_none()
     }
 }

@@ -75,7 +75,7 @@ impl fmt::Display for Violation {
 
 /// The similarity of a failure to a known one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Likeness {
+pub enum Similarity {
     /// The same violation, states and words.
     Same,
     /// The known failure's violation and all its groups of states, possibly with further states.
@@ -95,7 +95,7 @@ impl Traits {
     }
 
     /// Returns how similar this failure is to a known one; `None` if it lacks a part of the known failure.
-    pub fn likeness(&self, known: &Self) -> Option<Likeness> {
+    pub fn similarity(&self, known: &Self) -> Option<Similarity> {
         // If this failure does not depend on its vertices, those of the known failure are ignored.
         let own_vertices = self.words != self.words.without_vertices();
         let as_here = |signature: &Signature| {
@@ -106,7 +106,7 @@ impl Traits {
             }
         };
         if self.way == known.way && self.words == as_here(&known.words) {
-            return Some(Likeness::Same);
+            return Some(Similarity::Same);
         }
         let mut states = as_here(&known.states).coarse();
         let several = states.without_formats().without_vertices().len() > 1;
@@ -125,9 +125,9 @@ impl Traits {
         };
         let pictures = self.aspect().is_some() && known.aspect().is_some();
         if same {
-            Some(Likeness::Alike)
+            Some(Similarity::Alike)
         } else {
-            (pictures && states.without_formats().len() > 1).then_some(Likeness::Elsewhere)
+            (pictures && states.without_formats().len() > 1).then_some(Similarity::Elsewhere)
         }
     }
 
@@ -180,9 +180,9 @@ mod tests {
         let logics = ["logic operation", "store color"];
         let xor = traits(Aspect::Color, &logics, logic("xor"));
         assert_eq!(xor.way.to_string(), "color (logic operation, store color)");
-        assert_eq!(xor.likeness(&xor), Some(Likeness::Same));
+        assert_eq!(xor.similarity(&xor), Some(Similarity::Same));
         let other = traits(Aspect::Color, &logics, logic("nor"));
-        assert_eq!(xor.likeness(&other), Some(Likeness::Alike));
+        assert_eq!(xor.similarity(&other), Some(Similarity::Alike));
     }
 
     #[test]
@@ -197,9 +197,9 @@ mod tests {
         let drawn = |points| signature(Aspect::Color, &["logic operation"], points);
         for (aspect, operation) in [(Aspect::Color, "clear"), (Aspect::Depth, "store depth")] {
             let other = |points| signature(aspect, &[operation], points);
-            assert_eq!(other(false).likeness(&drawn(false)), None);
-            let likeness = other(true).likeness(&drawn(true));
-            assert_eq!(likeness, Some(Likeness::Elsewhere));
+            assert_eq!(other(false).similarity(&drawn(false)), None);
+            let similarity = other(true).similarity(&drawn(true));
+            assert_eq!(similarity, Some(Similarity::Elsewhere));
         }
     }
 
@@ -209,8 +209,8 @@ mod tests {
         let simple = traits(Aspect::Color, &["store color"], draw.clone());
         draw["mesh"] = json!({ "kind": "vertices", "positions": [[0.5, 0.5, 0]] });
         let stored = traits(Aspect::Color, &["store color"], draw);
-        assert_eq!(simple.likeness(&stored), Some(Likeness::Same));
-        assert_eq!(stored.likeness(&simple), Some(Likeness::Alike));
+        assert_eq!(simple.similarity(&stored), Some(Similarity::Same));
+        assert_eq!(stored.similarity(&simple), Some(Similarity::Alike));
     }
 
     #[test]
@@ -219,13 +219,13 @@ mod tests {
         let mut draw = logic("nor");
         draw["cull"] = json!("back");
         let more = traits(Aspect::Color, &["stencil test", "store color"], draw);
-        assert_eq!(more.likeness(&known), Some(Likeness::Alike));
-        assert_eq!(known.likeness(&more), None);
+        assert_eq!(more.similarity(&known), Some(Similarity::Alike));
+        assert_eq!(known.similarity(&more), None);
         assert!(known.may_be_left_of(&more) && !more.may_be_left_of(&known));
         // Otherwise everything would resemble a failure without states.
         let bare = json!({ "mesh": { "kind": "full" }, "shader": "uniform_color" });
         let bare = traits(Aspect::Color, &["store color"], bare);
-        assert_eq!(more.likeness(&bare), None);
-        assert_eq!(bare.likeness(&bare), Some(Likeness::Same));
+        assert_eq!(more.similarity(&bare), None);
+        assert_eq!(bare.similarity(&bare), Some(Similarity::Same));
     }
 }

@@ -1,6 +1,6 @@
 //! Counting and listing the parts of a document.
 
-use crate::edit::{Place, place};
+use crate::edit::{Pointer, pointer};
 use serde_json::Value;
 use std::ops::Range;
 
@@ -77,11 +77,11 @@ pub(crate) fn passes_of(document: &Value) -> usize {
 }
 
 /// Returns the paths of all draws.
-pub(crate) fn draws_of(document: &Value) -> Vec<Place> {
+pub(crate) fn draws_of(document: &Value) -> Vec<Pointer> {
     let passes = list(&document["scene"], "passes").iter();
     let each = passes.enumerate().flat_map(|(p, pass)| {
         let draws = 0..list(pass, "draws").len();
-        draws.map(move |d| place!["scene", "passes", p, "draws", d])
+        draws.map(move |d| pointer!["scene", "passes", p, "draws", d])
     });
     each.collect()
 }

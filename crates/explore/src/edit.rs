@@ -11,25 +11,25 @@ pub(crate) enum Step {
     Item(usize),
 }
 
-/// The path of a value in a document.
-pub(crate) type Place = Vec<Step>;
+/// The steps from a document to one of its values.
+pub(crate) type Pointer = Vec<Step>;
 
 /// Several changes that are made together.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Edit {
-    /// New values, by path. The last step can be a new key.
-    pub(crate) replace: Vec<(Place, Value)>,
-    /// Keys and items that are removed, after all replacements. Paths refer to the document before the edit.
-    pub(crate) remove: Vec<Place>,
+    /// New values, by pointer. The last step can be a new key.
+    pub(crate) replace: Vec<(Pointer, Value)>,
+    /// Keys and items that are removed, after all replacements. Pointers refer to the document before the edit.
+    pub(crate) remove: Vec<Pointer>,
 }
 
-/// Makes a path of keys and numbers: `place!["passes", 0, "draws"]`.
-macro_rules! place {
+/// Makes a pointer from keys and numbers: `pointer!["passes", 0, "draws"]`.
+macro_rules! pointer {
     ($($step:expr),* $(,)?) => {
         vec![$($crate::edit::Step::from($step)),*]
     };
 }
-pub(crate) use place;
+pub(crate) use pointer;
 
 impl From<&str> for Step {
     fn from(key: &str) -> Self {
@@ -43,51 +43,51 @@ impl From<usize> for Step {
     }
 }
 
-/// Returns a path extended by a step.
-pub(crate) fn below(place: &[Step], step: impl Into<Step>) -> Place {
-    let mut below = place.to_vec();
+/// Returns a pointer extended by a step.
+pub(crate) fn below(pointer: &[Step], step: impl Into<Step>) -> Pointer {
+    let mut below = pointer.to_vec();
     below.push(step.into());
     below
 }
 
-/// Returns the value at a path.
-pub(crate) fn at<'v>(value: &'v Value, place: &[Step]) -> Option<&'v Value> {
-    place.iter().try_fold(value, |value, step| match step {
+/// Returns the value at a pointer.
+pub(crate) fn value_at<'v>(value: &'v Value, pointer: &[Step]) -> Option<&'v Value> {
+    pointer.iter().try_fold(value, |value, step| match step {
         Step::Key(key) => value.get(key),
         Step::Item(index) => value.get(index),
     })
 }
 
-fn at_mut<'v>(value: &'v mut Value, place: &[Step]) -> Option<&'v mut Value> {
-    place.iter().try_fold(value, |value, step| match step {
+fn value_at_mut<'v>(value: &'v mut Value, pointer: &[Step]) -> Option<&'v mut Value> {
+    pointer.iter().try_fold(value, |value, step| match step {
         Step::Key(key) => value.get_mut(key),
         Step::Item(index) => value.get_mut(index),
     })
 }
 
 impl Edit {
-    /// Returns an edit that removes the value at a path.
-    pub(crate) fn removal(place: Place) -> Self {
+    /// Returns an edit that removes the value at a pointer.
+    pub(crate) fn removal(pointer: Pointer) -> Self {
         Self {
             replace: Vec::new(),
-            remove: vec![place],
+            remove: vec![pointer],
         }
     }
 
     /// Returns an edit that replaces one value.
-    pub(crate) fn replacement(place: Place, value: impl Into<Value>) -> Self {
+    pub(crate) fn replacement(pointer: Pointer, value: impl Into<Value>) -> Self {
         Self {
-            replace: vec![(place, value.into())],
+            replace: vec![(pointer, value.into())],
             remove: Vec::new(),
         }
     }
 
-    /// Returns the edited document; `None` if a path does not exist or nothing changes.
+    /// Returns the edited document; `None` if a pointer leads nowhere or nothing changes.
     pub(crate) fn apply(&self, document: &Value) -> Option<Value> {
         let mut edited = document.clone();
-        for (place, value) in &self.replace {
-            let (last, parent) = place.split_last()?;
-            let parent = at_mut(&mut edited, parent)?;
+        for (pointer, value) in &self.replace {
+            let (last, parent) = pointer.split_last()?;
+            let parent = value_at_mut(&mut edited, parent)?;
             match (last, parent) {
                 (Step::Key(key), Value::Object(map)) => {
                     map.insert(key.clone(), value.clone());
@@ -102,9 +102,9 @@ impl Edit {
         let mut remove = self.remove.clone();
         remove.sort_unstable();
         remove.dedup();
-        for place in remove.iter().rev() {
-            let (last, parent) = place.split_last()?;
-            match (last, at_mut(&mut edited, parent)?) {
+        for pointer in remove.iter().rev() {
+            let (last, parent) = pointer.split_last()?;
+            match (last, value_at_mut(&mut edited, parent)?) {
                 (Step::Key(key), Value::Object(map)) => {
                     map.remove(key)?;
                 }
@@ -124,11 +124,11 @@ mod tests {
     use serde_json::json;
 
     #[test]
-    fn items_are_removed_by_their_places_before_the_edit() {
+    fn items_are_removed_by_their_pointers_before_the_edit() {
         let document = json!({ "a": [0, 1, 2, 3], "b": { "c": 1 } });
         let edit = Edit {
-            replace: vec![(place!["a", 3], json!(9)), (place!["b", "d"], json!(2))],
-            remove: vec![place!["a", 0], place!["a", 2], place!["b", "c"]],
+            replace: vec![(pointer!["a", 3], json!(9)), (pointer!["b", "d"], json!(2))],
+            remove: vec![pointer!["a", 0], pointer!["a", 2], pointer!["b", "c"]],
         };
         let expected = json!({ "a": [1, 9], "b": { "d": 2 } });
         assert_eq!(edit.apply(&document), Some(expected));
@@ -137,11 +137,14 @@ mod tests {
     #[test]
     fn an_edit_that_does_not_fit_or_changes_nothing_is_none() {
         let document = json!({ "a": [0] });
-        assert_eq!(Edit::removal(place!["a", 1]).apply(&document), None);
-        assert_eq!(Edit::removal(place!["b"]).apply(&document), None);
-        assert_eq!(Edit::replacement(place!["a", 0], 0).apply(&document), None);
+        assert_eq!(Edit::removal(pointer!["a", 1]).apply(&document), None);
+        assert_eq!(Edit::removal(pointer!["b"]).apply(&document), None);
         assert_eq!(
-            Edit::replacement(place!["a", "b"], 0).apply(&document),
+            Edit::replacement(pointer!["a", 0], 0).apply(&document),
+            None
+        );
+        assert_eq!(
+            Edit::replacement(pointer!["a", "b"], 0).apply(&document),
             None
         );
     }

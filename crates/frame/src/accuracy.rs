@@ -37,13 +37,13 @@ impl Accuracy {
 
     /// Adds another frame's figures of the same aspect and encoding.
     pub fn add(&mut self, other: &Self) {
-        let all = self.channels.saturating_add(other.channels);
+        let total = self.channels.saturating_add(other.channels);
         if other.channels > 0 {
-            let share = other.channels as f64 / all as f64;
+            let share = other.channels as f64 / total as f64;
             self.mean += (other.mean - self.mean) * share;
             self.max = self.max.max(other.max);
         }
-        self.channels = all;
+        self.channels = total;
     }
 }
 
@@ -66,7 +66,7 @@ struct MeasuredChannel<'a> {
 impl<'a> Distances<'a> {
     /// Returns empty sums for the images of one group, in the order of their channels.
     pub(crate) fn new(images: &[(usize, &'a ImageInfo)]) -> Self {
-        let of = |info: &'a ImageInfo| {
+        let channels_of = |info: &'a ImageInfo| {
             info.channels.iter().map(move |encoding| MeasuredChannel {
                 info,
                 encoding: *encoding,
@@ -77,7 +77,10 @@ impl<'a> Distances<'a> {
             })
         };
         Self {
-            channels: images.iter().flat_map(|(_, info)| of(info)).collect(),
+            channels: images
+                .iter()
+                .flat_map(|(_, info)| channels_of(info))
+                .collect(),
         }
     }
 
@@ -124,16 +127,17 @@ impl<'a> Distances<'a> {
     pub(crate) fn into(self, result: &mut Vec<Accuracy>) {
         for channel in self.channels {
             let aspect = channel.info.aspect;
-            let own = Accuracy {
+            let entry = Accuracy {
                 aspect,
                 encoding: Some(channel.encoding),
                 channels: channel.asserted,
                 mean: channel.sum / channel.asserted.max(1) as f64,
                 max: channel.max,
             };
-            match result.binary_search_by_key(&(aspect, own.encoding), |a| (a.aspect, a.encoding)) {
-                Ok(at) => result[at].add(&own),
-                Err(at) => result.insert(at, own),
+            match result.binary_search_by_key(&(aspect, entry.encoding), |a| (a.aspect, a.encoding))
+            {
+                Ok(index) => result[index].add(&entry),
+                Err(index) => result.insert(index, entry),
             }
         }
     }
@@ -185,31 +189,35 @@ mod tests {
     #[test]
     fn distances_are_in_codes_of_the_encoding() {
         let unorm = ChannelEncoding::Unorm(8);
-        let due = CodeInterval::new;
-        assert_eq!(distance(unorm, due(7, 7), 7), 0.0);
-        assert_eq!(distance(unorm, due(7, 7), 9), 2.0);
-        assert_eq!(distance(unorm, due(7, 8), 7), 0.5);
-        assert_eq!(distance(unorm, due(7, 8), 8), 0.5);
-        assert_eq!(distance(unorm, due(7, 9), 8), 0.0);
+        let interval = CodeInterval::new;
+        assert_eq!(distance(unorm, interval(7, 7), 7), 0.0);
+        assert_eq!(distance(unorm, interval(7, 7), 9), 2.0);
+        assert_eq!(distance(unorm, interval(7, 8), 7), 0.5);
+        assert_eq!(distance(unorm, interval(7, 8), 8), 0.5);
+        assert_eq!(distance(unorm, interval(7, 9), 8), 0.0);
         assert_eq!(
-            distance(ChannelEncoding::Snorm(8), due(-128, -128), 127),
+            distance(ChannelEncoding::Snorm(8), interval(-128, -128), 127),
             255.0
         );
 
         let float = ChannelEncoding::Float32;
-        let at = |v: f32| CodeInterval::exact(order(v));
+        let interval = |v: f32| CodeInterval::exact(order(v));
         let next = |v: f32| order(v.next_up());
-        assert_eq!(distance(float, at(1.0), next(1.0)), 1.0);
-        assert_eq!(distance(float, at(0.5), next(0.5)), 1.0);
-        assert_eq!(distance(float, at(1000.0), next(1000.0)), 1.0);
+        assert_eq!(distance(float, interval(1.0), next(1.0)), 1.0);
+        assert_eq!(distance(float, interval(0.5), next(0.5)), 1.0);
+        assert_eq!(distance(float, interval(1000.0), next(1000.0)), 1.0);
         // A value 2^-24 from zero counts as one step away, not as a billion steps.
-        assert_eq!(distance(float, at(0.0), order(2_f32.powi(-24))), 1.0);
+        assert_eq!(distance(float, interval(0.0), order(2_f32.powi(-24))), 1.0);
         assert_eq!(
-            distance(float, at(-0.25), order(0.25)),
+            distance(float, interval(-0.25), order(0.25)),
             0.5 * 2_f64.powi(24)
         );
         for far in [f32::NAN, f32::INFINITY, f32::MAX] {
-            assert_eq!(distance(float, at(1.0), order(far)), NOT_FINITE, "{far}");
+            assert_eq!(
+                distance(float, interval(1.0), order(far)),
+                NOT_FINITE,
+                "{far}"
+            );
         }
         let half = ChannelEncoding::Float16;
         assert_eq!(distance(half, CodeInterval::exact(0x3c00), 0x3c01), 1.0);
@@ -276,7 +284,7 @@ mod tests {
         for (i, encoding) in encodings.into_iter().enumerate() {
             let info = image("color", i, encoding);
             let mut distances = Distances::new(&[(i, &info)]);
-            let due = TexelSet {
+            let allowed = TexelSet {
                 worlds: vec![WorldBox {
                     channels: [CodeInterval::exact(encoding.order_of_code(0))]
                         .into_iter()
@@ -284,15 +292,15 @@ mod tests {
                 }],
             };
             distances.add(
-                &due,
+                &allowed,
                 &[encoding.order_of_code(if i == 0 { 0x3f80_0000 } else { 2 })],
                 1,
             );
             distances.into(&mut result);
         }
-        let told: Vec<_> = result.iter().map(|a| (a.encoding, a.max)).collect();
+        let found: Vec<_> = result.iter().map(|a| (a.encoding, a.max)).collect();
         assert_eq!(
-            told,
+            found,
             [
                 (Some(ChannelEncoding::Unorm(8)), 2.0),
                 (Some(ChannelEncoding::Float32), 2_f64.powi(24))
@@ -309,18 +317,18 @@ mod tests {
 
     #[test]
     fn figures_add_up_by_their_channels() {
-        let of = |channels, mean, max| Accuracy {
+        let accuracy = |channels, mean, max| Accuracy {
             aspect: Aspect::Depth,
             encoding: None,
             channels,
             mean,
             max,
         };
-        let mut sum = of(0, 0.0, 0.0);
-        sum.add(&of(0, 0.0, 0.0));
-        assert_eq!(sum, of(0, 0.0, 0.0));
-        sum.add(&of(30, 1.0, 2.0));
-        sum.add(&of(10, 5.0, 9.0));
-        assert_eq!(sum, of(40, 2.0, 9.0));
+        let mut sum = accuracy(0, 0.0, 0.0);
+        sum.add(&accuracy(0, 0.0, 0.0));
+        assert_eq!(sum, accuracy(0, 0.0, 0.0));
+        sum.add(&accuracy(30, 1.0, 2.0));
+        sum.add(&accuracy(10, 5.0, 9.0));
+        assert_eq!(sum, accuracy(40, 2.0, 9.0));
     }
 }

@@ -11,8 +11,8 @@ pub(crate) fn serialize<S: Serializer>(codes: &[u32], to: S) -> Result<S::Ok, S:
     if to.is_human_readable() {
         return codes.serialize(to);
     }
-    let all = codes.iter().fold(0, |all, code| all | code);
-    let width = match all {
+    let bits = codes.iter().fold(0, |bits, code| bits | code);
+    let width = match bits {
         0..=0xff => 1,
         0x100..=0xffff => 2,
         _ => 4,

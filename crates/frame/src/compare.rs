@@ -109,30 +109,30 @@ pub fn compare(
             .filter(|(_, i)| i.group == g)
             .collect();
         let ideal = &yardstick.groups[g];
-        let codes = |(i, info): &(usize, &ImageInfo), at: usize| {
+        let codes = |(i, info): &(usize, &ImageInfo), index: usize| {
             let n = info.channels.len();
-            &frame.images[*i].codes[at * n..(at + 1) * n]
+            &frame.images[*i].codes[index * n..(index + 1) * n]
         };
         // Compares code by code: a sample has too few codes for a call of `memcmp` to pay off.
-        let same = |at: usize| {
+        let same = |index: usize| {
             images.iter().all(|i| {
-                let mut both = codes(i, at).iter().zip(codes(i, at - 1));
+                let mut both = codes(i, index).iter().zip(codes(i, index - 1));
                 both.all(|(a, b)| a == b)
             })
         };
         let mut distances = Distances::new(&images);
-        let mut at = 0;
+        let mut start = 0;
         let (mut sets, mut ideals) = (group.runs().peekable(), ideal.runs().peekable());
         while let (Some((end, allowed)), Some((ideal_end, tight))) =
             (sets.peek().copied(), ideals.peek().copied())
         {
             // Most samples equal the previous one, both in their codes and in their legal set.
             let most = end.min(ideal_end);
-            let next = (at + 1..most).find(|next| !same(*next)).unwrap_or(most);
-            let run = at..next;
+            let next = (start + 1..most).find(|next| !same(*next)).unwrap_or(most);
+            let run = start..next;
             orders.clear();
             for image in &images {
-                let channels = codes(image, at).iter().zip(&image.1.channels);
+                let channels = codes(image, start).iter().zip(&image.1.channels);
                 orders.extend(channels.map(|(code, e)| e.order_of_code(*code)));
             }
             let times = run.len() as u64;
@@ -141,8 +141,8 @@ pub fn compare(
             if allowed.is_open() {
                 result.texels.open += times;
             }
-            let describe = |band, set: &TexelSet, at: usize| {
-                let [x, y, sample] = group.position(at);
+            let describe = |band, set: &TexelSet, index: usize| {
+                let [x, y, sample] = group.position(index);
                 WrongTexel {
                     x,
                     y,
@@ -155,17 +155,17 @@ pub fn compare(
                 result.texels.wrong += times;
                 let left = keep - result.wrong.len();
                 let first = run.clone().take(left);
-                let wrong = first.map(|at| describe(Band::Fail, allowed, at));
+                let wrong = first.map(|index| describe(Band::Fail, allowed, index));
                 result.wrong.extend(wrong);
             } else if !tight.allows(&orders) {
                 result.texels.imprecise += times;
                 let left = keep - imprecise.len();
                 let first = run.clone().take(left);
-                imprecise.extend(first.map(|at| describe(Band::Imprecise, tight, at)));
+                imprecise.extend(first.map(|index| describe(Band::Imprecise, tight, index)));
             }
-            at = next;
-            sets.next_if(|(end, _)| *end <= at);
-            ideals.next_if(|(end, _)| *end <= at);
+            start = next;
+            sets.next_if(|(end, _)| *end <= start);
+            ideals.next_if(|(end, _)| *end <= start);
         }
         distances.into(&mut result.accuracy);
     }
@@ -263,9 +263,9 @@ fn mismatches(
     let mut result = Vec::new();
     for (_, info) in images {
         for (channel, encoding) in info.channels.iter().enumerate() {
-            let at = info.first_channel + channel;
-            let interval = world.channels[at];
-            if !interval.contains(orders[at]) {
+            let position = info.first_channel + channel;
+            let interval = world.channels[position];
+            if !interval.contains(orders[position]) {
                 result.push(ChannelMismatch {
                     attachment: info.attachment.clone(),
                     aspect: info.aspect,
@@ -273,7 +273,7 @@ fn mismatches(
                     encoding: *encoding,
                     low: encoding.code_of_order(interval.low),
                     high: encoding.code_of_order(interval.high),
-                    actual: encoding.code_of_order(orders[at]),
+                    actual: encoding.code_of_order(orders[position]),
                 });
             }
         }

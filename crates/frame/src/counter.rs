@@ -44,11 +44,11 @@ impl CountRange {
 
     /// Returns true if every count of this kind is legal, so that nothing is asserted.
     pub fn is_open(self, kind: CounterKind) -> bool {
-        let all = match kind {
+        let unbounded = match kind {
             CounterKind::AnySamplesPassed => self.high.is_none_or(|high| high >= 1),
             _ => self.high.is_none(),
         };
-        self.low == 0 && all
+        self.low == 0 && unbounded
     }
 
     /// Returns true if exactly one count is legal.

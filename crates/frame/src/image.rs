@@ -45,10 +45,10 @@ impl Image {
     /// Returns the codes of one sample, one per channel. The position must be inside the image.
     pub fn sample(&self, x: u32, y: u32, sample: u32) -> &[u32] {
         let n = self.channels.len();
-        let at = ((y as usize * self.size[0] as usize + x as usize) * self.samples as usize
+        let start = ((y as usize * self.size[0] as usize + x as usize) * self.samples as usize
             + sample as usize)
             * n;
-        &self.codes[at..at + n]
+        &self.codes[start..start + n]
     }
 }
 

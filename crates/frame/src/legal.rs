@@ -189,9 +189,9 @@ struct SampleRun {
 impl SampleGroup {
     /// Returns the legal values of one sample. The position must be inside the group's size.
     pub fn sample(&self, x: u32, y: u32, sample: u32) -> &TexelSet {
-        let at = (y as usize * self.size[0] as usize + x as usize) * self.samples as usize
+        let index = (y as usize * self.size[0] as usize + x as usize) * self.samples as usize
             + sample as usize;
-        let run = self.runs.partition_point(|run| run.end <= at);
+        let run = self.runs.partition_point(|run| run.end <= index);
         &self.palette[self.runs[run].set as usize]
     }
 
@@ -208,11 +208,11 @@ impl SampleGroup {
     }
 
     /// Returns the column, the row and the sample within the texel of a sample, by its index.
-    pub(crate) fn position(&self, at: usize) -> [u32; 3] {
-        let texel = at / self.samples as usize;
+    pub(crate) fn position(&self, index: usize) -> [u32; 3] {
+        let texel = index / self.samples as usize;
         let width = self.size[0] as usize;
         // Each part fits, since the index was made from unsigned 32-bit numbers.
-        [texel % width, texel / width, at % self.samples as usize].map(|n| n as u32)
+        [texel % width, texel / width, index % self.samples as usize].map(|n| n as u32)
     }
 
     /// Returns the distinct sets, each with the number of samples that have it.
@@ -277,10 +277,10 @@ impl LegalSet {
             let mut sum = AspectStatistics::default();
             for (set, times) in group.distinct() {
                 for (i, encoding) in image.channels.iter().enumerate() {
-                    let all = CodeInterval::new(encoding.min_order(), encoding.max_order());
+                    let range = CodeInterval::new(encoding.min_order(), encoding.max_order());
                     let codes = set.count(image.first_channel + i);
                     sum.channels += times;
-                    if !set.is_open() && codes < all.count() {
+                    if !set.is_open() && codes < range.count() {
                         sum.asserted += times;
                         sum.codes = sum.codes.saturating_add(codes.saturating_mul(times));
                         sum.exact += if codes == 1 { times } else { 0 };
@@ -461,9 +461,9 @@ mod tests {
         }
         let group = &builder.build().groups[0];
         let low = |x, y, sample| group.sample(x, y, sample).worlds[0].channels[0].low;
-        let all = (0..12).map(|at| group.position(at));
-        let all: Vec<i64> = all.map(|[x, y, sample]| low(x, y, sample)).collect();
-        assert_eq!(all, [0, 0, 0, 7, 7, 7, 7, 0, 7, 7, 7, 7]);
+        let positions = (0..12).map(|index| group.position(index));
+        let values: Vec<i64> = positions.map(|[x, y, sample]| low(x, y, sample)).collect();
+        assert_eq!(values, [0, 0, 0, 7, 7, 7, 7, 0, 7, 7, 7, 7]);
         assert_eq!(group.runs().count(), 4);
         let times: Vec<u64> = group.distinct().iter().map(|(_, times)| *times).collect();
         assert_eq!(times, [4, 8]);
@@ -474,8 +474,8 @@ mod tests {
         let mut builder = LegalSetBuilder::default();
         let unorm = ChannelEncoding::Unorm(8);
         builder.image("c", Aspect::Color, [2, 1], 1, &[unorm], ReadPath::Copy);
-        for one in [set(&[&[(0, 255)]]), set(&[&[(7, 8)]])] {
-            let number = builder.set(0, one);
+        for allowed in [set(&[&[(0, 255)]]), set(&[&[(7, 8)]])] {
+            let number = builder.set(0, allowed);
             builder.samples(0, number, 1);
         }
         let (_, figures) = builder.build().statistics()[0];

@@ -131,7 +131,7 @@ impl Limits {
     /// encoding: a format with an unknown encoding has the same one for a whole frame, never one per texel.
     /// Two formats can differ in their choice.
     pub fn alternatives(&self, formats: &[TextureFormat]) -> Vec<Self> {
-        let mut all = vec![self.clone()];
+        let mut variants = vec![self.clone()];
         for format in formats {
             let Some(support) = self.formats.get(format) else {
                 continue;
@@ -139,19 +139,19 @@ impl Limits {
             if support.depth.len() < 2 {
                 continue;
             }
-            all = all
+            variants = variants
                 .iter()
                 .flat_map(|limits| {
                     support.depth.iter().map(|encoding| {
-                        let mut one = limits.clone();
-                        if let Some(entry) = one.formats.get_mut(format) {
+                        let mut variant = limits.clone();
+                        if let Some(entry) = variant.formats.get_mut(format) {
                             entry.depth = vec![*encoding];
                         }
-                        one
+                        variant
                     })
                 })
                 .collect();
         }
-        all
+        variants
     }
 }

@@ -271,9 +271,9 @@ mod tests {
 
     #[test]
     fn values_are_told_apart() {
-        let all = PathValue::all();
-        let names: BTreeSet<_> = all.iter().map(PathValue::to_string).collect();
-        assert_eq!(names.len(), all.len());
+        let values = PathValue::all();
+        let names: BTreeSet<_> = values.iter().map(PathValue::to_string).collect();
+        assert_eq!(names.len(), values.len());
         assert!(names.contains("start=load-operation"));
         assert!(!names.contains("start=transfer"));
     }

@@ -95,7 +95,7 @@ impl Reading<'_> {
         }
         let (color, depth_stencil) = match &surfaces[..] {
             [surface] if !source.format.is_color() => (Vec::new(), Some(surface)),
-            all => (all.iter().map(Some).collect(), None),
+            colors => (colors.iter().map(Some).collect(), None),
         };
         let target = self.pool.target(context, &color, depth_stencil, false)?;
         state::reset(context);

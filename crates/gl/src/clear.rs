@@ -73,15 +73,15 @@ impl ClearCall {
             } => Some((location, (value, write_mask))),
             ClearTarget::DepthStencil { .. } => None,
         };
-        let all = || self.targets.iter().chain(&other.targets);
-        let colors = || all().filter_map(color);
+        let targets = || self.targets.iter().chain(&other.targets);
+        let colors = || targets().filter_map(color);
         let mut locations: Vec<usize> = colors().map(|(location, _)| location).collect();
         locations.sort_unstable();
         locations.dedup();
         self.way == PathClears::Together
             && self.rect == other.rect
             && locations.len() == colors().count()
-            && all().count() - colors().count() <= 1
+            && targets().count() - colors().count() <= 1
             && colors().all(|(_, how)| colors().all(|(_, first)| first == how))
             && colors().all(|(location, _)| self.integers.get(location) == Some(&false))
     }
@@ -170,16 +170,16 @@ impl ClearCall {
                     }
                 }
             }
-            let all: Vec<u32> = (glow::COLOR_ATTACHMENT0..)
+            let every_buffer: Vec<u32> = (glow::COLOR_ATTACHMENT0..)
                 .take(self.integers.len())
                 .collect();
-            let some = mask & glow::COLOR_BUFFER_BIT != 0 && buffers != all;
+            let some = mask & glow::COLOR_BUFFER_BIT != 0 && buffers != every_buffer;
             if some {
                 gl.draw_buffers(&buffers);
             }
             gl.clear(mask);
             if some {
-                gl.draw_buffers(&all);
+                gl.draw_buffers(&every_buffer);
             }
         }
     }

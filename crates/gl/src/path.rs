@@ -377,21 +377,21 @@ mod tests {
             vertices: Vec::new(),
             indices: None,
         };
-        let own = Draw::new(Shader::FlatColor, mesh, Viewport::whole([8, 8]));
-        let other = other(&own);
-        assert_ne!(other.cull, own.cull);
-        assert_ne!(other.front_face, own.front_face);
-        assert_ne!(other.rasterizer_discard, own.rasterizer_discard);
-        assert_ne!(other.viewport, own.viewport);
-        assert_ne!(other.scissor, own.scissor);
-        assert_ne!(other.depth_bias, own.depth_bias);
-        assert_ne!(other.depth_clamp, own.depth_clamp);
-        assert_ne!(other.depth_bounds, own.depth_bounds);
-        assert_ne!(other.depth, own.depth);
-        assert_ne!(other.stencil, own.stencil);
-        assert_ne!(other.logic, own.logic);
-        assert_ne!(other.blend_constant, own.blend_constant);
-        assert_ne!(other.multisample, own.multisample);
-        assert_eq!(other.mesh, own.mesh);
+        let draw = Draw::new(Shader::FlatColor, mesh, Viewport::whole([8, 8]));
+        let other = other(&draw);
+        assert_ne!(other.cull, draw.cull);
+        assert_ne!(other.front_face, draw.front_face);
+        assert_ne!(other.rasterizer_discard, draw.rasterizer_discard);
+        assert_ne!(other.viewport, draw.viewport);
+        assert_ne!(other.scissor, draw.scissor);
+        assert_ne!(other.depth_bias, draw.depth_bias);
+        assert_ne!(other.depth_clamp, draw.depth_clamp);
+        assert_ne!(other.depth_bounds, draw.depth_bounds);
+        assert_ne!(other.depth, draw.depth);
+        assert_ne!(other.stencil, draw.stencil);
+        assert_ne!(other.logic, draw.logic);
+        assert_ne!(other.blend_constant, draw.blend_constant);
+        assert_ne!(other.multisample, draw.multisample);
+        assert_eq!(other.mesh, draw.mesh);
     }
 }

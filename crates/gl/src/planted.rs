@@ -239,17 +239,17 @@ functions! {
     before glColorMask(r: u8, g: u8, b: u8, a: u8) |planted| {}
     before glDrawBuffers(count: i32, buffers: *const u32) |planted| {
         // SAFETY: there are `count` buffers.
-        let mut all = unsafe { slice::from_raw_parts(buffers, count as usize) }.to_vec();
+        let mut changed = unsafe { slice::from_raw_parts(buffers, count as usize) }.to_vec();
         if planted.calls.has(CallFault::ClearAllBuffers) && count > 1 {
-            for (buffer, point) in all.iter_mut().zip(glow::COLOR_ATTACHMENT0..) {
+            for (buffer, point) in changed.iter_mut().zip(glow::COLOR_ATTACHMENT0..) {
                 *buffer = point;
             }
-            buffers = all.as_ptr();
+            buffers = changed.as_ptr();
         }
         if planted.calls.has(CallFault::GapEnds) {
-            let behind = all.iter_mut().skip_while(|buffer| **buffer != glow::NONE);
+            let behind = changed.iter_mut().skip_while(|buffer| **buffer != glow::NONE);
             behind.for_each(|buffer| *buffer = glow::NONE);
-            buffers = all.as_ptr();
+            buffers = changed.as_ptr();
         }
     }
     before glInvalidateFramebuffer(target: u32, count: i32, points: *const u32) |planted| {

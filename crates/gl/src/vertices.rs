@@ -156,13 +156,13 @@ impl Geometry {
         let colors = (!call.colors.is_empty()).then_some(self.vertices.len() as i32);
         self.vertices.extend_from_slice(call.color_bytes());
         // The next draw's vertices must start at a multiple of the vertex size.
-        let whole = self.vertices.len().next_multiple_of(size_of::<Vertex>());
-        self.vertices.resize(whole, 0);
+        let padded = self.vertices.len().next_multiple_of(size_of::<Vertex>());
+        self.vertices.resize(padded, 0);
         let indices = call.indices.as_ref().map(|_| {
             let place = self.indices.len();
             self.indices.extend(call.index_bytes());
-            let whole = self.indices.len().next_multiple_of(size_of::<u32>());
-            self.indices.resize(whole, 0);
+            let padded = self.indices.len().next_multiple_of(size_of::<u32>());
+            self.indices.resize(padded, 0);
             let (kind, size) = match call.index {
                 IndexFormat::Uint16 => (glow::UNSIGNED_SHORT, size_of::<u16>()),
                 IndexFormat::Uint32 => (glow::UNSIGNED_INT, size_of::<u32>()),
@@ -318,10 +318,10 @@ impl Own {
             };
             state::set_restart_of(context, kind, self.restarts);
             let start = std::ptr::without_provenance(offset as usize);
-            let whole = entry_points.draw_elements_instanced_base_vertex_base_instance;
+            let full = entry_points.draw_elements_instanced_base_vertex_base_instance;
             let moved = entry_points.draw_elements_base_vertex;
             let moved_instances = entry_points.draw_elements_instanced_base_vertex;
-            match (whole, moved, moved_instances) {
+            match (full, moved, moved_instances) {
                 _ if let Some(arguments) = arguments => {
                     arguments.draw(context, mode, Some(kind));
                 }

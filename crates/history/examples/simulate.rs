@@ -110,8 +110,8 @@ impl Matrix {
         matrix
     }
 
-    fn chance(&mut self, of: f64) -> bool {
-        self.random.rand_float() < of
+    fn chance(&mut self, probability: f64) -> bool {
+        self.random.rand_float() < probability
     }
 
     /// Adds cases.
@@ -156,8 +156,8 @@ impl Matrix {
 
     /// An outcome as full runs have them: most pass, a tenth is not supported, one in a hundred is known to fail.
     fn outcome(&mut self, case: usize) -> Outcome {
-        let at = self.random.rand_float();
-        let verdict = match at {
+        let roll = self.random.rand_float();
+        let verdict = match roll {
             _ if case % TIMED == 1 => Verdict::Measured,
             x if x < 0.10 => Verdict::NotSupported,
             x if x < 0.18 => Verdict::Imprecise,
@@ -215,8 +215,8 @@ impl Matrix {
             // The suite keeps its size: as many cases go as come.
             let turn = settings.cases / 400;
             for _ in 0..turn {
-                let at = self.random.rand_range(0..self.cases.len() as u64) as usize;
-                let gone = self.cases.iter().nth(at).copied().unwrap();
+                let index = self.random.rand_range(0..self.cases.len() as u64) as usize;
+                let gone = self.cases.iter().nth(index).copied().unwrap();
                 self.cases.remove(&gone);
             }
             self.grow(turn);
@@ -328,13 +328,13 @@ fn times(seconds: f64, random: &mut Rand64) -> FrameTimes {
 }
 
 /// Median and longest of some durations, in milliseconds.
-fn spread(mut all: Vec<Duration>) -> String {
-    all.sort_unstable();
+fn spread(mut durations: Vec<Duration>) -> String {
+    durations.sort_unstable();
     let ms = |d: Option<&Duration>| d.map_or(0.0, |d| d.as_secs_f64() * 1e3);
     format!(
         "median {:.2} ms, longest {:.2} ms",
-        ms(all.get(all.len() / 2)),
-        ms(all.last())
+        ms(durations.get(durations.len() / 2)),
+        ms(durations.last())
     )
 }
 
@@ -393,17 +393,17 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("opening: {:.2} ms", took.as_secs_f64() * 1e3);
     let mut random = Rand64::new(7);
     let timelines = history.timelines();
-    let (mut all, mut one, mut opened) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut on_all, mut on_one, mut opened) = (Vec::new(), Vec::new(), Vec::new());
     let mut points = 0;
     for _ in 0..100 {
         let case = &matrix.names[random.rand_range(0..matrix.names.len() as u64) as usize];
         let timeline = &timelines[random.rand_range(0..timelines.len() as u64) as usize];
         let (found, took) = timed(|| history.case_history(case, None));
         points += found?.iter().map(|h| h.points.len()).sum::<usize>();
-        all.push(took);
+        on_all.push(took);
         let (found, took) = timed(|| history.case_history(case, Some(timeline)));
         found?;
-        one.push(took);
+        on_one.push(took);
     }
     for _ in 0..10 {
         let case = &matrix.names[random.rand_range(0..matrix.names.len() as u64) as usize];
@@ -411,18 +411,18 @@ fn main() -> Result<(), Box<dyn Error>> {
         found?;
         opened.push(took);
     }
-    println!("one case on one adapter: {}", spread(one));
+    println!("one case on one adapter: {}", spread(on_one));
     println!(
         "one case on all adapters, {} points: {}",
         points / 100,
-        spread(all)
+        spread(on_all)
     );
     println!("the same with opening: {}", spread(opened));
     let mut compared = Vec::new();
     for _ in 0..50 {
         let mut any = || {
-            let at = random.rand_range(0..history.runs().len() as u64) as usize;
-            history.runs()[at].id
+            let index = random.rand_range(0..history.runs().len() as u64) as usize;
+            history.runs()[index].id
         };
         let (before, after) = (any(), any());
         let (found, took) = timed(|| History::open_read(&path)?.compare(before, after));

@@ -21,7 +21,7 @@ pub struct Adapter {
     pub api_version: String,
     /// True if the device is known to be a software renderer.
     pub software: bool,
-    /// The line of the driver, or empty.
+    /// The line: one driver over its releases, such as `swiftshader`; empty if unknown.
     pub line: String,
     /// The version within the line, or empty.
     pub version: String,

@@ -82,14 +82,14 @@ impl History {
                 let message = format!("run {} has no row of case {case}", part.run);
                 return Err(HistoryError::damaged(self.path(), message));
             };
-            let at = *places.entry(&part.timeline).or_insert_with(|| {
+            let index = *places.entry(&part.timeline).or_insert_with(|| {
                 found.push(CaseHistory {
                     timeline: Rc::clone(&part.timeline),
                     points: Vec::new(),
                 });
                 found.len() - 1
             });
-            found[at].points.push(Point {
+            found[index].points.push(Point {
                 run: part.run,
                 outcome,
                 place,

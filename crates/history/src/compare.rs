@@ -139,9 +139,9 @@ impl History {
             })?;
         }
         let (old, new) = (self.adapters(before), self.adapters(after));
-        let without = |all: &[AdapterRun], others: &[AdapterRun]| -> Vec<Rc<str>> {
+        let without = |runs: &[AdapterRun], others: &[AdapterRun]| -> Vec<Rc<str>> {
             let is_alone = |a: &&AdapterRun| others.iter().all(|o| o.timeline != a.timeline);
-            let alone = all.iter().filter(is_alone);
+            let alone = runs.iter().filter(is_alone);
             alone.map(|a| Rc::clone(&a.timeline)).collect()
         };
         let mut adapters = Vec::new();

@@ -44,12 +44,12 @@ impl<R: Read> Read for Digesting<R> {
 
 /// Returns a digest of several parts. Parts that are split differently have different digests.
 pub(crate) fn of_parts(parts: &[&[u8]]) -> [u8; 32] {
-    let mut whole = Sha256::new();
+    let mut digest = Sha256::new();
     for part in parts {
-        whole.update((part.len() as u64).to_le_bytes());
-        whole.update(part);
+        digest.update((part.len() as u64).to_le_bytes());
+        digest.update(part);
     }
-    whole.finalize().into()
+    digest.finalize().into()
 }
 
 /// Returns the first half of a digest, which identifies equal contents.
@@ -73,12 +73,12 @@ mod tests {
             assert_eq!(bytes, text.as_bytes());
             reader.digests()
         };
-        let (whole, first) = digests("header\none\n");
+        let (complete, first) = digests("header\none\n");
         let (longer, same) = digests("header\none\ntwo\n");
-        assert_ne!(whole, longer);
+        assert_ne!(complete, longer);
         assert_eq!(first, same);
         assert_eq!(first, <[u8; 32]>::from(Sha256::digest(b"header")));
-        assert_eq!(whole, <[u8; 32]>::from(Sha256::digest(b"header\none\n")));
+        assert_eq!(complete, <[u8; 32]>::from(Sha256::digest(b"header\none\n")));
     }
 
     #[test]

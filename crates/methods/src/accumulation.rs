@@ -123,8 +123,8 @@ pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
     let back = rows();
     let front = columns(alpha);
     let mut draws = vec![stage::draw(Shader::FlatColor, polygon::mesh(SIZE, &back))];
-    let all: Vec<Polygon> = (0..layers).flat_map(|_| front.iter().cloned()).collect();
-    let mut layered = stage::draw(Shader::FlatColor, polygon::mesh(SIZE, &all));
+    let polygons: Vec<Polygon> = (0..layers).flat_map(|_| front.iter().cloned()).collect();
+    let mut layered = stage::draw(Shader::FlatColor, polygon::mesh(SIZE, &polygons));
     layered.targets[0].blend = stage::over();
     draws.push(layered);
     stage.pass(&[picture], None, draws);

@@ -294,7 +294,7 @@ fn torus(segments: u32) -> Vec<Face> {
         let radius = 1.0 + 0.45 * out;
         DVec3::new(radius * cos, radius * sin, 0.45 * up)
     };
-    let mut all = Vec::new();
+    let mut faces = Vec::new();
     for (i, j) in (0..around).flat_map(|i| (0..across.max(3)).map(move |j| (i, j))) {
         let [a, b] = [point(i, j), point(i + 1, j)];
         let [c, d] = [point(i + 1, j + 1), point(i, j + 1)];
@@ -303,10 +303,10 @@ fn torus(segments: u32) -> Vec<Face> {
             _ => [0.4, 0.65, 0.9, 1.0],
         };
         for corners in [vec![a, b, c], vec![a, c, d]] {
-            all.push(Face { corners, color }.lit());
+            faces.push(Face { corners, color }.lit());
         }
     }
-    all
+    faces
 }
 
 fn field(method: MethodName, objects: u32) -> Result<Shown, ParameterError> {

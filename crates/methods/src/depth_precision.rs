@@ -129,7 +129,7 @@ const WRONG: [f64; 4] = [0.85, 0.15, 0.2, 1.0];
 
 fn planes(gap: f64) -> Vec<Quad> {
     let distances = [2.0, 5.0, 12.0, 30.0, 70.0, 160.0, 380.0, 900.0];
-    let mut all = Vec::new();
+    let mut quads = Vec::new();
     for (i, distance) in distances.into_iter().enumerate() {
         let left = 16.0 * i as f64;
         // A plane beyond the far plane would be invisible.
@@ -139,11 +139,11 @@ fn planes(gap: f64) -> Vec<Quad> {
             let near = Quad::new(area, [distance; 2], RIGHT);
             [near, Quad::new(area, [behind; 2], WRONG)]
         };
-        all.extend(pair(0.0));
+        quads.extend(pair(0.0));
         let [near, far] = pair(64.0);
-        all.extend([far, near]);
+        quads.extend([far, near]);
     }
-    all
+    quads
 }
 
 /// The distances at the top and at the bottom of a plane that leads away.
@@ -157,19 +157,19 @@ fn slanted(gap: f64) -> Vec<Quad> {
         [above, Quad::new(area, LEADING, WRONG)]
     };
     let [above, below] = pair(64.0);
-    let mut all = pair(0.0).to_vec();
-    all.extend([below, above]);
-    all
+    let mut quads = pair(0.0).to_vec();
+    quads.extend([below, above]);
+    quads
 }
 
 fn decal(gap: f64) -> Vec<Quad> {
     // The distance of the plane at a row. Its inverse is linear in the row.
-    let at = |row: f64| {
+    let distance_at = |row: f64| {
         let [top, bottom] = LEADING.map(f64::recip);
         (top + (bottom - top) * row / 128.0).recip()
     };
     let on_plane = |[left, top, right, bottom]: [f64; 4], lift: f64, color: [f64; 4]| {
-        let distances = [top, bottom].map(|row| at(row) * (1.0 - lift));
+        let distances = [top, bottom].map(|row| distance_at(row) * (1.0 - lift));
         Quad::new([left, top, right, bottom], distances, color)
     };
     let plane = on_plane([0.0, 0.0, 128.0, 128.0], 0.0, [0.55, 0.5, 0.45, 1.0]);
@@ -177,7 +177,7 @@ fn decal(gap: f64) -> Vec<Quad> {
     let mut decal = plane;
     // The decal is turned, so that it shares no edge with the plane and its rounding differs.
     decal.corners = [[30.0, 10.0], [18.0, 100.0], [98.0, 118.0], [110.0, 28.0]]
-        .map(|[x, y]| [x, y, at(y).recip()]);
+        .map(|[x, y]| [x, y, distance_at(y).recip()]);
     decal.color = [0.9, 0.8, 0.2, 1.0];
     decal.is_decal = true;
     vec![lid, plane, decal]

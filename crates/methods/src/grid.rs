@@ -74,8 +74,8 @@ fn untie(size: [u32; 2], points: &mut [[i64; 2]], edges: &[[usize; 2]]) {
             }
             tied = true;
             let free = |index: usize, axis: usize| {
-                let at = points[index][axis];
-                at != 0 && at != ends[axis]
+                let coordinate = points[index][axis];
+                coordinate != 0 && coordinate != ends[axis]
             };
             // Alternates between ends and axes, because otherwise two edges could push a point to and fro.
             let ways = [(a, 0), (b, 1), (a, 1), (b, 0)];
@@ -83,11 +83,11 @@ fn untie(size: [u32; 2], points: &mut [[i64; 2]], edges: &[[usize; 2]]) {
             let way = (0..4).map(|k| ways[(turn + k) % 4]);
             if let Some((index, axis)) = way.into_iter().find(|(index, axis)| free(*index, *axis)) {
                 let step = if (turn / 4).is_multiple_of(2) { 1 } else { -1 };
-                let at = points[index][axis] + step;
-                points[index][axis] = if at == ends[axis] || at == 0 {
-                    at - 2 * step
+                let moved = points[index][axis] + step;
+                points[index][axis] = if moved == ends[axis] || moved == 0 {
+                    moved - 2 * step
                 } else {
-                    at
+                    moved
                 };
             }
         }
@@ -112,16 +112,16 @@ fn touches_centre(size: [u32; 2], a: [i64; 2], b: [i64; 2]) -> bool {
         return is_centre(a[0]) && is_centre(a[1]) && within(a[0], 0) && within(a[1], 1);
     }
     let first = from[long] + (half - from[long]).rem_euclid(step);
-    let mut at = first.max(half);
-    while at <= to[long] && within(at, long) {
-        let run = (to[short] - from[short]) * (at - from[long]);
+    let mut center = first.max(half);
+    while center <= to[long] && within(center, long) {
+        let run = (to[short] - from[short]) * (center - from[long]);
         if run % length == 0 {
             let other = from[short] + run / length;
             if is_centre(other) && within(other, short) {
                 return true;
             }
         }
-        at += step;
+        center += step;
     }
     false
 }

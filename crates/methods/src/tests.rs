@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
 /// Questions, scenes and methods, with a parameter inside its range.
-fn all() -> Vec<Value> {
+fn every_wire() -> Vec<Value> {
     let depth = [
         "depth16",
         "depth24",
@@ -102,20 +102,20 @@ fn all() -> Vec<Value> {
         ("depth-shown", "pictures", &["dissolve"], json!({"t": 0.3})),
         ("texture-sampling", "ground", &sampling, json!({"tiles": 1})),
     ];
-    let mut all = Vec::new();
+    let mut wires = Vec::new();
     for (question, scene, methods, parameters) in families {
         for method in methods {
             let mut wire = parameters.clone();
             wire["question"] = question.into();
             wire["scene"] = scene.into();
             wire["method"] = (*method).into();
-            all.push(wire);
+            wires.push(wire);
         }
     }
     for method in ["outline-merged", "outline-separate"] {
-        all.push(json!({"question": "stencil-effects", "scene": "outlines", "method": method, "width": 3}));
+        wires.push(json!({"question": "stencil-effects", "scene": "outlines", "method": method, "width": 3}));
     }
-    all
+    wires
 }
 
 fn try_make(wire: &Value) -> Result<MethodScene, ParameterError> {
@@ -126,13 +126,13 @@ fn try_make(wire: &Value) -> Result<MethodScene, ParameterError> {
 fn made(wire: &Value) -> MethodScene {
     match try_make(wire) {
         Ok(made) => made,
-        Err(at) => panic!("{wire}: {}", at.message),
+        Err(error) => panic!("{wire}: {}", error.message),
     }
 }
 
 #[test]
 fn every_method_draws_every_scene() {
-    for wire in all() {
+    for wire in every_wire() {
         let MethodScene { scene, truth } = made(&wire);
         let picture = &scene.attachments[scene.read[0]];
         assert_eq!(picture.size, truth.size, "{wire}");
@@ -160,9 +160,9 @@ fn every_method_draws_every_scene() {
 
 #[test]
 fn methods_share_the_truth_unless_they_answer_other_questions() {
-    let all = all();
-    for a in &all {
-        for b in all
+    let wires = every_wire();
+    for a in &wires {
+        for b in wires
             .iter()
             .filter(|b| b["scene"] == a["scene"] && b["question"] == a["question"])
         {
@@ -191,7 +191,7 @@ fn parameters_out_of_range_are_refused_by_name() {
         ("tiles", json!(0.1), json!(5)),
     ];
     let mut refused = BTreeSet::new();
-    for wire in all() {
+    for wire in every_wire() {
         for (key, low, high) in &ends {
             if wire.get(*key).is_none() {
                 continue;
@@ -199,10 +199,10 @@ fn parameters_out_of_range_are_refused_by_name() {
             for bad in [low, high] {
                 let mut wire = wire.clone();
                 wire[*key] = bad.clone();
-                let at = try_make(&wire)
+                let error = try_make(&wire)
                     .err()
                     .unwrap_or_else(|| panic!("{wire} is drawn"));
-                assert_eq!(at.key, *key, "{wire}");
+                assert_eq!(error.key, *key, "{wire}");
                 refused.insert(*key);
             }
         }
@@ -218,10 +218,10 @@ fn methods_that_do_not_know_a_scene_are_refused() {
         json!({"question": "culling", "scene": "field", "method": "front-then-back", "objects": 9}),
         json!({"question": "culling", "scene": "see-through", "method": "back-flipped", "alpha": 1}),
     ] {
-        let at = try_make(&wire)
+        let error = try_make(&wire)
             .err()
             .unwrap_or_else(|| panic!("{wire} is drawn"));
-        assert_eq!(at.key, "method", "{wire}");
+        assert_eq!(error.key, "method", "{wire}");
     }
 }
 
@@ -242,14 +242,14 @@ fn without_a_depth_test_the_nearest_is_drawn_last() {
     let truth = made(&scene).truth;
     let mut overdraw = 0;
     for (x, y) in (0..128).flat_map(|y| (0..128).map(move |x| (x, y))) {
-        let at = [f64::from(x) + 0.5, f64::from(y) + 0.5];
+        let center = [f64::from(x) + 0.5, f64::from(y) + 0.5];
         let depths = truth
             .surfaces
             .iter()
-            .filter_map(|s| depth_at(&s.corners, at));
+            .filter_map(|s| depth_at(&s.corners, center));
         let depths: Vec<f64> = depths.collect();
         let last = depths.last().copied().unwrap_or(1.0);
-        assert!(depths.iter().all(|d| last <= *d), "{at:?}: {depths:?}");
+        assert!(depths.iter().all(|d| last <= *d), "{center:?}: {depths:?}");
         overdraw += depths.len();
     }
     // Each wall covers most of the picture.
@@ -266,7 +266,7 @@ fn projected(draw: &etalon_scene::Draw) -> Vec<[f64; 3]> {
 
 #[test]
 fn the_driver_projects_to_the_surfaces_of_the_truth() {
-    for wire in all() {
+    for wire in every_wire() {
         if wire["question"] != "depth-precision" {
             continue;
         }
@@ -275,11 +275,16 @@ fn the_driver_projects_to_the_surfaces_of_the_truth() {
         let drawn: Vec<[f64; 3]> = drawn.collect();
         let meant = truth.surfaces.iter().flat_map(|s| &s.corners);
         assert_eq!(drawn.len(), meant.clone().count(), "{wire}");
-        for (at, meant) in drawn.iter().zip(meant) {
+        for (vertex, meant) in drawn.iter().zip(meant) {
             // The bound covers rounding x or y and w to 32 bits, but not the quotient.
-            let place = (at[0] - meant[0]).abs().max((at[1] - meant[1]).abs());
-            let nearness = (at[2] / meant[2] - 1.0).abs();
-            assert!(place < 2e-5 && nearness < 1e-7, "{wire}: {at:?} {meant:?}");
+            let place = (vertex[0] - meant[0])
+                .abs()
+                .max((vertex[1] - meant[1]).abs());
+            let nearness = (vertex[2] / meant[2] - 1.0).abs();
+            assert!(
+                place < 2e-5 && nearness < 1e-7,
+                "{wire}: {vertex:?} {meant:?}"
+            );
         }
         // Clip-space z is that of the projection: nothing is in front of the near plane or beyond the far
         // plane.

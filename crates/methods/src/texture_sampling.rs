@@ -77,8 +77,8 @@ const TEXTURE: u32 = 8;
 /// Returns the camera: one unit above the ground, tilted down.
 fn view() -> View {
     let eye = DVec3::new(0.0, 1.0, 0.0);
-    let at = eye + DVec3::new(0.0, -0.3, -1.0);
-    View::perspective(SIZE, [eye, at], 60.0, [0.1, 100.0])
+    let target = eye + DVec3::new(0.0, -0.3, -1.0);
+    View::perspective(SIZE, [eye, target], 60.0, [0.1, 100.0])
 }
 
 /// Returns the codes of the texture's texels: a checkerboard of stone.
@@ -177,16 +177,16 @@ pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
     let clear = [r, g, b, 1.0];
     let mut stage = Stage::new();
     let picture = stage.color("picture", TextureFormat::Rgba8Unorm, SIZE, clear);
-    let whole = ground(ENDS, tiles, false);
+    let full_ground = ground(ENDS, tiles, false);
     let (mesh, filter, doublings) = match wire.method {
-        MethodName::Nearest => (whole, FilterMode::Nearest, 0),
-        MethodName::Linear => (whole, FilterMode::Linear, 0),
+        MethodName::Nearest => (full_ground, FilterMode::Nearest, 0),
+        MethodName::Linear => (full_ground, FilterMode::Linear, 0),
         MethodName::Affine => {
             let mesh = ground([NEAREST, ENDS[1]], tiles, true);
             (mesh, FilterMode::Nearest, 0)
         }
-        MethodName::Supersampling2x2 => (whole, FilterMode::Nearest, 1),
-        MethodName::Supersampling4x4 => (whole, FilterMode::Nearest, 2),
+        MethodName::Supersampling2x2 => (full_ground, FilterMode::Nearest, 1),
+        MethodName::Supersampling4x4 => (full_ground, FilterMode::Nearest, 2),
     };
     let draw = textured(&mut stage, mesh, filter);
     stage.supersampled(picture, clear, doublings, draw);

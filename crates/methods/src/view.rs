@@ -93,17 +93,17 @@ pub(crate) struct View {
 }
 
 impl View {
-    /// Creates a view from `eye` towards `at` with a vertical field of view in degrees, which sees nothing
+    /// Creates a view from `eye` towards `target` with a vertical field of view in degrees, which sees nothing
     /// nearer or farther than two distances.
     pub(crate) fn perspective(
         size: [u32; 2],
-        [eye, at]: [DVec3; 2],
+        [eye, target]: [DVec3; 2],
         degrees: f64,
         [near, far]: [f64; 2],
     ) -> Self {
         Self {
             size: size.map(f64::from),
-            world: look_at_mat4(eye, at, DVec3::Y),
+            world: look_at_mat4(eye, target, DVec3::Y),
             lens: Lens::Perspective((degrees.to_radians() / 2.0).tan()),
             near,
             far,
@@ -113,13 +113,13 @@ impl View {
     /// Creates the same view with parallel rays, for a picture of this height.
     pub(crate) fn parallel(
         size: [u32; 2],
-        [eye, at]: [DVec3; 2],
+        [eye, target]: [DVec3; 2],
         height: f64,
         [near, far]: [f64; 2],
     ) -> Self {
         Self {
             lens: Lens::Parallel(height / 2.0),
-            ..Self::perspective(size, [eye, at], 90.0, [near, far])
+            ..Self::perspective(size, [eye, target], 90.0, [near, far])
         }
     }
 
@@ -209,16 +209,16 @@ pub(crate) fn clip(corners: &[DVec3], inside: impl Fn(DVec3) -> f64) -> Vec<DVec
     let mut left = Vec::with_capacity(corners.len() + 1);
     for (i, a) in corners.iter().copied().enumerate() {
         let b = corners[(i + 1) % corners.len()];
-        let [at, next] = [inside(a), inside(b)];
-        if at >= 0.0 {
+        let [here, next] = [inside(a), inside(b)];
+        if here >= 0.0 {
             left.push(a);
         }
-        if (at > 0.0 && next < 0.0) || (at < 0.0 && next > 0.0) {
+        if (here > 0.0 && next < 0.0) || (here < 0.0 && next > 0.0) {
             // Always interpolates from the inner to the outer end.
-            let (from, to, d, e) = if at > 0.0 {
-                (a, b, at, next)
+            let (from, to, d, e) = if here > 0.0 {
+                (a, b, here, next)
             } else {
-                (b, a, next, at)
+                (b, a, next, here)
             };
             left.push(from + (to - from) * (d / (d - e)));
         }

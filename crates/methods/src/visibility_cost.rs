@@ -70,7 +70,7 @@ enum MethodName {
 /// Returns the faces back to front as seen from the eye: the farthest room first; within a room its far
 /// wall, the boxes at the sides, the partitions, then the boxes in the middle.
 fn rooms(eye: DVec3, layers: u32) -> Vec<Face> {
-    let mut all = Vec::new();
+    let mut seen = Vec::new();
     for room in (0..layers).rev() {
         let dice = |salt: u32| {
             let hash = (room * 8 + salt + 1).wrapping_mul(0x9e37_79b1);
@@ -85,7 +85,7 @@ fn rooms(eye: DVec3, layers: u32) -> Vec<Face> {
             1.0,
         ];
         let open = [2.4 * (dice(2) - 0.5), 2.0 * (dice(3) - 0.5)];
-        all.extend(wall(back, open, color));
+        seen.extend(wall(back, open, color));
         let front = back + 3.6;
         let block = |[x, y]: [f64; 2], salt: u32| {
             let half = 0.35 + 0.4 * dice(salt);
@@ -101,14 +101,14 @@ fn rooms(eye: DVec3, layers: u32) -> Vec<Face> {
             let low = DVec3::new(x - 0.05, -1.6, back + 0.2);
             cuboid(low, DVec3::new(x + 0.05, 0.4 + dice(4), front), color)
         };
-        let mut solid = |faces: Vec<Face>| all.extend(behind_first(eye, faces));
+        let mut solid = |faces: Vec<Face>| seen.extend(behind_first(eye, faces));
         solid(block([-2.6, 2.0 * (dice(5) - 0.5)], 5));
         solid(block([2.6, 2.0 * (dice(6) - 0.5)], 6));
         solid(partition(-1.5));
         solid(partition(1.5));
         solid(block([0.6 * (dice(7) - 0.5), 0.6 * dice(3) - 1.9], 7));
     }
-    all
+    seen
 }
 
 /// Returns a wall across the whole picture with an opening at x and y.
@@ -136,10 +136,10 @@ fn wall(z: f64, [x, y]: [f64; 2], color: [f64; 4]) -> Vec<Face> {
 
 /// Returns the faces of a convex solid, first the faces that face away from the eye.
 fn behind_first(eye: DVec3, faces: Vec<Face>) -> Vec<Face> {
-    let (front, mut all): (Vec<Face>, Vec<Face>) =
+    let (front, mut ordered): (Vec<Face>, Vec<Face>) =
         faces.into_iter().partition(|face| face.looks_at(eye));
-    all.extend(front);
-    all
+    ordered.extend(front);
+    ordered
 }
 
 /// Returns a fixed pseudo-random order.
@@ -193,9 +193,9 @@ fn draws(method: MethodName, back_to_front: &[Polygon]) -> Vec<Draw> {
 /// Returns the triangles of the rooms, back to front.
 fn triangles(layers: u32) -> Vec<Polygon> {
     let eye = DVec3::new(0.25, 0.3, 0.0);
-    let at = DVec3::new(0.1, -0.1, -30.0);
+    let target = DVec3::new(0.1, -0.1, -30.0);
     let far = 34.0 + 4.0 * f64::from(layers);
-    let view = View::perspective(SIZE, [eye, at], 11.0, [10.0, far]);
+    let view = View::perspective(SIZE, [eye, target], 11.0, [10.0, far]);
     settle(SIZE, &view.see(&rooms(eye, layers)))
 }
 

@@ -33,12 +33,12 @@ const ALPHA_OPERATION: Places<BlendOperation> = |d| {
 /// Adds swaps of factors, for colour and for alpha.
 pub(super) fn factors(list: &mut List, pairs: &[(BlendFactor, BlendFactor)]) {
     let different = |(right, wrong): &(_, _)| !same_for_alpha(*right, *wrong);
-    let (all, for_alpha) = (
+    let (for_color, for_alpha) = (
         pairs.iter().copied(),
         pairs.iter().copied().filter(different),
     );
     rows! { list;
-        swaps "color-factor-", "For colour, factor ", COLOR_FACTORS, all;
+        swaps "color-factor-", "For colour, factor ", COLOR_FACTORS, for_color;
         swaps "alpha-factor-", "For alpha, factor ", ALPHA_FACTORS, for_alpha;
     }
 }

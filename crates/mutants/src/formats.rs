@@ -79,8 +79,8 @@ fn signed(round: fn(f32) -> f32) -> Plant {
         // Nearly exact codes are rounded first, so that the product's last bit does not matter.
         let exact = v.clamp(-1.0, 1.0) * 127.0;
         let near = exact.round();
-        let whole = (exact - near).abs() < 1e-4;
-        Snorm(8).code_of_order((if whole { near } else { round(exact) }) as i64)
+        let is_integer = (exact - near).abs() < 1e-4;
+        Snorm(8).code_of_order((if is_integer { near } else { round(exact) }) as i64)
     })
 }
 

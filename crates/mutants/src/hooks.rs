@@ -2,10 +2,11 @@
 
 use etalon_cpu::Surface;
 use etalon_cpu::steps::{
-    Codes, Exported, Faithful, InputBit, LANES, Mask, Path, Real, Steps, Tests, WrittenTexels,
+    Codes, ExportedReference, Faithful, InputBit, LANES, Mask, Real, Steps, TestOutcome, Tests,
+    WrittenTexels,
 };
 use etalon_frame::{Aspect, ChannelEncoding};
-use etalon_pipeline::shader::{Kept, SampleMask};
+use etalon_pipeline::shader::{KeepCondition, SampleMask};
 use etalon_pipeline::{Arithmetic, BlendInput, Plain, advanced_blend, blend};
 use etalon_scene::{
     AdvancedBlend, BlendState, CompareFunction, DepthBias, Interpolation, InterpolationSampling,
@@ -62,13 +63,13 @@ macro_rules! hooks {
 hooks! {
     whole {
         /// The stencil reference of a fragment whose shader writes one.
-        exported(of: &Exported) -> u8;
+        exported(fragment: &ExportedReference) -> u8;
         /// Returns true if a bit of the sample mask that a shader reads is set.
-        input_bit(of: &InputBit) -> bool;
+        input_bit(bit: &InputBit) -> bool;
         /// The stencil test.
         stencil_passes(face: &StencilFace, stored: u8) -> bool;
         /// The stencil update, including the write mask.
-        stencil_write(face: &StencilFace, path: Path, stored: u8) -> u8;
+        stencil_write(face: &StencilFace, outcome: TestOutcome, stored: u8) -> u8;
         /// The depth comparison of codes, incoming first.
         depth_passes(function: CompareFunction, incoming: u32, stored: u32) -> bool;
         /// The conversion of clear values, colour and depth.
@@ -188,7 +189,7 @@ hooks! {
 
         /// Returns true if a shader keeps a fragment, given the value and its limit.
         kept(f32, f32) -> bool:
-        kept(kept: &Kept<Real>) -> Mask = |bug| from_fn(|i| bug(kept.value[i], kept.limit[i]));
+        kept(kept: &KeepCondition<Real>) -> Mask = |bug| from_fn(|i| bug(kept.value[i], kept.limit[i]));
     }
 }
 

@@ -25,7 +25,8 @@ fn times(bug: impl Fn(usize) -> usize + Send + Sync + 'static) -> Plant {
         let order: Vec<u32> = mesh.indices.clone().unwrap_or_else(unindexed);
         if order.len() / size >= 200 {
             let primitives = order.chunks_exact(size).enumerate();
-            let drawn = primitives.flat_map(|(i, one)| std::iter::repeat_n(one, bug(i)));
+            let drawn =
+                primitives.flat_map(|(i, primitive)| std::iter::repeat_n(primitive, bug(i)));
             mesh.indices = Some(drawn.flatten().copied().collect());
         }
     })
@@ -71,11 +72,11 @@ bugs! {
         covered(|[x, y], [w, h]| w.min(h) > 1 || x.max(y) < 256);
     for side in [8, 16, 32, 64] {
         // True in whole tiles, and in a first tile that the attachment cuts.
-        let whole = move |texel: u32, length: u32| length < side || texel < length / side * side;
+        let in_whole_tile = move |texel: u32, length: u32| length < side || texel < length / side * side;
         "cut-columns-{side}: Columns past the last whole tile of {side} are not drawn." =>
-            covered(move |[x, _], [w, _]| whole(x, w));
+            covered(move |[x, _], [w, _]| in_whole_tile(x, w));
         "cut-rows-{side}: Rows past the last whole tile of {side} are not drawn." =>
-            covered(move |[_, y], [_, h]| whole(y, h));
+            covered(move |[_, y], [_, h]| in_whole_tile(y, h));
         "one-tile-{side}: The second tile of {side} in the second row is not drawn." =>
             covered(move |texel, _| texel.map(|v| v / side) != [1, 1]);
         "tile-border-{side}: The column before the third tile of {side} is not drawn." =>

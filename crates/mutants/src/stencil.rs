@@ -9,7 +9,7 @@ use crate::list::{CONFUSION, bugs};
 use crate::plant::{Plant, draws, each, passes, set};
 use crate::tables::{compare_neighbours, round};
 use StencilOperation as Op;
-use etalon_cpu::steps::Path;
+use etalon_cpu::steps::TestOutcome;
 use etalon_frame::TextureFormat;
 use etalon_pipeline::{compare, stencil_operation, stencil_passes as right};
 use etalon_scene::{CompareFunction, Draw, StencilFace, StencilOperation};
@@ -22,9 +22,9 @@ fn turned(draw: &Draw) -> Draw {
     turned
 }
 
-/// Replaces the update before the write mask is applied, given face, path and stored value.
-fn update(bug: fn(&StencilFace, Path, u8) -> u8) -> Plant {
-    stencil_write(move |f, path, stored| masked(f.write_mask, stored, bug(f, path, stored)))
+/// Replaces the update before the write mask is applied, given face, outcome and stored value.
+fn update(bug: fn(&StencilFace, TestOutcome, u8) -> u8) -> Plant {
+    stencil_write(move |f, outcome, stored| masked(f.write_mask, stored, bug(f, outcome, stored)))
 }
 
 /// Returns the stored value with the bits of a mask replaced.
@@ -33,8 +33,8 @@ fn masked(mask: u8, stored: u8, new: u8) -> u8 {
 }
 
 /// Returns the correct update.
-fn write(f: &StencilFace, path: Path, stored: u8) -> u8 {
-    let new = stencil_operation(path.operation(f), stored, f.reference);
+fn write(f: &StencilFace, outcome: TestOutcome, stored: u8) -> u8 {
+    let new = stencil_operation(outcome.operation(f), stored, f.reference);
     masked(f.write_mask, stored, new)
 }
 
@@ -112,28 +112,28 @@ bugs! {
     "compare-operands-swapped: The stored value stands on the left of the comparison." =>
         stencil_passes(|f, stored| compare(f.compare, stored & f.read_mask, f.reference & f.read_mask));
     "write-mask-clears: Bits outside the write mask become 0." =>
-        stencil_write(|f, path, stored| write(f, path, stored) & f.write_mask);
+        stencil_write(|f, outcome, stored| write(f, outcome, stored) & f.write_mask);
     "operation-on-masked-value: Operations start from the stored bits of the write mask." =>
-        update(|f, path, stored| stencil_operation(path.operation(f), stored & f.write_mask, f.reference));
+        update(|f, outcome, stored| stencil_operation(outcome.operation(f), stored & f.write_mask, f.reference));
     "replace-by-masked-reference: Replace writes the reference under the read mask." =>
-        update(|f, path, stored| stencil_operation(path.operation(f), stored, f.reference & f.read_mask));
+        update(|f, outcome, stored| stencil_operation(outcome.operation(f), stored, f.reference & f.read_mask));
     "invert-7-bits: Invert leaves the highest bit." =>
-        update(|f, path, stored| match path.operation(f) {
+        update(|f, outcome, stored| match outcome.operation(f) {
             StencilOperation::Invert => stored ^ 0x7f,
             operation => stencil_operation(operation, stored, f.reference),
         });
     "update-needs-read-mask: Only bits of the read mask are written." =>
-        update(|f, path, stored| masked(f.read_mask, stored, write(f, path, stored)));
-    let (fail, depth_fail) = (Path::Fail, Path::DepthFail);
-    for (name, about, path) in [("fail", "the stencil test", fail), ("depth-fail", "the depth test", depth_fail)] {
+        update(|f, outcome, stored| masked(f.read_mask, stored, write(f, outcome, stored)));
+    let (fail, depth_fail) = (TestOutcome::Fail, TestOutcome::DepthFail);
+    for (name, about, outcome) in [("fail", "the stencil test", fail), ("depth-fail", "the depth test", depth_fail)] {
         "{name}-and-pass-op-both-applied: A fragment that fails {about} takes the pass operation too." =>
             stencil_write(move |f, taken, stored| {
                 let new = write(f, taken, stored);
-                if taken == path { write(f, Path::Pass, new) } else { new }
+                if taken == outcome { write(f, TestOutcome::Pass, new) } else { new }
             }), source "llvmpipe: fail op and pass op both applied";
     }
     "applied-twice: Operations are applied twice." =>
-        stencil_write(|f, path, stored| write(f, path, write(f, path, stored)));
+        stencil_write(|f, outcome, stored| write(f, outcome, write(f, outcome, stored)));
     "depth-fail-op-on-pass: Passing fragments take the depth-fail operation." =>
         each(FACES, |face| face.pass_op = face.depth_fail_op);
     "pass-op-on-depth-fail: Fragments that fail the depth test take the pass operation." =>

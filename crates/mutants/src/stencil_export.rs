@@ -4,7 +4,7 @@ use crate::fields::{EARLY_TESTS, STENCIL_OPERATIONS, STENCIL_TEST};
 use crate::hooks::exported;
 use crate::list::bugs;
 use crate::plant::{each, from_draw, set};
-use etalon_cpu::steps::{Exported, Path};
+use etalon_cpu::steps::{ExportedReference, TestOutcome};
 use etalon_scene::{Draw, EarlyTests, Shader, StencilOperation};
 
 /// Returns true for draws whose shader writes a stencil reference.
@@ -13,12 +13,12 @@ fn exports(draw: &Draw) -> bool {
 }
 
 /// Returns the value that the shader writes for the texel.
-fn value(exported: &Exported) -> i32 {
+fn value(exported: &ExportedReference) -> i32 {
     exported.written[exported.lane]
 }
 
 /// Returns the shader's reference if `exported` is true, otherwise the draw's.
-fn if_so(export: &Exported, exported: bool) -> u8 {
+fn if_so(export: &ExportedReference, exported: bool) -> u8 {
     if exported {
         value(export) as u8
     } else {
@@ -30,15 +30,15 @@ bugs! {
     class "stencil-export", "stencil";
     "ignored: The reference that a shader writes does nothing." => exported(|e| e.face.reference);
     "test-alone: The stencil test takes the shader's reference, `replace` the draw's." =>
-        exported(|e| if_so(e, e.path.is_none()));
+        exported(|e| if_so(e, e.outcome.is_none()));
     "replace-alone: `replace` takes the shader's reference, the stencil test the draw's." =>
-        exported(|e| if_so(e, e.path.is_some()));
+        exported(|e| if_so(e, e.outcome.is_some()));
     "fail-ignores: `replace` takes the draw's reference where the stencil test fails." =>
-        exported(|e| if_so(e, e.path != Some(Path::Fail)));
+        exported(|e| if_so(e, e.outcome != Some(TestOutcome::Fail)));
     "depth-fail-ignores: `replace` takes the draw's where the depth test fails." =>
-        exported(|e| if_so(e, e.path != Some(Path::DepthFail)));
+        exported(|e| if_so(e, e.outcome != Some(TestOutcome::DepthFail)));
     "pass-ignores: `replace` takes the draw's reference where both tests pass." =>
-        exported(|e| if_so(e, e.path != Some(Path::Pass)));
+        exported(|e| if_so(e, e.outcome != Some(TestOutcome::Pass)));
     "back-ignores: Back faces take the draw's reference." => exported(|e| if_so(e, e.front));
     "front-ignores: Front faces take the draw's reference." => exported(|e| if_so(e, !e.front));
     "first-of-the-quad: The first texel of a pair of columns writes for both." =>
@@ -52,9 +52,9 @@ bugs! {
     "seven-bits: The highest bit of a reference is lost." => exported(|e| value(e) as u8 & 0x7f);
     "ninth-bit: The ninth bit falls into the lowest." => exported(|e| (value(e) | (value(e) >> 8 & 1)) as u8);
     "read-mask-at-replace: `replace` stores the reference under the read mask." =>
-        exported(|e| match e.path { None => value(e) as u8, Some(_) => value(e) as u8 & e.face.read_mask, });
+        exported(|e| match e.outcome { None => value(e) as u8, Some(_) => value(e) as u8 & e.face.read_mask, });
     "write-mask-at-test: The stencil test compares the reference under the write mask." =>
-        exported(|e| match e.path { None => value(e) as u8 & e.face.write_mask, Some(_) => value(e) as u8, });
+        exported(|e| match e.outcome { None => value(e) as u8 & e.face.write_mask, Some(_) => value(e) as u8, });
     "or-the-draws: The bits of the draw's reference are set too." => exported(|e| value(e) as u8 | e.face.reference);
     "under-the-draws: The bits that the draw's reference lacks are lost." =>
         exported(|e| value(e) as u8 & e.face.reference);

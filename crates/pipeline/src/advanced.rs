@@ -161,7 +161,7 @@ mod tests {
     use crate::plain::Plain;
 
     /// Returns the specification's function in 64-bit floats, written independently.
-    fn due(mode: AdvancedBlend, s: f64, d: f64) -> f64 {
+    fn exact(mode: AdvancedBlend, s: f64, d: f64) -> f64 {
         let hard = |by: f64, other: f64| {
             if by <= 0.5 {
                 2.0 * by * other
@@ -207,10 +207,10 @@ mod tests {
                     let [r, _, _, alpha] =
                         run(mode, [s * sa, 0.0, 0.0, sa], [d * da, 0.0, 0.0, da]);
                     let [s, d, sa, da] = [s, d, sa, da].map(f64::from);
-                    let whole = sa * da + sa * (1.0 - da) + da * (1.0 - sa);
+                    let coverage = sa * da + sa * (1.0 - da) + da * (1.0 - sa);
                     let color =
-                        due(mode, s, d) * sa * da + s * sa * (1.0 - da) + d * da * (1.0 - sa);
-                    assert!((f64::from(alpha) - whole).abs() < 1e-6);
+                        exact(mode, s, d) * sa * da + s * sa * (1.0 - da) + d * da * (1.0 - sa);
+                    assert!((f64::from(alpha) - coverage).abs() < 1e-6);
                     assert!((f64::from(r) - color).abs() < 1e-6, "{mode:?} {s} {d}: {r}");
                 }
             }
@@ -219,12 +219,12 @@ mod tests {
 
     #[test]
     fn the_ends_of_dodge_and_burn() {
-        let one = |mode, s: f32, d: f32| run(mode, [s, s, s, 1.0], [d, d, d, 1.0])[0];
+        let red = |mode, s: f32, d: f32| run(mode, [s, s, s, 1.0], [d, d, d, 1.0])[0];
         let (dodge, burn) = (AdvancedBlend::ColorDodge, AdvancedBlend::ColorBurn);
-        assert_eq!(one(dodge, 1.0, 0.0), 0.0);
-        assert_eq!(one(dodge, 1.0, 0.1), 1.0);
-        assert_eq!(one(burn, 0.0, 1.0), 1.0);
-        assert_eq!(one(burn, 0.0, 0.9), 0.0);
+        assert_eq!(red(dodge, 1.0, 0.0), 0.0);
+        assert_eq!(red(dodge, 1.0, 0.1), 1.0);
+        assert_eq!(red(burn, 0.0, 1.0), 1.0);
+        assert_eq!(red(burn, 0.0, 0.9), 0.0);
     }
 
     #[test]

@@ -166,8 +166,8 @@ mod tests {
     fn the_textbook_example_of_over() {
         let state = over(BlendOperation::Add);
         let result = run(&state, [0.0, 0.0, 1.0, 0.6], [1.0, 0.0, 0.0, 1.0]);
-        for (value, due) in result.into_iter().zip([0.4, 0.0, 0.6, 0.76]) {
-            assert!((value - due).abs() < 1e-6, "{value} for {due}");
+        for (value, expected) in result.into_iter().zip([0.4, 0.0, 0.6, 0.76]) {
+            assert!((value - expected).abs() < 1e-6, "{value} for {expected}");
         }
     }
 

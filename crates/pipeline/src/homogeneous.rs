@@ -32,8 +32,8 @@ pub const FARTHEST: f64 = (1_u64 << 28) as f64;
 /// far out.
 pub fn is_cut([x, y, w]: WindowVertex) -> bool {
     let far = |v: f64| {
-        let at = v / w;
-        at.is_nan() || at.abs() > FARTHEST
+        let quotient = v / w;
+        quotient.is_nan() || quotient.abs() > FARTHEST
     };
     w <= 0.0 || far(x) || far(y)
 }
@@ -204,12 +204,12 @@ mod tests {
     #[test]
     fn the_quotient_of_two_planes_is_the_value() {
         let triangle = vertices([(0.0, 0.0, 1.0), (64.0, 0.0, 4.0), (0.0, 64.0, 2.0)]);
-        let (value, whole) = (triangle.over_w([8.0, 2.0, 4.0]), triangle.over_w([1.0; 3]));
+        let (value, reciprocal_w) = (triangle.over_w([8.0, 2.0, 4.0]), triangle.over_w([1.0; 3]));
         // Halfway in the window is a fifth of the way in space.
         let middle = at(32, 0);
-        let quotient = value.at(middle) / whole.at(middle);
+        let quotient = value.at(middle) / reciprocal_w.at(middle);
         assert!((quotient - (8.0 * 0.8 + 2.0 * 0.2)).abs() < 1e-12);
-        assert!((whole.at(at(64, 0)) - 0.25).abs() < 1e-12);
+        assert!((reciprocal_w.at(at(64, 0)) - 0.25).abs() < 1e-12);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use crate::arithmetic::Arithmetic;
 use crate::half_float::{lengthened, narrowed, shortened, widened};
 use crate::logic::logic_operation;
-use crate::rounding::{unit, whole};
+use crate::rounding::{integer_part, unit};
 use crate::srgb;
 use etalon_frame::ChannelEncoding;
 use etalon_scene::LogicOperation;
@@ -157,7 +157,7 @@ impl<const N: usize> Arithmetic for Plain<N> {
             // nearest code to within 0.51 codes; a test compares with `nearest_order`.
             ChannelEncoding::Unorm(bits) if bits <= 16 => {
                 let scale = encoding.max_order() as f32;
-                each(value, |v| whole(unit(v) * scale + 0.5))
+                each(value, |v| integer_part(unit(v) * scale + 0.5))
             }
             ChannelEncoding::Unorm(_) => {
                 let scale = encoding.max_order() as f64;

@@ -9,7 +9,7 @@ pub(crate) fn unit(v: f32) -> f32 {
 
 /// Returns the integer part of a number from 0 to below 2²². `as` is not vectorized, since it saturates.
 #[inline(always)]
-pub(crate) fn whole(v: f32) -> u32 {
+pub(crate) fn integer_part(v: f32) -> u32 {
     // From here on floats are integers, so the sum is rounded to one, and its low bits are that integer.
     const WHOLE: f32 = 8_388_608.0;
     let sum = v + WHOLE;
@@ -27,7 +27,7 @@ mod tests {
             // Halves, their neighbours, and numbers in between.
             let v = i as f32 / 2.0;
             for v in [v, v.next_up(), v.next_down().max(0.0), v * 0.37] {
-                assert_eq!(whole(v), v as u32, "{v}");
+                assert_eq!(integer_part(v), v as u32, "{v}");
             }
         }
         let values = [-1.0, -0.0, 0.25, 1.0, 2.0, f32::INFINITY, f32::NEG_INFINITY];

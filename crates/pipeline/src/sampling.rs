@@ -23,17 +23,18 @@ mod tests {
 
     #[test]
     fn outside_of_a_texture_its_texels_come_back_as_the_mode_says() {
-        let all = |mode| -> Vec<usize> { (-5..9).map(|i| texel_position(mode, i, 4)).collect() };
+        let positions =
+            |mode| -> Vec<usize> { (-5..9).map(|i| texel_position(mode, i, 4)).collect() };
         assert_eq!(
-            all(AddressMode::ClampToEdge),
+            positions(AddressMode::ClampToEdge),
             [0, 0, 0, 0, 0, 0, 1, 2, 3, 3, 3, 3, 3, 3]
         );
         assert_eq!(
-            all(AddressMode::Repeat),
+            positions(AddressMode::Repeat),
             [3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0]
         );
         assert_eq!(
-            all(AddressMode::MirrorRepeat),
+            positions(AddressMode::MirrorRepeat),
             [3, 3, 2, 1, 0, 0, 1, 2, 3, 3, 2, 1, 0, 0]
         );
     }

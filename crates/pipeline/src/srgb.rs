@@ -1,6 +1,6 @@
 //! 8-bit sRGB codes by tables, equal to the functions that define them.
 
-use crate::rounding::{unit, whole};
+use crate::rounding::{integer_part, unit};
 use etalon_frame::{ChannelEncoding, linear_to_srgb};
 use std::sync::LazyLock;
 
@@ -85,7 +85,7 @@ pub fn srgb_values(codes: &[u32], values: &mut [f32]) {
 /// Returns the part of a value from 0 to 1.
 #[inline(always)]
 fn part(value: f32) -> u32 {
-    whole(value * PARTS as f32)
+    integer_part(value * PARTS as f32)
 }
 
 /// Returns the code of a linear value by its definition.
@@ -100,16 +100,16 @@ fn least(code: u32) -> f32 {
         return f32::INFINITY;
     }
     // The bits of non-negative floats have the order of their values.
-    let (mut below, mut at) = (0, 1.0_f32.to_bits());
-    while at - below > 1 {
-        let middle = below + (at - below) / 2;
+    let (mut below, mut above) = (0, 1.0_f32.to_bits());
+    while above - below > 1 {
+        let middle = below + (above - below) / 2;
         if defined(f32::from_bits(middle)) < code {
             below = middle
         } else {
-            at = middle
+            above = middle
         }
     }
-    f32::from_bits(at)
+    f32::from_bits(above)
 }
 
 #[cfg(test)]
@@ -122,9 +122,9 @@ mod tests {
             let bits = least(code).to_bits();
             (bits - 200..bits + 200).map(f32::from_bits)
         });
-        let all = (0..=300_000_u32).map(|i| i as f32 / 299_000.0 - 0.001);
+        let grid = (0..=300_000_u32).map(|i| i as f32 / 299_000.0 - 0.001);
         let ends = [0.0, -0.0, 1.0, f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
-        let values: Vec<f32> = near.chain(all).chain(ends).collect();
+        let values: Vec<f32> = near.chain(grid).chain(ends).collect();
         let mut codes = vec![0; values.len()];
         srgb_codes(&values, &mut codes);
         for (value, code) in values.into_iter().zip(codes) {

@@ -66,7 +66,7 @@ fn small(library: &Library) -> Vec<Scene> {
     correct.map(|case| case.scene).filter(small).collect()
 }
 
-fn all(c: &mut Criterion) {
+fn all_cases(c: &mut Criterion) {
     let library = Library::built_in().expect("built-in cases parse");
     let limits = CpuBackend::new("cpu").limits().clone();
     let scenes = small(&library);
@@ -128,5 +128,5 @@ fn growing(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, judge, all, growing);
+criterion_group!(benches, judge, all_cases, growing);
 criterion_main!(benches);

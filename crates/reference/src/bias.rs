@@ -136,10 +136,10 @@ pub(crate) fn slopes(context: &PassContext<'_>, boxes: [SnapBox; 3], z: [Interva
         };
     }
     let error = context.rules.float_error.value() * ROUNDINGS;
-    let all = z[0].hull(z[1]).hull(z[2]);
+    let hull = z[0].hull(z[1]).hull(z[2]);
     // The error of each vertex's depth: half the depth's interval, plus the roundings of the terms that use
     // it.
-    let off = z.map(|z| (z.high - z.low) / 2.0 + (all.high - all.low) * error);
+    let off = z.map(|z| (z.high - z.low) / 2.0 + (hull.high - hull.low) * error);
     // The plane that is 1 at one vertex and 0 at the others.
     let share = |vertex: usize| {
         let mut depths = [0.0; 3];

@@ -222,20 +222,20 @@ impl Segments {
         self.members.clear();
         let (mut coming, mut breaks) =
             (self.coming.iter().peekable(), self.breaks.iter().peekable());
-        let mut at = 0;
+        let mut column = 0;
         loop {
             if self.members.is_empty() {
                 let Some(next) = coming.peek() else { return };
-                at = next.start;
+                column = next.start;
             }
             let before = self.members.len();
-            while let Some(next) = coming.next_if(|next| next.start <= at) {
+            while let Some(next) = coming.next_if(|next| next.start <= column) {
                 self.members.push(*next);
             }
             if before > 0 && self.members.len() > before {
                 self.members.sort_unstable_by_key(|member| member.number);
             }
-            while breaks.next_if(|b| **b <= at).is_some() {}
+            while breaks.next_if(|b| **b <= column).is_some() {}
             let ends = self.members.iter().map(|member| member.end);
             let begins = coming.peek().map(|next| next.start);
             let stops = begins.into_iter().chain(breaks.peek().map(|b| **b));
@@ -244,9 +244,9 @@ impl Segments {
             };
             self.numbers.clear();
             self.numbers.extend(self.members.iter().map(|m| m.number));
-            found(at..end, &self.numbers);
-            at = end;
-            self.members.retain(|member| member.end > at);
+            found(column..end, &self.numbers);
+            column = end;
+            self.members.retain(|member| member.end > column);
         }
     }
 }

@@ -88,8 +88,8 @@ impl Walk<'_> {
                 single.extend(worlds.iter().map(|w| w.cells[source].channels));
             }
             for (c, encoding) in encodings.iter().enumerate() {
-                let all = worlds.iter().map(|w| w.cells[source].channels[c]);
-                if let Some(codes) = all.reduce(CodeInterval::hull) {
+                let intervals = worlds.iter().map(|w| w.cells[source].channels[c]);
+                if let Some(codes) = intervals.reduce(CodeInterval::hull) {
                     let value = Judging::new(self.rules).decode(*encoding, codes).float;
                     sums[c].add(codes, value);
                 }
@@ -118,14 +118,14 @@ impl Walk<'_> {
                 linear
             };
         }
-        let mut all = vec![result];
+        let mut results = vec![result];
         if self.rules.resolve.value() == Resolve::CoarseAverage && of_codes != result {
-            all.push(of_codes);
+            results.push(of_codes);
         }
         single.dedup();
         let by = ResolveChoice::Average;
-        self.note_resolve(notes, [source, target], passes, by, [&single, &all]);
-        Some(all)
+        self.note_resolve(notes, [source, target], passes, by, [&single, &results]);
+        Some(results)
     }
 
     /// Returns the codes that samples with this sum can resolve to.
@@ -162,8 +162,8 @@ impl Walk<'_> {
                 // The error of a halving is one code at the magnitude of the largest sample.
                 let largest = between.low.abs().max(between.high.abs());
                 let next = (largest + 1).min(encoding.max_order());
-                let [at, past] = [largest, next].map(|o| encoding.value_of_order(o));
-                let off = exact.widen((past - at) * halvings(samples));
+                let [value, past] = [largest, next].map(|o| encoding.value_of_order(o));
+                let off = exact.widen((past - value) * halvings(samples));
                 judging.encode(encoding, Range::same(off))
             }
             Resolve::CoarseAverage => sum.within_halvings(
@@ -187,8 +187,8 @@ impl Walk<'_> {
     ) {
         notes.push(|| {
             let encodings = self.scene.attachments[source].format.color_channels();
-            let codes = |all: &[[CodeInterval; 4]]| {
-                let each = all.iter().map(|one| Codes::of_channels(encodings, *one));
+            let codes = |sets: &[[CodeInterval; 4]]| {
+                let each = sets.iter().map(|set| Codes::of_channels(encodings, *set));
                 each.collect()
             };
             let into = self.target(target, Aspect::Color);

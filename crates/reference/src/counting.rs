@@ -84,11 +84,11 @@ impl<'a> Tally<'a> {
                 count.possible = None;
                 continue;
             };
-            let own = |world: &World| -> Vec<Increment> {
-                let all = world.events.iter().copied();
-                all.filter(|e| usize::from(e.counter) == index).collect()
+            let increments = |world: &World| -> Vec<Increment> {
+                let events = world.events.iter().copied();
+                events.filter(|e| usize::from(e.counter) == index).collect()
             };
-            let each: Vec<Vec<Increment>> = worlds.iter().map(own).collect();
+            let each: Vec<Vec<Increment>> = worlds.iter().map(increments).collect();
             let certain =
                 |events: &Vec<Increment>| events.iter().filter(|e| e.certain).count() as u64;
             count.certain += each.iter().map(certain).min().unwrap_or(0);
@@ -121,10 +121,10 @@ impl<'a> Tally<'a> {
         for (counter, count) in self.scene.counters.iter().zip(&mut self.counts) {
             let (low, high) = match counter.kind {
                 CounterKind::SamplesPassed | CounterKind::AnySamplesPassed => {
-                    let all = count.may.len() as u64 * u64::from(samples);
+                    let all_samples = count.may.len() as u64 * u64::from(samples);
                     let high = match self.rules.samples_counted.value() {
                         SamplesCounted::Passing => count.possible,
-                        SamplesCounted::PassingOrAll => count.possible.map(|p| p.max(all)),
+                        SamplesCounted::PassingOrAll => count.possible.map(|p| p.max(all_samples)),
                     };
                     (count.certain, high)
                 }
@@ -162,8 +162,8 @@ impl<'a> Tally<'a> {
         let each = self.scene.counters.iter().zip(self.counts).enumerate();
         each.map(move |(index, (counter, count))| {
             let encloses_operations = || {
-                let mut own = queries.iter().filter(|q| q.counter == index);
-                own.any(|query| query.encloses_operations(self.scene))
+                let mut matching = queries.iter().filter(|q| q.counter == index);
+                matching.any(|query| query.encloses_operations(self.scene))
             };
             let unlimited = counter.kind.is_occlusion()
                 && encloses_operations()

@@ -258,8 +258,8 @@ impl<'a> CutTriangle<'a> {
     /// Returns the linear function of a value divided by w.
     fn over_w(&self, values: [f64; 3]) -> Depth {
         let w = self.homogeneous.vertices.map(|v| v[2]);
-        let at = |corner: &[f64; 3]| Interval::exact(dot(*corner, values) / dot(*corner, w));
-        let hull = self.corners.iter().map(at).reduce(Interval::hull);
+        let value = |corner: &[f64; 3]| Interval::exact(dot(*corner, values) / dot(*corner, w));
+        let hull = self.corners.iter().map(value).reduce(Interval::hull);
         let magnitude = |corner: &[f64; 3]| dot(*corner, values.map(f64::abs)) / dot(*corner, w);
         let largest = self.corners.iter().map(magnitude).fold(0.0, f64::max);
         let error = largest * self.seen.error();
@@ -337,10 +337,10 @@ impl<'a> CutTriangle<'a> {
         let [near, far] = self.seen.draw.viewport.depth.map(f64::from);
         let plane = self.homogeneous.over_w(z);
         let texel = (far - near).abs() * self.seen.units;
-        let all = slope(self.seen.context, plane.dx * texel, plane.dy * texel);
-        let high = all.high;
+        let interval = slope(self.seen.context, plane.dx * texel, plane.dy * texel);
+        let high = interval.high;
         if high == 0.0 {
-            return all;
+            return interval;
         }
         if !(self.flatness < 0.5 && high.is_finite()) {
             return Interval {
@@ -351,7 +351,8 @@ impl<'a> CutTriangle<'a> {
         // Errors in corners and depths tilt the plane.
         let off = (self.seen.off[0] + self.seen.off[1]) / self.seen.units;
         let turned = window_depth.error * self.flatness / off;
-        all.widen_relative(self.seen.error() + 2.0 * self.flatness)
+        interval
+            .widen_relative(self.seen.error() + 2.0 * self.flatness)
             .widen(turned)
             .clamp(0.0, f64::INFINITY)
     }

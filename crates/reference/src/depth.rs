@@ -76,8 +76,8 @@ impl Depth {
             x.hypot(y)
         };
         let length = length(ends[0].low, ends[1].low).max(1.0);
-        let own = depth.hull.high - depth.hull.low;
-        depth.hull = depth.hull.widen(own * 2.0 * units as f64 / length);
+        let extent = depth.hull.high - depth.hull.low;
+        depth.hull = depth.hull.widen(extent * 2.0 * units as f64 / length);
         depth
     }
 
@@ -96,15 +96,15 @@ impl Depth {
         if least <= 0 && most >= 0 {
             return depth;
         }
-        let all: SmallVec<[DepthPlane; 64]> = planes(vertices, middle).collect();
-        let growth = all.iter().fold((0.0, 0.0), |(x, y): (f64, f64), p| {
+        let candidates: SmallVec<[DepthPlane; 64]> = planes(vertices, middle).collect();
+        let growth = candidates.iter().fold((0.0, 0.0), |(x, y): (f64, f64), p| {
             (x.max(p.dx.abs()), y.max(p.dy.abs()))
         });
         depth.steepest = growth.0 + growth.1;
-        depth.planes = extreme(&all, near(vertices, units));
+        depth.planes = extreme(&candidates, near(vertices, units));
         // Positions may be interpolated before or after snapping, so they may differ by one step of the grid.
-        let own = z.iter().map(|z| z.high - z.low).fold(0.0, f64::max);
-        depth.error += depth.steepest * grid as f64 + own;
+        let widest = z.iter().map(|z| z.high - z.low).fold(0.0, f64::max);
+        depth.error += depth.steepest * grid as f64 + widest;
         depth
     }
 
@@ -134,7 +134,7 @@ impl Depth {
         });
         depths[1..]
             .iter()
-            .fold(depths[0], |all, one| all.hull(*one))
+            .fold(depths[0], |hull, depth| hull.hull(*depth))
     }
 
     pub(crate) fn at(&self, point: Point) -> Interval {
@@ -143,8 +143,9 @@ impl Depth {
 
     /// Returns the depth at a point, which can be outside.
     pub(crate) fn beyond(&self, point: Point) -> Interval {
-        let all = self.planes.iter().map(|p| Interval::exact(p.at(point)));
-        all.reduce(Interval::hull)
+        let values = self.planes.iter().map(|p| Interval::exact(p.at(point)));
+        values
+            .reduce(Interval::hull)
             .map_or(self.hull, |depth| depth.widen(self.error))
     }
 }
@@ -153,26 +154,27 @@ impl Depth {
 /// evaluated.
 fn near(vertices: [SnapBox; 3], units: i64) -> [Point; 4] {
     let [a, b, c] = vertices;
-    let mut all = a.hull(b).hull(c);
+    let mut bounds = a.hull(b).hull(c);
     let reach = 4 * units;
-    all.low.x -= reach;
-    all.low.y -= reach;
-    all.high.x += reach;
-    all.high.y += reach;
-    all.corners()
+    bounds.low.x -= reach;
+    bounds.low.y -= reach;
+    bounds.high.x += reach;
+    bounds.high.y += reach;
+    bounds.corners()
 }
 
 /// Returns the planes that are lowest or highest somewhere in a rectangle. A plane that is not above another
 /// plane at any corner is not above it anywhere inside.
-fn extreme(all: &[DepthPlane], corners: [Point; 4]) -> Vec<DepthPlane> {
-    if all.len() < 3 {
-        return all.to_vec();
+fn extreme(planes: &[DepthPlane], corners: [Point; 4]) -> Vec<DepthPlane> {
+    if planes.len() < 3 {
+        return planes.to_vec();
     }
-    let at: SmallVec<[[f64; 4]; 64]> = all.iter().map(|p| corners.map(|c| p.at(c))).collect();
-    let under = |i: usize, j: usize| at[i].iter().zip(&at[j]).all(|(a, b)| a <= b);
+    let values: SmallVec<[[f64; 4]; 64]> =
+        planes.iter().map(|p| corners.map(|c| p.at(c))).collect();
+    let under = |i: usize, j: usize| values[i].iter().zip(&values[j]).all(|(a, b)| a <= b);
     let (mut highest, mut lowest): (SmallVec<[usize; 64]>, SmallVec<[usize; 64]>) =
         (SmallVec::new(), SmallVec::new());
-    for i in 0..all.len() {
+    for i in 0..planes.len() {
         if !highest.iter().any(|j| under(i, *j)) {
             highest.retain(|j| !under(*j, i));
             highest.push(i);
@@ -185,15 +187,15 @@ fn extreme(all: &[DepthPlane], corners: [Point; 4]) -> Vec<DepthPlane> {
     highest.extend(lowest);
     highest.sort_unstable();
     highest.dedup();
-    highest.into_iter().map(|i| all[i]).collect()
+    highest.into_iter().map(|i| planes[i]).collect()
 }
 
 /// Returns the planes through all corners of the snapped positions: one if they are exact. A plane's slope is
 /// a quotient of functions that are linear in each coordinate, so its extremes are at corners.
 pub(crate) fn planes(boxes: [SnapBox; 3], z: [f64; 3]) -> impl Iterator<Item = DepthPlane> {
     let corners = |b: SnapBox| {
-        let all = b.corners();
-        all.into_iter().take(if b.is_exact() { 1 } else { 4 })
+        let corners = b.corners();
+        corners.into_iter().take(if b.is_exact() { 1 } else { 4 })
     };
     corners(boxes[0]).flat_map(move |a| {
         corners(boxes[1])

@@ -90,8 +90,8 @@ impl Walk<'_> {
             ResolveMode::SampleZero => cells.clone().map(|c| Some(c.channels[0])).collect(),
             mode => {
                 let hulls = each.iter().filter_map(|worlds| {
-                    let all = worlds.iter().map(|w| w.cells[source].channels[0]);
-                    all.reduce(CodeInterval::hull)
+                    let codes = worlds.iter().map(|w| w.cells[source].channels[0]);
+                    codes.reduce(CodeInterval::hull)
                 });
                 [self.depth_of(
                     mode,
@@ -106,8 +106,8 @@ impl Walk<'_> {
             ResolveMode::SampleZero => cells.map(|c| Some(c.stencil)).collect(),
             mode => {
                 let values = each.iter().map(|worlds| {
-                    let all = worlds.iter().map(|w| w.cells[source].stencil);
-                    all.collect::<BTreeSet<u8>>()
+                    let stencils = worlds.iter().map(|w| w.cells[source].stencil);
+                    stencils.collect::<BTreeSet<u8>>()
                 });
                 let values: Vec<BTreeSet<u8>> = values.collect();
                 extremes(mode, &values).into_iter().map(Some).collect()
@@ -166,8 +166,8 @@ impl Walk<'_> {
             Resolve::Between => between.hull(average),
             Resolve::CoarseAverage if encoding.is_float() => {
                 let next = (between.high + 1).min(encoding.max_order());
-                let [at, past] = [between.high, next].map(|o| encoding.value_of_order(o));
-                let off = exact.widen((past - at) * halvings);
+                let [value, past] = [between.high, next].map(|o| encoding.value_of_order(o));
+                let off = exact.widen((past - value) * halvings);
                 judging.encode(encoding, Range::same(off))
             }
             Resolve::CoarseAverage => {
@@ -218,12 +218,13 @@ fn extremes(mode: ResolveMode, samples: &[BTreeSet<u8>]) -> BTreeSet<u8> {
         ResolveMode::Min => other >= value,
         _ => other <= value,
     };
-    let all = samples.iter().flatten().copied();
-    all.filter(|value| {
-        let mut each = samples.iter();
-        each.all(|one| one.iter().any(|other| beyond(*value, *other)))
-    })
-    .collect()
+    let values = samples.iter().flatten().copied();
+    values
+        .filter(|value| {
+            let mut each = samples.iter();
+            each.all(|sample| sample.iter().any(|other| beyond(*value, *other)))
+        })
+        .collect()
 }
 
 #[cfg(test)]

@@ -32,8 +32,8 @@ pub(crate) enum Distance {
 impl Distance {
     /// Returns a distance that is constant, or that varies between the vertices in an unknown way.
     pub(crate) fn between(values: &[f64]) -> Self {
-        let all = values.iter().map(|v| Interval::exact(*v));
-        let hull = all.reduce(Interval::hull);
+        let intervals = values.iter().map(|v| Interval::exact(*v));
+        let hull = intervals.reduce(Interval::hull);
         Self::Between(hull.unwrap_or(Interval::exact(0.0)))
     }
 
@@ -95,7 +95,7 @@ impl Distance {
     /// 4.6, 13.7; WebGPU, 23.2.4).
     pub(crate) fn keeps(&self, at: Point) -> Possible {
         let Interval { low, high } = match self {
-            Self::Between(all) => *all,
+            Self::Between(hull) => *hull,
             Self::Over { plane, error } => plane.beyond(at).widen(*error),
             Self::Along { plane, error } => Interval::exact(plane.at(at)).widen(*error),
         };

@@ -21,7 +21,7 @@ const MOST_SETS: u32 = 160;
 
 /// Rules with the step of depth bias that a frame shows, and the legal set under it.
 #[derive(Clone, Debug)]
-pub struct Fitted {
+pub struct FittedRules {
     /// The rules.
     pub rules: Rules,
     /// The values that the rules allow.
@@ -44,7 +44,7 @@ impl Judgement {
         let found = fit(scene, limits, &self.rules, &self.legal, frame, sets)?;
         Ok(match found {
             None => Cow::Borrowed(self),
-            Some(Fitted { rules, legal }) => Cow::Owned(Self {
+            Some(FittedRules { rules, legal }) => Cow::Owned(Self {
                 rules,
                 legal,
                 yardstick: Arc::clone(&self.yardstick),
@@ -67,7 +67,7 @@ pub fn fit(
     legal: &LegalSet,
     frame: &Frame,
     sets: &Sets<'_>,
-) -> Result<Option<Fitted>, FrameError> {
+) -> Result<Option<FittedRules>, FrameError> {
     let Some(encoding) = biased_encoding(scene, limits) else {
         return Ok(None);
     };
@@ -81,11 +81,11 @@ pub fn fit(
     if is_fixed {
         // Tries the usual steps 2^-n and 2^(1-n) before the whole range.
         let usual = [2.0, 1.0].map(|v: f64| (v * (1.0 - NARROW / 2.0), v * (1.0 + NARROW / 2.0)));
-        let whole = parts.clone();
-        let is_legal = |u: &(f64, f64)| whole.iter().any(|p| p.0 <= u.0 && u.1 <= p.1);
+        let legal = parts.clone();
+        let is_legal = |u: &(f64, f64)| legal.iter().any(|p| p.0 <= u.0 && u.1 <= p.1);
         parts.extend(usual.into_iter().filter(is_legal));
     }
-    let mut best: Option<(u64, Fitted)> = None;
+    let mut best: Option<(u64, FittedRules)> = None;
     let mut tried = 0;
     while let Some(part) = parts.pop() {
         if tried == MOST_SETS {
@@ -95,7 +95,7 @@ pub fn fit(
         let rules = rules.assuming(part);
         let legal = set_by(scene, limits, &rules, sets);
         let refused = wrong(&legal, frame)?;
-        let fitted = Fitted { rules, legal };
+        let fitted = FittedRules { rules, legal };
         let is_narrow = !is_fixed || part.1 <= part.0 * (1.0 + 2.0 * NARROW);
         match (refused, is_narrow) {
             (0, true) => return Ok(Some(fitted)),
@@ -124,8 +124,8 @@ fn biased_encoding(scene: &Scene, limits: &Limits) -> Option<ChannelEncoding> {
     attachments.sort_unstable();
     attachments.dedup();
     match attachments[..] {
-        [one] if scene.attachments[one].format.has_depth() => {
-            Some(depth_encoding(scene, limits, one))
+        [attachment] if scene.attachments[attachment].format.has_depth() => {
+            Some(depth_encoding(scene, limits, attachment))
         }
         _ => None,
     }

@@ -550,7 +550,7 @@ impl Walk<'_> {
         let [near, far] = place.draw.viewport.depth.map(f64::from);
         let (near, far) = (near.min(far), near.max(far));
         let held = depth.float.clamp(near, far);
-        let whole = Interval {
+        let zero_to_one = Interval {
             low: 0.0,
             high: 1.0,
         };
@@ -570,16 +570,16 @@ impl Walk<'_> {
             unit
         } else {
             match self.rules.depth_range.value() {
-                DepthRange::Undefined => whole,
+                DepthRange::Undefined => zero_to_one,
                 DepthRange::Unit => unit,
                 DepthRange::ViewportIfWritten if written => held,
                 DepthRange::Either | DepthRange::ViewportIfWritten => held.hull(unit),
             }
         };
-        let own = !written || place.draw.shader == Shader::FragCoordDepth;
+        let keeps_depth = !written || place.draw.shader == Shader::FragCoordDepth;
         let same = match self.rules.same_depth.value() {
-            SameDepth::All => own,
-            SameDepth::Written => written && own,
+            SameDepth::All => keeps_depth,
+            SameDepth::Written => written && keeps_depth,
         };
         Incoming {
             depth: Range::same(depth),

@@ -49,24 +49,24 @@ impl Walk<'_> {
         if !draw.shader.reads_mask() {
             return smallvec![InputBits::default()];
         }
-        let own = InputBits::exact(1 << place.at.sample);
+        let sample_bit = InputBits::exact(1 << place.at.sample);
         if samples == 1 {
-            return smallvec![own];
+            return smallvec![sample_bit];
         }
-        let all = self.covered_samples(place);
+        let covered = self.covered_samples(place);
         let some = InputBits {
-            set: own.set,
-            ..all
+            set: sample_bit.set,
+            ..covered
         };
         match (
             self.rules.input_mask.value(),
             draw.multisample.min_sample_shading,
         ) {
-            (InputMask::AllOrOwn, _) if all == own => smallvec![own],
-            (InputMask::AllOrOwn, _) => smallvec![all, own],
-            _ if draw.shader.runs_per_sample() => smallvec![own],
-            (InputMask::OfRun, None) => smallvec![all],
-            (InputMask::OfRun | InputMask::OfAnyRun, Some(1.0)) => smallvec![own],
+            (InputMask::AllOrOwn, _) if covered == sample_bit => smallvec![sample_bit],
+            (InputMask::AllOrOwn, _) => smallvec![covered, sample_bit],
+            _ if draw.shader.runs_per_sample() => smallvec![sample_bit],
+            (InputMask::OfRun, None) => smallvec![covered],
+            (InputMask::OfRun | InputMask::OfAnyRun, Some(1.0)) => smallvec![sample_bit],
             _ => smallvec![some],
         }
     }

@@ -292,9 +292,9 @@ impl<'r> Judging<'r> {
         let Some((low, high)) = encoding.normalized_range() else {
             return value;
         };
-        let whole = value.clamp(f64::from(low), f64::from(high));
+        let clamped = value.clamp(f64::from(low), f64::from(high));
         if low >= 0.0 {
-            return whole;
+            return clamped;
         }
         let clamp = match self.signed_operands {
             Some(true) => SignedClamp::Signed,
@@ -302,9 +302,9 @@ impl<'r> Judging<'r> {
             None => self.rules.signed_clamp.value(),
         };
         match clamp {
-            SignedClamp::Signed => whole,
+            SignedClamp::Signed => clamped,
             SignedClamp::Unit => value.clamp(0.0, 1.0),
-            SignedClamp::Either => whole.hull(value.clamp(0.0, 1.0)),
+            SignedClamp::Either => clamped.hull(value.clamp(0.0, 1.0)),
         }
     }
 
@@ -326,11 +326,11 @@ impl<'r> Judging<'r> {
             // result.
             let is_computed = slack == 0.0 && encoding.normalized_range().is_some();
             let error = if is_computed { self.error() } else { 0.0 };
-            let off = |at: f64| {
-                if at == ends.1 || at == -ends.1 {
+            let off = |end: f64| {
+                if end == ends.1 || end == -ends.1 {
                     0.0
                 } else {
-                    at.abs() * error
+                    end.abs() * error
                 }
             };
             let (low, high) = (low - off(low), high + off(high));
@@ -701,7 +701,7 @@ impl Arithmetic for Judging<'_> {
 
     /// Each permitted way of computing selects separately.
     fn blend_select(&mut self, a: Range, b: Range, at_most: Range, otherwise: Range) -> Range {
-        let one = |[a, b, at_most, otherwise]: [Interval; 4]| {
+        let select = |[a, b, at_most, otherwise]: [Interval; 4]| {
             let unknown = a.may_be_nan() || b.may_be_nan();
             match (a.high <= b.low && !unknown, a.low <= b.high || unknown) {
                 (true, _) => at_most,
@@ -709,11 +709,11 @@ impl Arithmetic for Judging<'_> {
                 (false, true) => at_most.hull(otherwise),
             }
         };
-        let all = [a, b, at_most, otherwise];
+        let operands = [a, b, at_most, otherwise];
         Range {
-            float: one(all.map(|r| r.float)),
-            codes: one(all.map(|r| r.codes)),
-            fixed: one(all.map(|r| r.fixed)),
+            float: select(operands.map(|r| r.float)),
+            codes: select(operands.map(|r| r.codes)),
+            fixed: select(operands.map(|r| r.fixed)),
         }
     }
 
@@ -734,8 +734,8 @@ impl Arithmetic for Judging<'_> {
             for d in dst.low..=dst.high {
                 let (s, d) = (encoding.code_of_order(s), encoding.code_of_order(d));
                 let code = logic_operation(encoding, operation, s, d);
-                let one = CodeInterval::exact(encoding.order_of_code(code));
-                result = Some(result.map_or(one, |r| r.hull(one)));
+                let codes = CodeInterval::exact(encoding.order_of_code(code));
+                result = Some(result.map_or(codes, |r| r.hull(codes)));
             }
         }
         result.unwrap_or(dst)

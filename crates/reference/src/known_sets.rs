@@ -17,8 +17,8 @@ impl KnownSets {
         rules: &Rules,
         compute: impl FnOnce(&Rules) -> LegalSet,
     ) -> Arc<LegalSet> {
-        let mut all = self.0.iter();
-        if let Some((_, set)) = all.find(|(asked, _)| rules.agree_on(asked)) {
+        let mut known = self.0.iter();
+        if let Some((_, set)) = known.find(|(asked, _)| rules.agree_on(asked)) {
             return Arc::clone(set);
         }
         // A clone starts without recorded permissions, so it records only those of this computation.

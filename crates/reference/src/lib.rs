@@ -55,7 +55,7 @@ mod varying;
 mod walk;
 mod world;
 
-pub use fit::{Fitted, fit};
+pub use fit::{FittedRules, fit};
 pub use interval::Interval;
 pub use judging::Judging;
 pub use known_sets::KnownSets;

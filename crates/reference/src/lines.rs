@@ -63,11 +63,11 @@ pub fn line_gap(
     for (pass, draw) in drawn {
         for primitive in walk.setups[pass].primitives_of(draw) {
             for ends in segments(primitive) {
-                let Some((axis, due)) = columns_of(ends, walk.units) else {
+                let Some((axis, required)) = columns_of(ends, walk.units) else {
                     continue;
                 };
-                columns += due.clone().count();
-                if due.clone().count() <= lack {
+                columns += required.clone().count();
+                if required.clone().count() <= lack {
                     continue;
                 }
                 if columns > MOST_COLUMNS {
@@ -79,8 +79,8 @@ pub fn line_gap(
                     primitive,
                     ends,
                 };
-                let least = due.clone().count() - lack;
-                let found = walk.fragments(line, (axis, due), frame, legal);
+                let least = required.clone().count() - lack;
+                let found = walk.fragments(line, (axis, required), frame, legal);
                 if let Some((most, wrong)) = found.filter(|(most, _)| *most < least) {
                     return Some(LineGap {
                         origin: [pass, draw, primitive.index as usize],
@@ -135,8 +135,8 @@ fn columns_of([a, b]: [SnapBox; 2], units: i64) -> Option<(usize, Range<i64>)> {
     };
     let least = |axis: usize| inner(axis).1 - inner(axis).0;
     let most = |axis: usize| {
-        let all = a.hull(b);
-        along(all.high, axis) - along(all.low, axis)
+        let bounds = a.hull(b);
+        along(bounds.high, axis) - along(bounds.low, axis)
     };
     let axis = [0, 1]
         .into_iter()
@@ -149,21 +149,22 @@ fn columns_of([a, b]: [SnapBox; 2], units: i64) -> Option<(usize, Range<i64>)> {
 
 impl Walk<'_> {
     /// Returns the number of columns in which a frame can have a fragment of a line, including invisible
-    /// ones, and a texel of each column of `due` that has none; `None` if a part of the line may be clipped.
+    /// ones, and a texel of each column of `required` that has none; `None` if a part of the line may be
+    /// clipped.
     fn fragments(
         &self,
         line: Line<'_>,
-        (axis, due): (usize, Range<i64>),
+        (axis, required): (usize, Range<i64>),
         frame: &Frame,
         legal: &LegalSet,
     ) -> Option<(usize, Vec<WrongTexel>)> {
         let [a, b] = line.ends;
-        let all = a.hull(b);
+        let bounds = a.hull(b);
         // A fragment is off by at most a texel, and an end on the border of a texel can count for the next
         // texel.
         let cells = |axis: usize| {
-            let low = (along(all.low, axis) - 1).div_euclid(self.units);
-            let high = along(all.high, axis).div_euclid(self.units);
+            let low = (along(bounds.low, axis) - 1).div_euclid(self.units);
+            let high = along(bounds.high, axis).div_euclid(self.units);
             low - 1..high + 2
         };
         let (mut found, mut wrong) = (0, Vec::new());
@@ -191,8 +192,9 @@ impl Walk<'_> {
                 }
                 match self.covered_by(line, [x, y]) {
                     None => is_possible = true,
-                    Some((at, set)) => {
-                        match legal.refused(frame, (at.size, 1), [at.x, at.y, 0], &set) {
+                    Some((sample, set)) => {
+                        match legal.refused(frame, (sample.size, 1), [sample.x, sample.y, 0], &set)
+                        {
                             None => is_possible = true,
                             Some(texel) => refused.push(texel),
                         }
@@ -201,7 +203,7 @@ impl Walk<'_> {
             }
             if is_possible {
                 found += 1;
-            } else if due.contains(&column) {
+            } else if required.contains(&column) {
                 // The middle texel is nearest to the line.
                 let middle = refused.len() / 2;
                 wrong.extend(refused.into_iter().nth(middle));

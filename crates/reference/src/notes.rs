@@ -74,8 +74,8 @@ impl Skipped {
     }
 
     pub(crate) fn add(&mut self, primitive: u32, reason: Option<Rejection>) {
-        if let Some(all) = &mut self.0 {
-            all.push((primitive, reason));
+        if let Some(notes) = &mut self.0 {
+            notes.push((primitive, reason));
         }
     }
 }

@@ -74,7 +74,7 @@ impl Walk<'_> {
             .filter(|(_, a)| matches!(a.contents, Contents::Texels(_)))
             .map(|(index, a)| (index, a.format.color_channels().len()))
             .collect();
-        let at = |x: u32, y: u32| Sample {
+        let sample_at = |x: u32, y: u32| Sample {
             size,
             samples,
             x,
@@ -97,18 +97,18 @@ impl Walk<'_> {
             Some(worlds)
         };
         if uploaded.is_empty() {
-            let state = states.number(alone(at(0, 0)));
+            let state = states.number(alone(sample_at(0, 0)));
             if lattice == Lattice::ALL {
                 return vec![state; count];
             }
-            let mut all = vec![OPEN; count];
+            let mut picture = vec![OPEN; count];
             for_each_judged(lattice, size, |x, y| {
-                let start = at(x, y).place();
-                all[start..start + samples as usize].fill(state);
+                let start = sample_at(x, y).place();
+                picture[start..start + samples as usize].fill(state);
             });
-            return all;
+            return picture;
         }
-        let mut all = vec![OPEN; count];
+        let mut picture = vec![OPEN; count];
         let mut known: FxHashMap<SmallVec<[u32; 8]>, State> = FxHashMap::default();
         let mut key: SmallVec<[u32; 8]> = SmallVec::new();
         for_each_judged(lattice, size, |x, y| {
@@ -122,15 +122,15 @@ impl Walk<'_> {
             let state = match known.get(&key) {
                 Some(state) => *state,
                 None => {
-                    let state = states.number(alone(at(x, y)));
+                    let state = states.number(alone(sample_at(x, y)));
                     known.insert(key.clone(), state);
                     state
                 }
             };
-            let start = at(x, y).place();
-            all[start..start + samples as usize].fill(state);
+            let start = sample_at(x, y).place();
+            picture[start..start + samples as usize].fill(state);
         });
-        all
+        picture
     }
 
     fn paint_pass(&self, p: usize) {
@@ -268,9 +268,9 @@ impl Walk<'_> {
                     y,
                     sample,
                 };
-                let own = &mut picture[at.place()];
-                let known = known.entry((*own, inside.clone()));
-                *own = *known.or_insert_with(|| self.changed(*own, |worlds| clear(at, worlds)));
+                let state = &mut picture[at.place()];
+                let known = known.entry((*state, inside.clone()));
+                *state = *known.or_insert_with(|| self.changed(*state, |worlds| clear(at, worlds)));
             }
         });
     }
@@ -324,8 +324,8 @@ impl Walk<'_> {
                 y,
                 sample: 0,
             };
-            let own = at.place();
-            if picture[own] == OPEN {
+            let place = at.place();
+            if picture[place] == OPEN {
                 return;
             }
             let sources = (0..source_samples).map(|sample| Sample {
@@ -334,12 +334,17 @@ impl Walk<'_> {
                 ..at
             });
             let mut key: SmallVec<[State; 9]> = SmallVec::new();
-            key.push(picture[own]);
-            key.extend(sources.map(|at| self.pictures.borrow().state(at)));
-            picture[own] = match known.get(&key) {
+            key.push(picture[place]);
+            key.extend(sources.map(|source| self.pictures.borrow().state(source)));
+            picture[place] = match known.get(&key) {
                 Some(state) => *state,
                 None => {
-                    let before = self.pictures.borrow().states.worlds(picture[own]).cloned();
+                    let before = self
+                        .pictures
+                        .borrow()
+                        .states
+                        .worlds(picture[place])
+                        .cloned();
                     let after = before.and_then(|worlds| {
                         let mut worlds = Worlds::clone(&worlds);
                         for (source, target) in self.resolves_into(p, at) {
@@ -376,8 +381,8 @@ fn held(scene: &Scene, (size, samples): Shape) -> Vec<bool> {
 /// Returns the attachments that a scene draws to, clears, resolves to or reads back.
 fn drawn_or_read(scene: &Scene) -> impl Iterator<Item = usize> {
     let of_passes = scene.passes.iter().flat_map(|pass| {
-        let all = pass.color.iter().chain(&pass.depth_stencil).copied();
-        all.chain(pass.resolve_targets())
+        let attachments = pass.color.iter().chain(&pass.depth_stencil).copied();
+        attachments.chain(pass.resolve_targets())
     });
     scene.read.iter().copied().chain(of_passes)
 }
@@ -498,14 +503,14 @@ impl Brush<'_, '_> {
             let step = self.samples as usize;
             let start = self.at(left + 1, y, sample).place();
             let end = self.at(right, y, sample).place();
-            for (i, own) in (start..end).step_by(step).enumerate() {
-                let old = picture[own];
+            for (i, place) in (start..end).step_by(step).enumerate() {
+                let old = picture[place];
                 match before {
-                    Some((state, after)) if state == old => picture[own] = after,
+                    Some((state, after)) if state == old => picture[place] = after,
                     _ => {
                         let at = self.at(left + 1 + i as u32, y, sample);
                         self.texel(picture, at, first, members);
-                        before = Some((old, picture[own]));
+                        before = Some((old, picture[place]));
                     }
                 }
             }
@@ -534,8 +539,8 @@ impl Brush<'_, '_> {
 
     /// Draws over one sample.
     fn texel(&mut self, picture: &mut [State], at: Sample, signature: &SampleKey, members: &[u32]) {
-        let own = at.place();
-        let mut state = picture[own];
+        let place = at.place();
+        let mut state = picture[place];
         for (i, part) in signature.parts.iter().enumerate() {
             if state == OPEN {
                 break;
@@ -562,7 +567,7 @@ impl Brush<'_, '_> {
                 }
             };
         }
-        picture[own] = state;
+        picture[place] = state;
     }
 
     /// Returns the state of a sample after one draw.

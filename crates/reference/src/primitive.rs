@@ -107,9 +107,9 @@ impl Triangle {
         let size = |b: SnapBox| (b.high.x - b.low.x).max(b.high.y - b.low.y);
         let moved = vertices.map(size).into_iter().max().unwrap_or(0);
         let [a, b, c] = vertices;
-        let all = a.hull(b).hull(c);
+        let bounds = a.hull(b).hull(c);
         // No sample of a texel that the triangle can touch is farther from a vertex.
-        let reach = (all.high.x - all.low.x) + (all.high.y - all.low.y) + 4 * units;
+        let reach = (bounds.high.x - bounds.low.x) + (bounds.high.y - bounds.low.y) + 4 * units;
         Self {
             edges: [[a, b], [b, c], [c, a]].map(Edge::Between),
             ids,
@@ -193,13 +193,13 @@ impl Triangle {
         for ends in [ab, bc, ca] {
             let [p, q] = ends.map(|end| end.low);
             let (dx, dy) = (sign * (q.x - p.x), sign * (q.y - p.y));
-            let (one, other) = (dx * (top - p.y), dx * (bottom - p.y));
+            let (at_top, at_bottom) = (dx * (top - p.y), dx * (bottom - p.y));
             let growth = -dy * units;
             // Over the texel in column x, the edge function is at least start + growth * x, and greater by at
             // most the variation within a texel.
             let start = dy * p.x;
-            let lowest = start + one.min(other) + growth.min(0);
-            let highest = start + one.max(other) + growth.max(0);
+            let lowest = start + at_top.min(at_bottom) + growth.min(0);
+            let highest = start + at_top.max(at_bottom) + growth.max(0);
             keep_below(&mut outer, lowest, growth, self.moved);
             keep_below(&mut inner, highest, growth, -self.moved - 1);
         }
@@ -361,9 +361,9 @@ fn seen(value: &Varying, at: Point, units: i64, samples: u32) -> Interval {
 
 fn point_times(center: SnapBox, at: Point, units: i64) -> Times {
     let half = units / 2;
-    let axis = |low: i64, high: i64, at: i64| {
-        let must = high - half < at && at < low + half;
-        let can = low - half <= at && at <= high + half;
+    let axis = |low: i64, high: i64, position: i64| {
+        let must = high - half < position && position < low + half;
+        let can = low - half <= position && position <= high + half;
         (can, must)
     };
     let x = axis(center.low.x, center.high.x, at.x);
@@ -376,7 +376,7 @@ fn point_times(center: SnapBox, at: Point, units: i64) -> Times {
 /// is legal there.
 pub(crate) fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
     let [a, b] = ends;
-    let all = a.hull(b);
+    let bounds = a.hull(b);
     let unit = units as f64;
     let (dx, dy) = ((b.low.x - a.low.x) as f64, (b.low.y - a.low.y) as f64);
     let length = dx.hypot(dy);
@@ -389,15 +389,15 @@ pub(crate) fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
     let reach = unit * (0.5 + along_axes);
     let far = (2.5 * unit) as i64;
     // Such a fragment covers all samples of its texel (Vulkan, Bresenham Line Segment Rasterization).
-    let middle = |at: i64| at.div_euclid(units) * units + units / 2;
+    let middle = |position: i64| position.div_euclid(units) * units + units / 2;
     let center = Point {
         x: middle(at.x),
         y: middle(at.y),
     };
-    let near = center.x >= all.low.x - far
-        && center.x <= all.high.x + far
-        && center.y >= all.low.y - far
-        && center.y <= all.high.y + far;
+    let near = center.x >= bounds.low.x - far
+        && center.x <= bounds.high.x + far
+        && center.y >= bounds.low.y - far
+        && center.y <= bounds.high.y + far;
     // An edge function is linear in each end, so its extremes are at corners of the boxes.
     let values = a
         .corners()
@@ -416,36 +416,38 @@ pub(crate) fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
     }
     // A texel is certain if it is more than 1.5 texels from both ends: half a texel for the diamond at an end,
     // and one texel for a fragment that deviates or is missing.
-    let along =
-        |low: i64, high: i64, at: i64| at - units * 3 / 2 > low && at + units * 3 / 2 < high;
+    let along = |low: i64, high: i64, position: i64| {
+        position - units * 3 / 2 > low && position + units * 3 / 2 < high
+    };
     // True if a line between two positions runs neither through the sample's texel nor through an adjacent
     // one.
-    let misses = |low: i64, high: i64, at: i64| !touches(low - units, high + units, at, units);
-    let across = |line: SnapBox, low: fn(Point) -> i64, at: i64| {
+    let misses =
+        |low: i64, high: i64, position: i64| !touches(low - units, high + units, position, units);
+    let across = |line: SnapBox, low: fn(Point) -> i64, position: i64| {
         let (least, most) = (low(line.low), low(line.high));
-        let cell = at.div_euclid(units);
+        let cell = position.div_euclid(units);
         least.div_euclid(units) == cell
             && most.div_euclid(units) == cell
-            && most - units / 2 < at
-            && at < least + units / 2
+            && most - units / 2 < position
+            && position < least + units / 2
     };
     let horizontal = a.low.y == b.low.y && a.high.y == b.high.y;
     let vertical = a.low.x == b.low.x && a.high.x == b.high.x;
     let x = (a.high.x.min(b.high.x), a.low.x.max(b.low.x));
     let y = (a.high.y.min(b.high.y), a.low.y.max(b.low.y));
-    let must = (horizontal && along(x.0, x.1, at.x) && across(all, |p| p.y, at.y))
-        || (vertical && along(y.0, y.1, at.y) && across(all, |p| p.x, at.x));
+    let must = (horizontal && along(x.0, x.1, at.x) && across(bounds, |p| p.y, at.y))
+        || (vertical && along(y.0, y.1, at.y) && across(bounds, |p| p.x, at.x));
     // An axis-aligned line covers nothing farther away than the adjacent texel: a fragment may deviate by one
     // unit from the diamond-exit rule's fragment (OpenGL 3.3, 3.5.1; OpenGL 4.6, 14.5.1; OpenGL ES 3.2,
     // 13.6.1; Vulkan, Bresenham Line Segment Rasterization, which lines that are not strict may follow).
-    let beside = (horizontal && misses(all.low.y, all.high.y, at.y))
-        || (vertical && misses(all.low.x, all.high.x, at.x));
+    let beside = (horizontal && misses(bounds.low.y, bounds.high.y, at.y))
+        || (vertical && misses(bounds.low.x, bounds.high.x, at.x));
     (u32::from(must), u32::from(!beside))
 }
 
 /// Returns true if a line between two positions can run through a sample's texel.
-fn touches(low: i64, high: i64, at: i64, units: i64) -> bool {
-    let cell = at.div_euclid(units);
+fn touches(low: i64, high: i64, position: i64, units: i64) -> bool {
+    let cell = position.div_euclid(units);
     low.div_euclid(units) <= cell && cell <= high.div_euclid(units)
 }
 

@@ -25,12 +25,12 @@ pub(crate) fn read_path(limits: &Limits, format: TextureFormat) -> ReadPath {
 /// Returns the encoding in which an attachment stores its depth.
 pub(crate) fn depth_encoding(scene: &Scene, limits: &Limits, attachment: usize) -> ChannelEncoding {
     let format = scene.attachments[attachment].format;
-    let of = |encodings: &[ChannelEncoding]| encodings.first().copied();
+    let first = |encodings: &[ChannelEncoding]| encodings.first().copied();
     limits
         .formats
         .get(&format)
-        .and_then(|support| of(&support.depth))
-        .or_else(|| of(format.depth_encodings()))
+        .and_then(|support| first(&support.depth))
+        .or_else(|| first(format.depth_encodings()))
         .unwrap_or(ChannelEncoding::Float32)
 }
 

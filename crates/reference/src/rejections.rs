@@ -24,10 +24,10 @@ impl Walk<'_> {
 
     /// Notes the skipped primitives by reason. Primitives missing from `skipped` do not reach the texel.
     pub(crate) fn note_skipped(&self, notes: &mut Notes<'_>, draw: Numbered<'_>, skipped: Skipped) {
-        let Some(all) = skipped.0 else { return };
+        let Some(rejections) = skipped.0 else { return };
         let count = draw.2.primitives().len();
         let mut reasons = vec![Some(Rejection::Coverage); count];
-        for (primitive, reason) in all {
+        for (primitive, reason) in rejections {
             if let Some(slot) = reasons.get_mut(primitive as usize) {
                 *slot = reason;
             }

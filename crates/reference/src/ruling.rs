@@ -128,15 +128,15 @@ impl Known<'_> {
     fn demand(&self, actual: Option<&[i64]>) -> Demand {
         let colors = self.views.iter().filter(|v| v.aspect == Aspect::Color);
         let several_colors = colors.count() > 1;
-        let all: Vec<&View> = self.views.iter().collect();
+        let views: Vec<&View> = self.views.iter().collect();
         if self.set.is_open() {
             return Demand::Open {
-                returned: actual.map(|orders| returned(&all, orders)),
+                returned: actual.map(|orders| returned(&views, orders)),
                 several_colors,
             };
         }
         let wrong = actual.filter(|orders| !self.set.allows(orders));
-        let focus = wrong.map_or_else(|| all.clone(), |orders| self.wrong_views(orders));
+        let focus = wrong.map_or_else(|| views.clone(), |orders| self.wrong_views(orders));
         let (allowed, more_outcomes) = self.allowed(&focus);
         let (reasons, more_draws) = self.reasons(focus[0]);
         Demand::Values(Box::new(Values {
@@ -148,7 +148,7 @@ impl Known<'_> {
             returned: match (actual, wrong) {
                 (_, Some(orders)) => {
                     let kept = match focus.as_slice() {
-                        [one] => self.kept(one, orders),
+                        [view] => self.kept(view, orders),
                         _ => None,
                     };
                     Some(kept.unwrap_or_else(|| Returned::Wrote(returned(&focus, orders))))
@@ -191,13 +191,13 @@ impl Known<'_> {
                 outcomes.push(outcome);
             }
         }
-        let one = outcomes.len() == 1;
+        let is_single = outcomes.len() == 1;
         let allowed = outcomes.iter().take(LISTED).map(|outcome| {
             let views = focus.iter().zip(outcome);
             views
                 .map(|(view, codes)| {
                     let untouched = self.stores(view).next().is_none();
-                    let kept = one
+                    let kept = is_single
                         && *codes == view.of(&self.initial)
                         && (untouched || codes.iter().all(|v| v.is_exact()));
                     Allowed {

@@ -79,9 +79,9 @@ impl Walk<'_> {
     /// Returns the number of samples at whose points inputs may be interpolated; 1 if only the sample's own
     /// point is possible.
     pub(crate) fn samples_shaded(&self, place: Place<'_>) -> u32 {
-        let own = inputs_at(self.rules, &place.draw.multisample) == ShadedAt::Sample;
+        let at_sample = inputs_at(self.rules, &place.draw.multisample) == ShadedAt::Sample;
         match place.primitive.shape {
-            Shape::Triangle(_) if own => 1,
+            Shape::Triangle(_) if at_sample => 1,
             _ => place.at.samples,
         }
     }
@@ -152,11 +152,11 @@ mod tests {
             assert_eq!(frag_coord_at(&rules, &with(Some(1.0)), 4), ShadedAt::Sample);
         }
         let rules = Rules::of(&test_limits::limits(Api::Vulkan));
-        let at = |share| frag_coord_at(&rules, &with(share), 4);
-        assert_eq!(at(None), ShadedAt::Center);
-        assert_eq!(at(Some(0.0)), ShadedAt::AnySample);
-        assert_eq!(at(Some(0.75)), ShadedAt::AnySample);
-        assert_eq!(at(Some(0.76)), ShadedAt::Sample);
+        let shaded_at = |share| frag_coord_at(&rules, &with(share), 4);
+        assert_eq!(shaded_at(None), ShadedAt::Center);
+        assert_eq!(shaded_at(Some(0.0)), ShadedAt::AnySample);
+        assert_eq!(shaded_at(Some(0.75)), ShadedAt::AnySample);
+        assert_eq!(shaded_at(Some(0.76)), ShadedAt::Sample);
         assert_eq!(inputs_at(&rules, &with(Some(1.0))), ShadedAt::Texel);
     }
 }

@@ -108,8 +108,8 @@ impl Walk<'_> {
         let Some(worlds) = self.earlier(at, place.pass) else {
             return self.anything(index);
         };
-        let all = worlds.iter().map(|w| w.cells[index].channels);
-        let hull = all.reduce(|a, b| std::array::from_fn(|c| a[c].hull(b[c])));
+        let contents = worlds.iter().map(|w| w.cells[index].channels);
+        let hull = contents.reduce(|a, b| std::array::from_fn(|c| a[c].hull(b[c])));
         hull.map_or_else(
             || self.anything(index),
             |channels| self.decoded(index, channels),
@@ -150,10 +150,10 @@ impl Walk<'_> {
             let reach = scaled.widen(step);
             match sampler.filter {
                 // The nearest texel changes at integers.
-                FilterMode::Nearest => whole(reach.low.floor(), reach.high.floor(), size),
+                FilterMode::Nearest => integers(reach.low.floor(), reach.high.floor(), size),
                 FilterMode::Linear => {
                     let (low, high) = (reach.low - 0.5, reach.high - 0.5);
-                    let mut stops = whole(low.ceil(), high.floor(), size);
+                    let mut stops = integers(low.ceil(), high.floor(), size);
                     stops.extend([low, high]);
                     stops
                 }
@@ -166,7 +166,7 @@ impl Walk<'_> {
         let mut result: Option<[Range; 4]> = None;
         for y in &down {
             for x in &across {
-                let one = match sampler.filter {
+                let value = match sampler.filter {
                     FilterMode::Nearest => {
                         let at = [*x as i64, *y as i64];
                         let texel = self.tap(texture, sampler, at)?;
@@ -175,8 +175,8 @@ impl Walk<'_> {
                     FilterMode::Linear => self.weighted(texture, sampler, [*x, *y])?,
                 };
                 result = Some(match result {
-                    None => one,
-                    Some(all) => std::array::from_fn(|c| all[c].zip(one[c], Interval::hull)),
+                    None => value,
+                    Some(hull) => std::array::from_fn(|c| hull[c].zip(value[c], Interval::hull)),
                 });
             }
         }
@@ -189,10 +189,10 @@ impl Walk<'_> {
             let mode: AddressMode = sampler.address[axis];
             texel_position(mode, at[axis], self.scene.attachments[index].size[axis])
         };
-        let at = [inside(0), inside(1)];
+        let texel = [inside(0), inside(1)];
         match texture.pass {
-            None => Some(self.fetched(index, at)),
-            Some(pass) => self.drawn(index, at, pass),
+            None => Some(self.fetched(index, texel)),
+            Some(pass) => self.drawn(index, texel, pass),
         }
     }
 
@@ -213,8 +213,8 @@ impl Walk<'_> {
             sample: 0,
         };
         let worlds = self.earlier(at, pass)?;
-        let all = worlds.iter().map(|w| w.cells[index].channels);
-        let hull = all.reduce(|a, b| std::array::from_fn(|c| a[c].hull(b[c])))?;
+        let contents = worlds.iter().map(|w| w.cells[index].channels);
+        let hull = contents.reduce(|a, b| std::array::from_fn(|c| a[c].hull(b[c])))?;
         Some(self.decoded(index, hull))
     }
 
@@ -250,11 +250,11 @@ impl Walk<'_> {
             }
         }
         let floats = sum.map(|sum| sum.widen(largest * self.rules.float_error.value() * 4.0));
-        let mut all = floats.map(Range::same);
+        let mut ranges = floats.map(Range::same);
         let encodings = self.scene.attachments[texture.index]
             .format
             .color_channels();
-        for (c, (range, encoding)) in all.iter_mut().zip(encodings).enumerate() {
+        for (c, (range, encoding)) in ranges.iter_mut().zip(encodings).enumerate() {
             let normalized = matches!(
                 encoding,
                 ChannelEncoding::Unorm(_) | ChannelEncoding::Snorm(_)
@@ -274,13 +274,13 @@ impl Walk<'_> {
                 };
             }
         }
-        Some(all)
+        Some(ranges)
     }
 }
 
 /// Returns the integers between two numbers, but at most twice the texture's size, which is enough to reach
 /// every texel.
-fn whole(low: f64, high: f64, size: u32) -> Vec<f64> {
+fn integers(low: f64, high: f64, size: u32) -> Vec<f64> {
     let most = 2 * size as usize + 1;
     std::iter::successors(Some(low), |v| Some(v + 1.0))
         .take_while(|v| *v <= high)

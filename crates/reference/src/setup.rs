@@ -44,47 +44,59 @@ pub(crate) fn draw(context: &PassContext<'_>, draw: &Draw) -> Vec<SnappedPrimiti
         Some(ends.map(|ends| SmallVec::from_slice(&ends)).collect())
     } else {
         let convention = draw.provoking.map(|_| draw.provoking_vertices());
-        convention.map(|all| all.into_iter().map(|vertex| smallvec![vertex]).collect())
+        convention.map(|vertices| {
+            vertices
+                .into_iter()
+                .map(|vertex| smallvec![vertex])
+                .collect()
+        })
     };
     let mut vertices = Vertices {
         known: vec![None; draw.mesh.vertices.len()],
         geometry: draw_geometry(draw),
     };
-    for (index, one) in draw.primitives().into_iter().enumerate() {
-        if is_far(context, draw, one) {
+    for (index, indices) in draw.primitives().into_iter().enumerate() {
+        if is_far(context, draw, indices) {
             continue;
         }
         // Without a convention, any vertex may provide the flat colour.
-        let own: SmallVec<[usize; 3]> = match (&provoking, one) {
-            (Some(all), _) => all[index].clone(),
+        let sources: SmallVec<[usize; 3]> = match (&provoking, indices) {
+            (Some(candidates), _) => candidates[index].clone(),
             (None, PrimitiveVertices::Point(i)) => smallvec![i],
             (None, PrimitiveVertices::Line(line)) => SmallVec::from_slice(&line),
             (None, PrimitiveVertices::Triangle(triangle)) => SmallVec::from_slice(&triangle),
         };
         let color = std::array::from_fn(|c| {
             let value = |i: &usize| Interval::exact(f64::from(draw.mesh.vertices[*i].color[c]));
-            let hull = own.iter().map(value).reduce(Interval::hull);
+            let hull = sources.iter().map(value).reduce(Interval::hull);
             hull.unwrap_or(Interval::exact(0.0))
         });
         let vertices = &mut vertices;
-        primitives.extend(primitive(context, draw, vertices, one, color, index as u32));
+        primitives.extend(primitive(
+            context,
+            draw,
+            vertices,
+            indices,
+            color,
+            index as u32,
+        ));
     }
     primitives
 }
 
 /// Returns true if no judged texel is near a primitive, by a rough estimate. Most of a million small
 /// triangles need only this check.
-fn is_far(context: &PassContext<'_>, draw: &Draw, one: PrimitiveVertices) -> bool {
+fn is_far(context: &PassContext<'_>, draw: &Draw, indices: PrimitiveVertices) -> bool {
     if context.lattice == Lattice::ALL {
         return false;
     }
-    let own: &[usize] = match &one {
+    let corners: &[usize] = match &indices {
         PrimitiveVertices::Point(i) => &[*i],
         PrimitiveVertices::Line(line) => line,
         PrimitiveVertices::Triangle(triangle) => triangle,
     };
     let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
-    for i in own {
+    for i in corners {
         let position = draw.mesh.vertices[*i].position;
         if position[3] <= 0.0 {
             return false;
@@ -129,12 +141,12 @@ fn primitive(
     context: &PassContext<'_>,
     draw: &Draw,
     vertices: &mut Vertices,
-    one: PrimitiveVertices,
+    indices: PrimitiveVertices,
     color: [Interval; 4],
     index: u32,
 ) -> Option<SnappedPrimitive> {
     let fill = draw.polygon_mode == PolygonMode::Fill;
-    let parts = match one {
+    let parts = match indices {
         PrimitiveVertices::Point(i) if is_cut(context, draw, &[i]) => {
             point_behind(context, draw, vertices, i)?
         }
@@ -144,14 +156,14 @@ fn primitive(
         PrimitiveVertices::Triangle(triangle) if fill && is_cut(context, draw, &triangle) => {
             cut_triangle(context, draw, vertices, triangle)?
         }
-        _ => snapped(context, draw, vertices, one),
+        _ => snapped(context, draw, vertices, indices),
     };
     let units = units_per_texel(context.limits);
     let reach = match parts.shape {
         Shape::Triangle(_) => 0,
         _ => 2 * units,
     };
-    let all = parts.all;
+    let bounds = parts.all;
     Some(SnappedPrimitive {
         uv: parts.uv.map(Box::new),
         reciprocal_w: parts.reciprocal_w.map(Box::new),
@@ -159,20 +171,20 @@ fn primitive(
         shape: parts.shape,
         color,
         bounds: [
-            (all.low.x - reach).div_euclid(units),
-            (all.low.y - reach).div_euclid(units),
-            (all.high.x + reach).div_euclid(units) + 1,
-            (all.high.y + reach).div_euclid(units) + 1,
+            (bounds.low.x - reach).div_euclid(units),
+            (bounds.low.y - reach).div_euclid(units),
+            (bounds.high.x + reach).div_euclid(units) + 1,
+            (bounds.high.y + reach).div_euclid(units) + 1,
         ],
         window_depth: parts.window_depth,
         clip_depth: parts.clip_depth,
         bias: parts.bias,
-        all,
+        all: bounds,
         geometry: match (context.depth, draw.depth) {
-            (Some(_), Some(_)) => Some(geometry(draw, one, vertices.geometry.clone())),
+            (Some(_), Some(_)) => Some(geometry(draw, indices, vertices.geometry.clone())),
             _ => None,
         },
-        beyond: is_beyond(draw, one),
+        beyond: is_beyond(draw, indices),
         index,
     })
 }
@@ -182,22 +194,22 @@ fn snapped(
     context: &PassContext<'_>,
     draw: &Draw,
     vertices: &mut Vertices,
-    one: PrimitiveVertices,
+    indices: PrimitiveVertices,
 ) -> Parts {
-    let mut of = |i: usize| known(context, draw, vertices, i);
+    let mut vertex = |i: usize| known(context, draw, vertices, i);
     let units = units_per_texel(context.limits);
     let grid = units >> context.limits.sub_pixel_bits;
     let error = context.rules.float_error.value();
-    let boxes = match one {
+    let boxes = match indices {
         PrimitiveVertices::Point(i) => [i; 3],
         PrimitiveVertices::Line([a, b]) => [a, b, a],
         PrimitiveVertices::Triangle(triangle) => triangle,
     }
-    .map(|i| of(i).snapped);
+    .map(|i| vertex(i).snapped);
     let mut bias = Interval::exact(0.0);
-    let (shape, window_depth, clip_depth) = match one {
+    let (shape, window_depth, clip_depth) = match indices {
         PrimitiveVertices::Point(i) => {
-            let v = of(i);
+            let v = vertex(i);
             (
                 Shape::Point(v.snapped),
                 Depth::flat(&[v.window_z]),
@@ -205,7 +217,7 @@ fn snapped(
             )
         }
         PrimitiveVertices::Line(line) => {
-            let v = line.map(&mut of);
+            let v = line.map(&mut vertex);
             (
                 Shape::Line(v.map(|v| v.snapped)),
                 Depth::along(v.map(|v| v.snapped), v.map(|v| v.window_z), units, error),
@@ -214,7 +226,7 @@ fn snapped(
             )
         }
         PrimitiveVertices::Triangle(triangle) => {
-            let v = triangle.map(of);
+            let v = triangle.map(vertex);
             let triangle = Triangle::new(boxes, v.map(|v| v.id), units);
             let window = Depth::over(boxes, v.map(|v| v.window_z), [units, grid], error);
             let z = v.map(|v| v.window_z);
@@ -253,7 +265,7 @@ fn snapped(
         context,
         draw,
         outline: matches!(shape, Shape::Outline(_)),
-        one,
+        indices,
         boxes,
     };
     Parts {
@@ -308,8 +320,8 @@ fn cut_triangle(
 ) -> Option<Parts> {
     let cut = CutTriangle::new(context, draw, triangle)?;
     let boxes = triangle.map(|i| {
-        let whole = !is_cut(context, draw, &[i]);
-        whole.then(|| known(context, draw, vertices, i).snapped)
+        let uncut = !is_cut(context, draw, &[i]);
+        uncut.then(|| known(context, draw, vertices, i).snapped)
     });
     let ids = triangle.map(|i| VertexId::new(draw.mesh.vertices[i].position));
     let window_depth = cut.window_depth();
@@ -389,13 +401,13 @@ fn draw_geometry(draw: &Draw) -> DefaultHasher {
 }
 
 /// Returns the hash of a primitive's vertices in order and of all other inputs of its depth.
-fn geometry(draw: &Draw, one: PrimitiveVertices, mut hasher: DefaultHasher) -> u64 {
-    let own = match one {
+fn geometry(draw: &Draw, indices: PrimitiveVertices, mut hasher: DefaultHasher) -> u64 {
+    let corners = match indices {
         PrimitiveVertices::Point(i) => [i, i, i],
         PrimitiveVertices::Line([a, b]) => [a, b, a],
         PrimitiveVertices::Triangle(triangle) => triangle,
     };
-    for i in own {
+    for i in corners {
         let position = draw.mesh.vertices[i].position;
         position.map(f32::to_bits).hash(&mut hasher);
     }
@@ -408,7 +420,7 @@ struct Over<'a> {
     draw: &'a Draw,
     /// True if only the edges of a triangle are drawn.
     outline: bool,
-    one: PrimitiveVertices,
+    indices: PrimitiveVertices,
     /// The snapped vertices; the first ones are repeated if there are fewer than three.
     boxes: [SnapBox; 3],
 }
@@ -432,24 +444,24 @@ impl Over<'_> {
         let error = self.context.rules.float_error.value();
         let perspective = self.draw.shader.interpolation() == Interpolation::Perspective;
         let w = |i: usize| self.w(i);
-        match self.one {
-            PrimitiveVertices::Triangle(own)
-                if perspective && own.iter().any(|i| w(*i) != w(own[0])) =>
+        match self.indices {
+            PrimitiveVertices::Triangle(corners)
+                if perspective && corners.iter().any(|i| w(*i) != w(corners[0])) =>
             {
-                let values = own.map(&value);
+                let values = corners.map(&value);
                 let flat = values[0] == values[1] && values[1] == values[2];
                 let (least, most) = area(self.boxes);
                 if self.outline || flat || (least <= 0 && most >= 0) {
-                    let all = values.map(Interval::exact);
-                    return Varying::Linear(Depth::flat(&all).interpolated(error));
+                    let exact = values.map(Interval::exact);
+                    return Varying::Linear(Depth::flat(&exact).interpolated(error));
                 }
                 let [_, grid] = self.grids();
-                let w = own.map(w);
+                let w = corners.map(w);
                 Varying::Perspective(Perspective::over(self.boxes, w, values, grid, error))
             }
             PrimitiveVertices::Line([a, b]) if perspective && w(a) != w(b) => {
-                let all = [a, b].map(|i| Interval::exact(value(i)));
-                Varying::Linear(Depth::flat(&all).interpolated(error))
+                let values = [a, b].map(|i| Interval::exact(value(i)));
+                Varying::Linear(Depth::flat(&values).interpolated(error))
             }
             _ => Varying::Linear(self.linear(value)),
         }
@@ -459,18 +471,18 @@ impl Over<'_> {
     fn linear(&self, value: impl Fn(usize) -> f64) -> Depth {
         let [units, grid] = self.grids();
         let error = self.context.rules.float_error.value();
-        match self.one {
-            PrimitiveVertices::Triangle(own) => {
-                let values = own.map(|i| Interval::exact(value(i)));
+        match self.indices {
+            PrimitiveVertices::Triangle(corners) => {
+                let values = corners.map(|i| Interval::exact(value(i)));
                 let mut plane = Depth::over(self.boxes, values, [units, grid], error);
                 if self.outline {
                     plane.reach_out(units);
                 }
                 plane
             }
-            PrimitiveVertices::Line(own) => {
+            PrimitiveVertices::Line(ends) => {
                 let [a, b, _] = self.boxes;
-                let values = own.map(|i| Interval::exact(value(i)));
+                let values = ends.map(|i| Interval::exact(value(i)));
                 Depth::along([a, b], values, units, error)
             }
             PrimitiveVertices::Point(i) => Depth::flat(&[Interval::exact(value(i))]),
@@ -491,22 +503,22 @@ impl Over<'_> {
             .map(|n| {
                 let value = |i: usize| distance(self.draw, i, n);
                 let over_w = |i: usize| value(i) / self.w(i);
-                match self.one {
-                    PrimitiveVertices::Triangle(own) if !self.outline => {
-                        Distance::over(self.boxes, own.map(over_w), self.grids(), error)
+                match self.indices {
+                    PrimitiveVertices::Triangle(corners) if !self.outline => {
+                        Distance::over(self.boxes, corners.map(over_w), self.grids(), error)
                     }
-                    PrimitiveVertices::Line(own)
-                        if may_stay_unclipped(self.context, own.map(value)) =>
+                    PrimitiveVertices::Line(ends)
+                        if may_stay_unclipped(self.context, ends.map(value)) =>
                     {
                         Distance::UNKNOWN
                     }
-                    PrimitiveVertices::Line(own) if self.w(own[0]) == self.w(own[1]) => {
-                        Distance::along([a, b], own.map(value), self.grids()[0])
+                    PrimitiveVertices::Line(ends) if self.w(ends[0]) == self.w(ends[1]) => {
+                        Distance::along([a, b], ends.map(value), self.grids()[0])
                     }
                     // Along a line in perspective, clip distances are not linear in the picture.
-                    PrimitiveVertices::Triangle(own) => Distance::between(&own.map(value)),
-                    PrimitiveVertices::Line(own) => Distance::between(&own.map(value)),
-                    PrimitiveVertices::Point(own) => Distance::between(&[value(own)]),
+                    PrimitiveVertices::Triangle(corners) => Distance::between(&corners.map(value)),
+                    PrimitiveVertices::Line(ends) => Distance::between(&ends.map(value)),
+                    PrimitiveVertices::Point(vertex) => Distance::between(&[value(vertex)]),
                 }
             })
             .collect()

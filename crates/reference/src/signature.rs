@@ -99,12 +99,12 @@ impl Walk<'_> {
         let forced = draw.early_tests == EarlyTests::Forced;
         let state = &draw.multisample;
         let samples = self.scene.pass_samples(&self.scene.passes[pass]);
-        let all = (1_u64 << samples) - 1;
+        let full_mask = (1_u64 << samples) - 1;
         let plain = Multisample {
             mask: state.mask,
             ..Multisample::default()
         };
-        let masked = u64::from(state.mask) & all != all;
+        let masked = u64::from(state.mask) & full_mask != full_mask;
         let mut inputs = Inputs {
             depth: tests_depth && (forced || !draw.shader.writes_depth()),
             depth_seen: draw.shader.reads_depth(),
@@ -139,9 +139,9 @@ impl Walk<'_> {
     fn texture(&self, pass: usize, draw: &Draw, index: usize) -> Texture {
         let attachment = &self.scene.attachments[index];
         let drawn = self.is_drawn_before(index, pass);
-        let own = &self.scene.passes[pass];
-        let same_size = attachment.size == self.scene.pass_size(own);
-        let same_shape = same_size && attachment.samples == self.scene.pass_samples(own);
+        let reading_pass = &self.scene.passes[pass];
+        let same_size = attachment.size == self.scene.pass_size(reading_pass);
+        let same_shape = same_size && attachment.samples == self.scene.pass_samples(reading_pass);
         match (draw.sampler.filter(|_| draw.shader.uses_uv()), drawn) {
             // The coordinates select the texels, which are the same for all samples.
             (Some(_), false) => Texture::Known,
@@ -223,10 +223,10 @@ impl Walk<'_> {
                 let channels = attachment.format.color_channels().len();
                 let start =
                     (at.y as usize * attachment.size[0] as usize + at.x as usize) * channels;
-                let own = codes.get(start..start + channels).unwrap_or_default();
+                let texel = codes.get(start..start + channels).unwrap_or_default();
                 signature
                     .words
-                    .extend(own.iter().map(|code| u64::from(*code)));
+                    .extend(texel.iter().map(|code| u64::from(*code)));
             }
         }
     }

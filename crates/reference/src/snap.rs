@@ -53,9 +53,9 @@ pub(crate) fn area(boxes: [SnapBox; 3]) -> (i64, i64) {
     let [a, b, c] = boxes.map(|b| b.low);
     let span = |p: Point, q: Point| (p.x - q.x).abs() + (p.y - q.y).abs();
     let bound = 2 * moved * (span(a, b) + span(b, c) + span(c, a)) + 8 * moved * moved;
-    let one = signed_area([a, b, c]);
-    if one.abs() > bound {
-        return (one - bound, one + bound);
+    let area = signed_area([a, b, c]);
+    if area.abs() > bound {
+        return (area - bound, area + bound);
     }
     let (mut least, mut most) = (i64::MAX, i64::MIN);
     for a in boxes[0].corners() {

@@ -156,19 +156,21 @@ impl Walk<'_> {
             }
             let attachment = &self.scene.attachments[*index];
             let encodings = attachment.format.color_channels();
-            let all: [ChannelEncoding; 4] =
+            let per_channel: [ChannelEncoding; 4] =
                 std::array::from_fn(|c| encodings[c.min(encodings.len() - 1)]);
             let missing = missing_channels(encodings.len());
             let stored = world.cells[*index].channels;
             let mut dst = || {
                 std::array::from_fn(|c| match missing[c] {
                     Some(value) => Range::exact(value),
-                    None => judging.decode(all[c], stored[c]),
+                    None => judging.decode(per_channel[c], stored[c]),
                 })
             };
             let value = match (&target.blend, target.advanced) {
                 (None, None) => color,
-                (None, Some(mode)) => self.advanced(place, mode, all, [color, dst()], notes),
+                (None, Some(mode)) => {
+                    self.advanced(place, mode, per_channel, [color, dst()], notes)
+                }
                 (Some(state), _) => {
                     let input = BlendInput {
                         src: color,
@@ -176,7 +178,7 @@ impl Walk<'_> {
                         dst: dst(),
                         constant,
                     };
-                    let value = blend(&mut judging, state, all, &input);
+                    let value = blend(&mut judging, state, per_channel, &input);
                     self.note_blend(place, state, &input, value, notes);
                     value
                 }

@@ -35,8 +35,8 @@ impl Texels {
 
     /// Returns the choice for a scene: [`Texels::All`] if the choice would leave out nothing.
     pub(crate) fn of(self, scene: &Scene) -> Self {
-        let whole = |a: &Attachment| self.lattice(a.size) == Lattice::ALL;
-        if scene.attachments.iter().all(whole) {
+        let is_complete = |a: &Attachment| self.lattice(a.size) == Lattice::ALL;
+        if scene.attachments.iter().all(is_complete) {
             Self::All
         } else {
             self
@@ -56,7 +56,7 @@ impl Texels {
     pub(crate) fn lattice(self, size: [u32; 2]) -> Lattice {
         match self {
             Self::All => Lattice::ALL,
-            Self::One(at) => Lattice::One(at),
+            Self::One(texel) => Lattice::One(texel),
             Self::AtMost(most) => {
                 let texels = u64::from(size[0]) * u64::from(size[1]);
                 let most = most.max(1);

@@ -19,11 +19,11 @@ pub(crate) struct Undefined {
 
 impl Undefined {
     pub(crate) fn of(scene: &Scene) -> Self {
-        let mut all = Self::default();
+        let mut result = Self::default();
         for pass in &scene.passes {
-            all.pass(pass);
+            result.pass(pass);
         }
-        all
+        result
     }
 
     /// Returns true if an aspect of an attachment is undefined at the end.
@@ -76,8 +76,8 @@ impl Undefined {
 
     /// Marks as defined everything that clear commands write completely.
     fn clears(&mut self, pass: &Pass, clears: &[Clear]) {
-        let whole = |clear: &&Clear| clear.rect.is_none() && !clear.target.is_masked();
-        for clear in clears.iter().filter(whole) {
+        let is_complete = |clear: &&Clear| clear.rect.is_none() && !clear.target.is_masked();
+        for clear in clears.iter().filter(is_complete) {
             match clear.target {
                 ClearTarget::Color { location, .. } => {
                     self.aspects.remove(&(pass.color[location], Aspect::Color));
@@ -120,7 +120,7 @@ impl Undefined {
 /// Returns the aspects that a draw writes.
 fn written(pass: &Pass, draw: &Draw) -> Vec<(usize, Aspect)> {
     let colors = pass.color.iter().zip(&draw.targets);
-    let mut all: Vec<_> = colors
+    let mut aspects: Vec<_> = colors
         .filter(|(_, target)| target.write_mask != 0)
         .map(|(index, _)| (*index, Aspect::Color))
         .collect();
@@ -128,9 +128,9 @@ fn written(pass: &Pass, draw: &Draw) -> Vec<(usize, Aspect)> {
         (draw.depth.is_some_and(|d| d.write), Aspect::Depth),
         (draw.stencil.is_some(), Aspect::Stencil),
     ] {
-        all.extend(pass.depth_stencil.filter(|_| writes).map(|i| (i, aspect)));
+        aspects.extend(pass.depth_stencil.filter(|_| writes).map(|i| (i, aspect)));
     }
-    all
+    aspects
 }
 
 #[cfg(test)]
@@ -162,9 +162,9 @@ mod tests {
     const STENCIL: (usize, Aspect) = (1, Aspect::Stencil);
 
     #[track_caller]
-    fn check(passes: &str, due: &[(usize, Aspect)], counted: bool) {
+    fn check(passes: &str, expected: &[(usize, Aspect)], counted: bool) {
         let found = undefined(passes);
-        assert_eq!(found.aspects, due.iter().copied().collect());
+        assert_eq!(found.aspects, expected.iter().copied().collect());
         assert_eq!(found.counter(0), counted);
     }
 

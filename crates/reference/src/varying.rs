@@ -88,17 +88,17 @@ impl Perspective {
         float_error: f64,
     ) -> Self {
         let corners = |b: SnapBox| {
-            let all = b.corners();
-            all.into_iter().take(if b.is_exact() { 1 } else { 4 })
+            let corners = b.corners();
+            corners.into_iter().take(if b.is_exact() { 1 } else { 4 })
         };
-        let (value, whole) = ([0, 1, 2].map(|i| values[i] / w[i]), w.map(|w| 1.0 / w));
+        let (value, reciprocal_w) = ([0, 1, 2].map(|i| values[i] / w[i]), w.map(|w| 1.0 / w));
         let choices = corners(boxes[0]).flat_map(|a| {
             corners(boxes[1]).flat_map(move |b| {
                 corners(boxes[2]).map(move |c| {
                     let points = [a, b, c];
                     [
                         DepthPlane::new(points, value),
-                        DepthPlane::new(points, whole),
+                        DepthPlane::new(points, reciprocal_w),
                     ]
                 })
             })
@@ -134,20 +134,20 @@ impl Perspective {
         let [right, down] = self.off;
         let across = [low.x as f64 - right, high.x as f64 + right];
         let along = [low.y as f64 - down, high.y as f64 + down];
-        let mut all: Option<Interval> = None;
-        for [value, whole] in &self.choices {
+        let mut hull: Option<Interval> = None;
+        for [value, reciprocal_w] in &self.choices {
             for x in across {
                 for y in along {
-                    let whole = at(whole, x, y);
-                    if whole <= 0.0 {
+                    let divisor = at(reciprocal_w, x, y);
+                    if divisor <= 0.0 {
                         return Interval::EVERYTHING;
                     }
-                    let quotient = Interval::exact(at(value, x, y) / whole);
-                    all = Some(all.map_or(quotient, |all| all.hull(quotient)));
+                    let quotient = Interval::exact(at(value, x, y) / divisor);
+                    hull = Some(hull.map_or(quotient, |hull| hull.hull(quotient)));
                 }
             }
         }
-        all.unwrap_or(self.hull).widen(self.error)
+        hull.unwrap_or(self.hull).widen(self.error)
     }
 }
 
@@ -196,8 +196,8 @@ mod tests {
             x: 8 * UNITS + 77,
             y: 2 * UNITS + 30,
         };
-        let (one, whole) = (value.at(point), value.over_texel(point, UNITS));
-        assert!(whole.low < one.low && one.high < whole.high);
+        let (at_point, over_texel) = (value.at(point), value.over_texel(point, UNITS));
+        assert!(over_texel.low < at_point.low && at_point.high < over_texel.high);
     }
 
     #[test]

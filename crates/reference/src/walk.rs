@@ -77,9 +77,9 @@ pub(crate) struct Hit {
     pub(crate) sides: [Side; 3],
     /// True if the sample is certainly inside the viewport.
     pub(crate) in_viewport: bool,
-    /// True if the near and far planes certainly do not clip it.
+    /// True if the near and far planes certainly do not clip the sample.
     pub(crate) in_depth: bool,
-    /// True if certainly no clip distance clips it.
+    /// True if certainly no clip distance clips the sample.
     pub(crate) in_distances: bool,
 }
 
@@ -90,7 +90,7 @@ impl Hit {
     }
 }
 
-/// The origin of a fragment in the scene.
+/// The place of a fragment: its sample, pass, draw and primitive.
 #[derive(Clone, Copy)]
 pub(crate) struct Place<'a> {
     pub(crate) at: Sample,
@@ -447,7 +447,7 @@ impl<'a> Walk<'a> {
             .limits
             .sample_positions
             .get(&at.samples)
-            .and_then(|all| all.get(at.sample as usize))
+            .and_then(|positions| positions.get(at.sample as usize))
             .copied()
             .unwrap_or([128, 128]);
         let axis = |texel: u32, offset: u16| {
@@ -582,8 +582,8 @@ impl<'a> Walk<'a> {
 /// distinguish states that are otherwise equal.
 fn without_lone_geometry(mut setups: Vec<PassSetup>) -> Vec<PassSetup> {
     let mut times: FxHashMap<u64, u32> = FxHashMap::default();
-    let all = setups.iter_mut().flat_map(PassSetup::primitives_mut);
-    for geometry in all.filter_map(|primitive| primitive.geometry) {
+    let primitives = setups.iter_mut().flat_map(PassSetup::primitives_mut);
+    for geometry in primitives.filter_map(|primitive| primitive.geometry) {
         *times.entry(geometry).or_default() += 1;
     }
     for primitive in setups.iter_mut().flat_map(PassSetup::primitives_mut) {

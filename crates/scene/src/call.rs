@@ -40,12 +40,12 @@ impl Call<'_> {
 
     /// Returns the indices as bytes of their size.
     pub fn index_bytes(&self) -> Vec<u8> {
-        let all = self.indices.iter().flat_map(|list| list.iter());
+        let indices = self.indices.iter().flat_map(|list| list.iter());
         match self.index {
-            IndexFormat::Uint32 => all.flat_map(|i| i.to_ne_bytes()).collect(),
+            IndexFormat::Uint32 => indices.flat_map(|i| i.to_ne_bytes()).collect(),
             IndexFormat::Uint16 => {
                 // `RESTART` is truncated to the greatest 16-bit index.
-                all.flat_map(|i| (*i as u16).to_ne_bytes()).collect()
+                indices.flat_map(|i| (*i as u16).to_ne_bytes()).collect()
             }
         }
     }
@@ -99,7 +99,10 @@ impl Draw {
         let (mesh, fetch) = (&self.mesh, &self.fetch);
         let parts = (fetch.instances as usize).max(1);
         let vertices = &mesh.vertices[..mesh.vertices.len() / parts];
-        let indices = mesh.indices.as_deref().map(|all| one_of(all, parts));
+        let indices = mesh
+            .indices
+            .as_deref()
+            .map(|indices| one_of(indices, parts));
         let front = match &indices {
             Some(_) => fetch.base_vertex.max(0).unsigned_abs(),
             None => fetch.first_vertex,
@@ -153,8 +156,8 @@ fn between<T: Clone>(list: &[T], unused: usize, value: impl Fn(usize) -> T) -> C
         return Cow::Borrowed(list);
     }
     let around = (0..unused).map(&value);
-    let all = around.clone().chain(list.iter().cloned()).chain(around);
-    Cow::Owned(all.collect())
+    let padded = around.clone().chain(list.iter().cloned()).chain(around);
+    Cow::Owned(padded.collect())
 }
 
 /// The colour of unused vertices and instances: not an exact code of any normalized format.
@@ -176,29 +179,29 @@ impl Mesh {
     /// Indexed parts are separated by [`RESTART`], which restarts strips and does not affect lists.
     #[must_use]
     pub fn instanced(&self, colors: &[[f32; 4]]) -> Self {
-        let mut whole = Self {
+        let mut repeated = Self {
             vertices: Vec::with_capacity(self.vertices.len() * colors.len()),
             indices: self.indices.as_ref().map(|_| Vec::new()),
         };
         for (part, color) in colors.iter().enumerate() {
-            let first = whole.vertices.len() as u32;
+            let first = repeated.vertices.len() as u32;
             let colored = self.vertices.iter().map(|v| Vertex {
                 color: *color,
                 ..*v
             });
-            whole.vertices.extend(colored);
-            if let (Some(all), Some(own)) = (&mut whole.indices, &self.indices) {
+            repeated.vertices.extend(colored);
+            if let (Some(indices), Some(source)) = (&mut repeated.indices, &self.indices) {
                 if part > 0 {
-                    all.push(RESTART);
+                    indices.push(RESTART);
                 }
                 let moved = |i: &u32| match *i {
                     RESTART => RESTART,
                     i => first + i,
                 };
-                all.extend(own.iter().map(moved));
+                indices.extend(source.iter().map(moved));
             }
         }
-        whole
+        repeated
     }
 }
 
@@ -235,18 +238,18 @@ mod tests {
         match &call.indices {
             None => call.vertices[range].iter().copied().map(Some).collect(),
             Some(indices) => {
-                let one = |i: &u32| match *i {
+                let fetched_vertex = |i: &u32| match *i {
                     RESTART => None,
                     i => Some(call.vertices[(i64::from(i) + i64::from(call.base_vertex)) as usize]),
                 };
-                indices[range].iter().map(one).collect()
+                indices[range].iter().map(fetched_vertex).collect()
             }
         }
     }
 
     #[test]
     fn every_path_fetches_the_mesh() {
-        let due: Vec<_> = [3, 2, 1].map(|i| Some(vertex(i))).to_vec();
+        let expected: Vec<_> = [3, 2, 1].map(|i| Some(vertex(i))).to_vec();
         for base_vertex in [-7, -1, 0, 1, 9] {
             for first_index in [0, 1, 5] {
                 let fetch = Fetch {
@@ -257,7 +260,7 @@ mod tests {
                 };
                 let draw = draw(Some(vec![3, 2, 1]), fetch);
                 let call = draw.call();
-                assert_eq!(fetched(&call), due);
+                assert_eq!(fetched(&call), expected);
                 assert_eq!((call.first, call.base_vertex), (first_index, base_vertex));
                 // A lost or doubled offset fetches other vertices, but never reaches outside the buffers.
                 if base_vertex > 0 {
@@ -265,14 +268,14 @@ mod tests {
                         base_vertex: 0,
                         ..call.clone()
                     };
-                    assert_ne!(fetched(&lost), due);
+                    assert_ne!(fetched(&lost), expected);
                     let base_vertex = 2 * base_vertex;
                     assert_ne!(
                         fetched(&Call {
                             base_vertex,
                             ..call
                         }),
-                        due
+                        expected
                     );
                 }
             }
@@ -284,8 +287,8 @@ mod tests {
         let draw = draw(None, fetch);
         let call = draw.call();
         assert_eq!((call.first, call.count, call.vertices.len()), (5, 4, 14));
-        let all: Vec<_> = (0..4).map(|i| Some(vertex(i))).collect();
-        assert_eq!(fetched(&call), all);
+        let expected: Vec<_> = (0..4).map(|i| Some(vertex(i))).collect();
+        assert_eq!(fetched(&call), expected);
     }
 
     #[test]
@@ -310,13 +313,13 @@ mod tests {
                     ..Fetch::default()
                 },
             );
-            let one = draw.mesh.clone();
-            draw.mesh = one.instanced(&colors);
+            let mesh = draw.mesh.clone();
+            draw.mesh = mesh.instanced(&colors);
             let call = draw.call();
             let first: Vec<_> = call.vertices.iter().map(|v| v.position).collect();
-            let due: Vec<_> = one.vertices.iter().map(|v| v.position).collect();
-            assert_eq!(first, due);
-            assert_eq!(call.indices.as_deref(), one.indices.as_deref());
+            let expected: Vec<_> = mesh.vertices.iter().map(|v| v.position).collect();
+            assert_eq!(first, expected);
+            assert_eq!(call.indices.as_deref(), mesh.indices.as_deref());
             assert_eq!(call.colors[2..5], colors);
             assert_eq!((call.instances, call.first_instance), (3, 2));
             assert_eq!(call.colors.len(), 7);
@@ -350,7 +353,7 @@ mod tests {
         };
         let draw = draw(Some(vec![1, RESTART, 2]), fetch);
         let bytes = draw.call().index_bytes();
-        let due: Vec<u8> = [1, RESTART_16, 2].map(u16::to_ne_bytes).concat();
-        assert_eq!(bytes, due);
+        let expected: Vec<u8> = [1, RESTART_16, 2].map(u16::to_ne_bytes).concat();
+        assert_eq!(bytes, expected);
     }
 }

@@ -92,15 +92,15 @@ impl Draw {
     /// Returns the vertex indices of each rasterized primitive, in order: those of the mesh, in reverse
     /// winding if tessellation reverses it.
     pub fn primitives(&self) -> Vec<PrimitiveVertices> {
-        let mut all = self.mesh.primitives(self.topology);
+        let mut primitives = self.mesh.primitives(self.topology);
         if self.tessellation.is_some_and(|t| !t.keeps_order()) {
-            for primitive in &mut all {
+            for primitive in &mut primitives {
                 if let PrimitiveVertices::Triangle([_, second, third]) = primitive {
                     std::mem::swap(second, third);
                 }
             }
         }
-        all
+        primitives
     }
 
     /// Returns true if the mesh is a strip or fan without indices, whose primitives share vertices by their
@@ -120,8 +120,8 @@ impl Draw {
     /// Returns the bits of the shader's enabled clip distances.
     pub fn clipping_distances(&self) -> u8 {
         // A shader has at most eight clip distances.
-        let own = (1_u32 << self.shader.clip_distances()) - 1;
-        self.clip_distances & own as u8
+        let available = (1_u32 << self.shader.clip_distances()) - 1;
+        self.clip_distances & available as u8
     }
 
     /// Returns a draw of triangles to one colour attachment, with every test off and no blending.

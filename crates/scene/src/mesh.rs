@@ -45,31 +45,32 @@ impl Mesh {
             Some(indices) => indices.clone(),
             None => (0..self.vertices.len() as u32).collect(),
         };
-        let mut all = Vec::new();
+        let mut primitives = Vec::new();
         for run in order.split(|i| *i == RESTART) {
             let run: Vec<usize> = run.iter().map(|i| *i as usize).collect();
             match topology {
                 PrimitiveTopology::PointList => {
-                    all.extend(run.iter().map(|i| PrimitiveVertices::Point(*i)));
+                    primitives.extend(run.iter().map(|i| PrimitiveVertices::Point(*i)));
                 }
                 PrimitiveTopology::LineList => {
-                    all.extend(
+                    primitives.extend(
                         run.chunks_exact(2)
                             .map(|c| PrimitiveVertices::Line([c[0], c[1]])),
                     );
                 }
                 PrimitiveTopology::LineStrip => {
-                    all.extend(
+                    primitives.extend(
                         run.windows(2)
                             .map(|w| PrimitiveVertices::Line([w[0], w[1]])),
                     );
                 }
                 PrimitiveTopology::TriangleList => {
                     let triangles = run.chunks_exact(3);
-                    all.extend(triangles.map(|c| PrimitiveVertices::Triangle([c[0], c[1], c[2]])));
+                    primitives
+                        .extend(triangles.map(|c| PrimitiveVertices::Triangle([c[0], c[1], c[2]])));
                 }
                 PrimitiveTopology::TriangleStrip => {
-                    all.extend(run.windows(3).enumerate().map(|(i, w)| {
+                    primitives.extend(run.windows(3).enumerate().map(|(i, w)| {
                         PrimitiveVertices::Triangle(match i % 2 {
                             0 => [w[0], w[1], w[2]],
                             _ => [w[1], w[0], w[2]],
@@ -78,14 +79,14 @@ impl Mesh {
                 }
                 PrimitiveTopology::TriangleFan => {
                     let rest = run.get(1..).unwrap_or_default();
-                    all.extend(
+                    primitives.extend(
                         rest.windows(2)
                             .map(|w| PrimitiveVertices::Triangle([run[0], w[0], w[1]])),
                     );
                 }
             }
         }
-        all
+        primitives
     }
 }
 

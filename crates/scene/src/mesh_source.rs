@@ -243,9 +243,9 @@ impl MeshSource {
                 indices = Some(builder.grid(*cells, *z, value.0)?);
             }
             Self::Field {
-                of,
+                of: kind,
                 cell,
-                at,
+                at: texel,
                 count,
                 z,
                 values,
@@ -257,23 +257,23 @@ impl MeshSource {
                 }
                 let values: Vec<_> = values.iter().map(|v| v.0).collect();
                 let field = Field {
-                    of: *of,
+                    of: *kind,
                     cell: *cell,
-                    at: *at,
+                    at: *texel,
                     count: *count,
                     spare: *spare,
                 };
-                let all = builder.field(&field, *z, &values)?;
-                indices = indexed.then_some(all);
+                let listed = builder.field(&field, *z, &values)?;
+                indices = indexed.then_some(listed);
             }
             Self::Strip {
-                of,
+                of: kind,
                 count,
                 z,
                 value,
                 indexed,
             } => {
-                builder.strip(*of, *count, *z, value.0)?;
+                builder.strip(*kind, *count, *z, value.0)?;
                 indices = indexed.then(|| (0..builder.vertices.len() as u32).collect());
             }
             Self::Torus { segments, value } => {
@@ -333,8 +333,8 @@ impl MeshSource {
             }
         }
         let finite = |v: &Vertex| {
-            let all = v.position.iter().chain(&v.color).chain(&v.uv);
-            all.into_iter().all(|c| c.is_finite())
+            let components = v.position.iter().chain(&v.color).chain(&v.uv);
+            components.into_iter().all(|c| c.is_finite())
         };
         if !builder.vertices.iter().all(finite) {
             return Err("a vertex has a value that is not a finite 32-bit float".to_owned());

@@ -314,10 +314,10 @@ fn call_by(draw: &mut Draw, draws: PathDraws) {
         }
         PathDraws::Instanced => {
             let colors = || draw.mesh.vertices.iter().map(|v| v.color.map(f32::to_bits));
-            let one = colors()
+            let is_uniform = colors()
                 .next()
                 .is_some_and(|first| colors().all(|c| c == first));
-            if one && draw.fetch.instances == 0 {
+            if is_uniform && draw.fetch.instances == 0 {
                 draw.fetch.instances = 1;
             }
         }

@@ -42,11 +42,11 @@ pub(crate) fn may_overlap(draw: &Draw) -> bool {
 
 /// Returns true if no side of either triangle separates the two.
 fn share_area(a: &[[f64; 2]; 3], b: &[[f64; 2]; 3]) -> bool {
-    let separates = |of: &[[f64; 2]; 3], from: &[[f64; 2]; 3]| {
+    let separates = |triangle: &[[f64; 2]; 3], from: &[[f64; 2]; 3]| {
         (0..3).any(|i| {
-            let ([x, y], [u, v]) = (of[i], of[(i + 1) % 3]);
+            let ([x, y], [u, v]) = (triangle[i], triangle[(i + 1) % 3]);
             let side = |[p, q]: [f64; 2]| (u - x) * (q - y) - (v - y) * (p - x);
-            let inside = side(of[(i + 2) % 3]);
+            let inside = side(triangle[(i + 2) % 3]);
             from.iter().all(|p| side(*p) * inside <= 0.0)
         })
     };

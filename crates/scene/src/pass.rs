@@ -201,7 +201,7 @@ impl Pass {
 
     /// Returns the clears of the load operations as clear commands.
     pub fn loading_clears(&self) -> Vec<Clear> {
-        let whole = |target| Clear {
+        let full_clear = |target| Clear {
             before: 0,
             target,
             rect: None,
@@ -209,7 +209,7 @@ impl Pass {
         let mut clears = Vec::new();
         for location in 0..self.color.len() {
             if let LoadOperation::Clear(value) = self.color_operations(location).load {
-                clears.push(whole(ClearTarget::Color {
+                clears.push(full_clear(ClearTarget::Color {
                     location,
                     value,
                     write_mask: 0b1111,
@@ -219,7 +219,7 @@ impl Pass {
         let depth = self.operations.depth.load.clear_value();
         let stencil = self.operations.stencil.load.clear_value();
         if depth.is_some() || stencil.is_some() {
-            clears.push(whole(ClearTarget::DepthStencil {
+            clears.push(full_clear(ClearTarget::DepthStencil {
                 depth,
                 stencil,
                 depth_write: true,
@@ -263,14 +263,14 @@ impl Pass {
         stencil: bool,
     ) -> Vec<(usize, Aspect)> {
         let colors = self.color.iter().enumerate();
-        let mut all: Vec<_> = colors
+        let mut aspects: Vec<_> = colors
             .filter(|(location, _)| color(*location))
             .map(|(_, index)| (*index, Aspect::Color))
             .collect();
         for (has, aspect) in [(depth, Aspect::Depth), (stencil, Aspect::Stencil)] {
-            all.extend(self.depth_stencil.filter(|_| has).map(|i| (i, aspect)));
+            aspects.extend(self.depth_stencil.filter(|_| has).map(|i| (i, aspect)));
         }
-        all
+        aspects
     }
 }
 

@@ -75,7 +75,7 @@ impl Path {
             resolves,
             views,
         } = *self;
-        let all = [
+        let values = [
             PathValue::Start(start),
             PathValue::Pass(pass),
             PathValue::State(state),
@@ -94,7 +94,7 @@ impl Path {
             PathValue::Resolves(resolves),
             PathValue::Views(views),
         ];
-        all.into_iter().filter(|v| !v.is_default()).collect()
+        values.into_iter().filter(|v| !v.is_default()).collect()
     }
 }
 

@@ -84,15 +84,15 @@ mod tests {
         let indices = vec![4, 2, 0, 1, RESTART, 3, 1, 0];
         for topology in PrimitiveTopology::ALL {
             let mesh = mesh(5, Some(indices.clone()));
-            let (all, ends) = (mesh.primitives(*topology), mesh.ends(*topology));
-            assert_eq!(all.len(), ends.len(), "{topology}");
-            for (one, ends) in all.iter().zip(&ends) {
-                let own = match one {
+            let (primitives, ends) = (mesh.primitives(*topology), mesh.ends(*topology));
+            assert_eq!(primitives.len(), ends.len(), "{topology}");
+            for (primitive, ends) in primitives.iter().zip(&ends) {
+                let vertices = match primitive {
                     PrimitiveVertices::Point(i) => vec![*i],
-                    PrimitiveVertices::Line(own) => own.to_vec(),
-                    PrimitiveVertices::Triangle(own) => own.to_vec(),
+                    PrimitiveVertices::Line(line) => line.to_vec(),
+                    PrimitiveVertices::Triangle(triangle) => triangle.to_vec(),
                 };
-                assert!(ends.iter().all(|end| own.contains(end)), "{topology}");
+                assert!(ends.iter().all(|end| vertices.contains(end)), "{topology}");
             }
         }
     }

@@ -43,7 +43,7 @@ impl Query {
     pub fn encloses_operations(&self, scene: &Scene) -> bool {
         let clears = scene.passes.get(self.first.0).map(|pass| &pass.clears);
         let between = |before: usize| self.first.1 < before && before <= self.last.1;
-        self.over_passes || clears.is_some_and(|all| all.iter().any(|c| between(c.before)))
+        self.over_passes || clears.is_some_and(|clears| clears.iter().any(|c| between(c.before)))
     }
 }
 
@@ -219,9 +219,9 @@ mod tests {
                 (0, (2, 0), (2, 0)),
             ]
         );
-        let whole: &[&[&[usize]]] = &[&[&[0], &[0]], &[], &[&[0, 1]], &[&[1]]];
+        let whole_passes: &[&[&[usize]]] = &[&[&[0], &[0]], &[], &[&[0, 1]], &[&[1]]];
         assert_eq!(
-            spans(&scene(QueryScope::Frame, whole)),
+            spans(&scene(QueryScope::Frame, whole_passes)),
             [(0, (0, 0), (2, 0)), (1, (2, 0), (3, 0))]
         );
     }

@@ -17,8 +17,8 @@ impl Scene {
     /// Returns the requirements of the scene, in ascending order and without duplicates.
     pub fn requirements(&self) -> Vec<Requirement> {
         let values = self.path.values().into_iter().map(Requirement::Path);
-        let all: BTreeSet<_> = values.chain(self.on_path().needed()).collect();
-        all.into_iter().collect()
+        let requirements: BTreeSet<_> = values.chain(self.on_path().needed()).collect();
+        requirements.into_iter().collect()
     }
 
     /// Returns the requirements of the scene on the default path.

@@ -124,8 +124,9 @@ impl Scene {
 impl Draw {
     /// Returns the index of a counter of this kind that the draw adds to.
     pub fn counter(&self, scene: &Scene, kind: impl Fn(CounterKind) -> bool) -> Option<usize> {
-        let all = self.counters.iter().copied();
-        all.filter(|i| scene.counters.get(*i).is_some_and(|c| kind(c.kind)))
+        let counters = self.counters.iter().copied();
+        counters
+            .filter(|i| scene.counters.get(*i).is_some_and(|c| kind(c.kind)))
             .min()
     }
 }

@@ -155,8 +155,8 @@ impl Window {
 }
 
 /// Returns the index of the first texel whose centre is not before a coordinate.
-fn centre(at: f64) -> i64 {
-    (at - 0.5).ceil() as i64
+fn centre(coordinate: f64) -> i64 {
+    (coordinate - 0.5).ceil() as i64
 }
 
 #[cfg(test)]
@@ -235,12 +235,12 @@ mod tests {
     fn what_is_culled_or_clipped_covers_nothing() {
         let mut draw = grid([8, 4]);
         draw.cull = CullMode::Back;
-        let one = drawn(&draw, SIZE);
+        let ccw = drawn(&draw, SIZE);
         draw.front_face = FrontFace::Cw;
-        let other = drawn(&draw, SIZE);
-        assert_eq!([one.0, other.0], [64, 64]);
-        assert_eq!([one.1, other.1].iter().sum::<u64>(), 32 * 16);
-        assert!(one.1 == 0 || other.1 == 0);
+        let cw = drawn(&draw, SIZE);
+        assert_eq!([ccw.0, cw.0], [64, 64]);
+        assert_eq!([ccw.1, cw.1].iter().sum::<u64>(), 32 * 16);
+        assert!(ccw.1 == 0 || cw.1 == 0);
         let mut far = stack(2);
         for vertex in &mut far.mesh.vertices {
             vertex.position[2] = 2.0;
@@ -266,14 +266,14 @@ mod tests {
             draws: vec![stack(2)],
             ..Pass::default()
         };
-        let all = 32 * 16;
+        let texels = 32 * 16;
         let work = scene(vec![pass.clone(), pass]).work();
         let expected = Work {
             triangles: 4,
-            texels: 4 * all,
-            cleared: 2 * all,
-            resolved: 2 * all,
-            read: all,
+            texels: 4 * texels,
+            cleared: 2 * texels,
+            resolved: 2 * texels,
+            read: texels,
         };
         assert_eq!(work, expected);
     }

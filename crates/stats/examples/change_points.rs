@@ -27,7 +27,7 @@ fn main() -> ExitCode {
         ["--series"] => {
             for series in MACHINES
                 .iter()
-                .flat_map(|m| SIZES.iter().flat_map(|size| all(*m, *size)))
+                .flat_map(|m| SIZES.iter().flat_map(|size| all_series(*m, *size)))
             {
                 let times: Vec<String> = series
                     .points
@@ -62,10 +62,10 @@ fn main() -> ExitCode {
 }
 
 /// The series of a machine and a size, the same each time.
-fn all(machine: Machine, size: u32) -> Vec<Series> {
+fn all_series(machine: Machine, size: u32) -> Vec<Series> {
     let mut random = Rand64::new(u128::from(size) + 1);
-    let one = |_| series(&mut random, machine, f64::from(size) / 100.0);
-    (0..SERIES).map(one).collect()
+    let make = |_| series(&mut random, machine, f64::from(size) / 100.0);
+    (0..SERIES).map(make).collect()
 }
 
 fn print(mut found: impl FnMut(&Series) -> Vec<usize>) {
@@ -82,7 +82,7 @@ fn print(mut found: impl FnMut(&Series) -> Vec<usize>) {
         print!("{:<46}", machine.name);
         for size in SIZES {
             let mut score = Score::default();
-            for series in all(machine, size) {
+            for series in all_series(machine, size) {
                 score.add(&series.steps, &found(&series), RUNS);
             }
             match size {

@@ -36,8 +36,8 @@ fn round() -> String {
         blend(&mut target);
     }
     let frames: Vec<f64> = (0..FRAMES).map(|_| timed(|| blend(&mut target))).collect();
-    let all = [before, ruler()].into_iter().chain(frames);
-    let texts: Vec<String> = all.map(|t| format!("{t:.9}")).collect();
+    let times = [before, ruler()].into_iter().chain(frames);
+    let texts: Vec<String> = times.map(|t| format!("{t:.9}")).collect();
     texts.join(",")
 }
 

@@ -31,9 +31,9 @@ pub(crate) fn rank_of_bound(m: usize, n: usize, level: f64) -> usize {
     if let Some(first) = orders.first_mut() {
         *first = 1;
     }
-    let mut all = 1.0_f64;
+    let mut total = 1.0_f64;
     for i in 1..=m {
-        all *= (n + i) as f64 / i as f64;
+        total *= (n + i) as f64 / i as f64;
         for u in (n + i..=most).rev() {
             orders[u] -= orders[u - (n + i)];
         }
@@ -43,7 +43,7 @@ pub(crate) fn rank_of_bound(m: usize, n: usize, level: f64) -> usize {
     }
     let mut below = 0.0;
     for (u, count) in orders.iter().enumerate() {
-        below += *count as f64 / all;
+        below += *count as f64 / total;
         if below > level / 2.0 {
             return u;
         }
@@ -104,7 +104,7 @@ pub(crate) fn shift(before: &[f64], after: &[f64], level: f64) -> Shift {
 pub(crate) fn lower_bound(before: &[f64], after: &[f64], rank: usize, room: &mut Vec<f64>) -> f64 {
     differences(before, after, room);
     match rank.checked_sub(1).filter(|index| *index < room.len()) {
-        Some(at) => *room.select_nth_unstable_by(at, f64::total_cmp).1,
+        Some(index) => *room.select_nth_unstable_by(index, f64::total_cmp).1,
         None => f64::NEG_INFINITY,
     }
 }
@@ -119,7 +119,7 @@ fn differences(before: &[f64], after: &[f64], into: &mut Vec<f64>) {
 
 /// Returns the `rank`th smallest and the `rank`th largest value, counted from 1.
 fn bounds(values: &mut [f64], rank: usize) -> (f64, f64) {
-    let Some(index) = rank.checked_sub(1).filter(|at| *at < values.len()) else {
+    let Some(index) = rank.checked_sub(1).filter(|index| *index < values.len()) else {
         return (f64::NEG_INFINITY, f64::INFINITY);
     };
     let last = values.len() - 1;

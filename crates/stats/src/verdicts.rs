@@ -77,8 +77,12 @@ pub fn happenings<K: Copy>(runs: &[(K, Class)]) -> Vec<Happening<K>> {
             .map(|before| (runs[before].0, classes[before]));
         if let Some((after, last)) = before {
             let mut tell = |event| {
-                let at = runs[index].0;
-                found.push(Happening { event, after, at });
+                let run = runs[index].0;
+                found.push(Happening {
+                    event,
+                    after,
+                    at: run,
+                });
             };
             match (last, class) {
                 (Class::Missing, Class::Missing) => {}
@@ -166,7 +170,7 @@ pub fn scores<K: Ord + Copy>(runs: &[BTreeMap<K, Class>]) -> Vec<Scores> {
         let cases = run.iter().filter(|(_, class)| **class != Class::Missing);
         cases.map(|(case, _)| *case).collect()
     };
-    let common = runs.iter().map(there).reduce(|all, run| &all & &run);
+    let common = runs.iter().map(there).reduce(|common, run| &common & &run);
     let common = common.unwrap_or_default();
     let score = |run: &BTreeMap<K, Class>| Scores {
         common: Score::over(
@@ -185,7 +189,7 @@ mod tests {
     use Event::{Appeared, Broken, Fixed, Flaky, Gone};
 
     /// Returns the events of a history written in letters: good, bad, flaky, missing.
-    fn told(text: &str) -> Vec<(Event, usize)> {
+    fn events(text: &str) -> Vec<(Event, usize)> {
         let class = |letter| match letter {
             'g' => Class::Good,
             'b' => Class::Bad,
@@ -203,30 +207,30 @@ mod tests {
 
     #[test]
     fn each_event_is_told_once_and_where_it_shows() {
-        assert_eq!(told(""), []);
-        assert_eq!(told("ggggg"), []);
-        assert_eq!(told("bbb"), []);
-        assert_eq!(told("ggbbb"), [(Broken, 2)]);
-        assert_eq!(told("bbg"), [(Fixed, 2)]);
-        assert_eq!(told("gbbbbbg"), [(Broken, 1), (Fixed, 6)]);
-        assert_eq!(told("gffg"), [(Flaky, 1), (Fixed, 3)]);
-        assert_eq!(told("gfb"), [(Flaky, 1), (Broken, 2)]);
-        assert_eq!(told("..gg.."), [(Appeared, 2), (Gone, 4)]);
+        assert_eq!(events(""), []);
+        assert_eq!(events("ggggg"), []);
+        assert_eq!(events("bbb"), []);
+        assert_eq!(events("ggbbb"), [(Broken, 2)]);
+        assert_eq!(events("bbg"), [(Fixed, 2)]);
+        assert_eq!(events("gbbbbbg"), [(Broken, 1), (Fixed, 6)]);
+        assert_eq!(events("gffg"), [(Flaky, 1), (Fixed, 3)]);
+        assert_eq!(events("gfb"), [(Flaky, 1), (Broken, 2)]);
+        assert_eq!(events("..gg.."), [(Appeared, 2), (Gone, 4)]);
     }
 
     #[test]
     fn what_a_case_was_before_it_was_gone_counts() {
-        assert_eq!(told("g.g"), [(Gone, 1), (Appeared, 2)]);
-        assert_eq!(told("g..b"), [(Gone, 1), (Appeared, 3), (Broken, 3)]);
-        assert_eq!(told(".b"), [(Appeared, 1)]);
+        assert_eq!(events("g.g"), [(Gone, 1), (Appeared, 2)]);
+        assert_eq!(events("g..b"), [(Gone, 1), (Appeared, 3), (Broken, 3)]);
+        assert_eq!(events(".b"), [(Appeared, 1)]);
     }
 
     #[test]
     fn good_and_bad_in_turn_is_flaky() {
-        assert_eq!(told("gggbgbgbbbbb"), [(Flaky, 3), (Broken, 7)]);
-        assert_eq!(told("ggbbggbbgggggg"), [(Flaky, 2), (Fixed, 8)]);
+        assert_eq!(events("gggbgbgbbbbb"), [(Flaky, 3), (Broken, 7)]);
+        assert_eq!(events("ggbbggbbgggggg"), [(Flaky, 2), (Fixed, 8)]);
         assert_eq!(
-            told("gb.gb.g"),
+            events("gb.gb.g"),
             [
                 (Flaky, 1),
                 (Gone, 2),
@@ -237,8 +241,8 @@ mod tests {
             ]
         );
         // Three changes, or changes far apart, are separate breaks and fixes.
-        assert_eq!(told("gbgb"), [(Broken, 1), (Fixed, 2), (Broken, 3)]);
-        assert_eq!(told("gbbbbggggbbbbgggg").len(), 4);
+        assert_eq!(events("gbgb"), [(Broken, 1), (Fixed, 2), (Broken, 3)]);
+        assert_eq!(events("gbbbbggggbbbbgggg").len(), 4);
     }
 
     #[test]

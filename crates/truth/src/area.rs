@@ -200,9 +200,9 @@ impl Pieces<'_> {
             Err([a, b]) => {
                 let slack = order::slack(surfaces, a, b);
                 match cell.cut(|p| order::gap(surfaces, a, b, p), slack) {
-                    Cut::Both(one, other) => self.deeper(|pieces| {
-                        pieces.arrange(&one, members)?;
-                        pieces.arrange(&other, members)
+                    Cut::Both(first, second) => self.deeper(|pieces| {
+                        pieces.arrange(&first, members)?;
+                        pieces.arrange(&second, members)
                     }),
                     Cut::Positive | Cut::Negative => None,
                 }
@@ -214,13 +214,13 @@ impl Pieces<'_> {
     fn paint(&mut self, cell: &Cell, visible: &[usize]) -> Option<()> {
         let layers = self.layers;
         let seen = |p| order::compose(layers.surfaces, visible, layers.background, p);
-        let all = || visible.iter().map(|&i| &layers.surfaces[i]);
-        let textures = all().filter(|s| s.is_textured()).count();
-        let fades = all().any(PreparedSurface::fades);
-        if let Some((one, other)) = all().find_map(|s| s.kink(cell)) {
+        let surfaces = || visible.iter().map(|&i| &layers.surfaces[i]);
+        let textures = surfaces().filter(|s| s.is_textured()).count();
+        let fades = surfaces().any(PreparedSurface::fades);
+        if let Some((first, second)) = surfaces().find_map(|s| s.kink(cell)) {
             return self.deeper(|pieces| {
-                pieces.paint(&one, visible)?;
-                pieces.paint(&other, visible)
+                pieces.paint(&first, visible)?;
+                pieces.paint(&second, visible)
             });
         }
         if textures == 0 && !fades {

@@ -57,15 +57,15 @@ impl PreparedSurface<'_> {
         let cut = |function: &dyn Fn(Point) -> f64, range: (f64, f64)| match cell
             .cut(function, 1e-9 * (range.1 - range.0))
         {
-            Cut::Both(one, other) => Some((one, other)),
+            Cut::Both(first, second) => Some((first, second)),
             Cut::Positive | Cut::Negative => None,
         };
         match self.paint {
             Paint::Flat(_) | Paint::Depth => None,
             Paint::Distance { near, far } | Paint::Fog { near, far, .. } => {
                 let range = cell.range(|p| self.depth.at(p));
-                let at = |stop: f64| cut(&|p| self.depth.at(p) - stop, range);
-                if let Some(parts) = [0.0, 1.0].into_iter().find_map(at) {
+                let cut_at = |stop: f64| cut(&|p| self.depth.at(p) - stop, range);
+                if let Some(parts) = [0.0, 1.0].into_iter().find_map(cut_at) {
                     return Some(parts);
                 }
                 let [a, b] = [range.0, range.1].map(|z| far - z.clamp(0.0, 1.0) * (far - near));
@@ -73,7 +73,7 @@ impl PreparedSurface<'_> {
                     return None;
                 }
                 let middle = (far - (a * b).sqrt()) / (far - near);
-                at(middle)
+                cut_at(middle)
             }
             Paint::Texture { texture, .. } => (0..2).find_map(|axis| {
                 let position = |p| self.positions(texture, p)[axis];
@@ -112,12 +112,12 @@ fn filtered(texture: &Texture, position: [f64; 2]) -> [f64; 4] {
     let first = position.map(f64::floor);
     let weight = [position[0] - first[0], position[1] - first[1]];
     let taps: [[usize; 2]; 2] = std::array::from_fn(|axis| {
-        let (mode, size, at) = (
+        let (mode, size, texel) = (
             texture.address[axis],
             texture.size[axis],
             first[axis] as i64,
         );
-        [at, at.saturating_add(1)].map(|at| texel_position(mode, at, size))
+        [texel, texel.saturating_add(1)].map(|texel| texel_position(mode, texel, size))
     });
     let texel =
         |x: usize, y: usize| texture.texels[taps[1][y] * texture.size[0] as usize + taps[0][x]];

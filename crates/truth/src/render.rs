@@ -32,7 +32,7 @@ pub fn truth(scene: &Truth) -> TruthPicture {
         .iter()
         .filter_map(PreparedSurface::new)
         .collect();
-    let all: Vec<usize> = (0..surfaces.len()).collect();
+    let indices: Vec<usize> = (0..surfaces.len()).collect();
     let (blocks, next) = (blocks(scene.size), AtomicUsize::new(0));
     let work = || {
         let mut renderer = Renderer {
@@ -43,7 +43,7 @@ pub fn truth(scene: &Truth) -> TruthPicture {
         };
         let mut done = Vec::new();
         while let Some([low, high]) = blocks.get(next.fetch_add(1, Ordering::Relaxed)) {
-            renderer.block(*low, *high, &all);
+            renderer.block(*low, *high, &indices);
             done.push([*low, *high]);
         }
         (renderer.picture, done)

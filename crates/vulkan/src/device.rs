@@ -158,8 +158,9 @@ fn bound_version(device: u32) -> ApiVersion {
 fn has_extension(api: &ash::Instance, physical: vk::PhysicalDevice, name: &CStr) -> bool {
     // SAFETY: `physical` is of this instance.
     let extensions = unsafe { api.enumerate_device_extension_properties(physical) };
-    let all = extensions.iter().flatten();
-    all.into_iter()
+    let properties = extensions.iter().flatten();
+    properties
+        .into_iter()
         .any(|e| e.extension_name_as_c_str().is_ok_and(|n| n == name))
 }
 
@@ -230,9 +231,9 @@ fn singles(
         SingleState::Provoking => provoking.last,
         SingleState::Origin => enabled.tessellation_shader != vk::FALSE,
     };
-    let mut all = SingleState::ALL.to_vec();
-    all.retain(|state| has_both(state) && *single_feature(&mut offered, *state) != vk::FALSE);
-    all
+    let mut states = SingleState::ALL.to_vec();
+    states.retain(|state| has_both(state) && *single_feature(&mut offered, *state) != vk::FALSE);
+    states
 }
 
 /// Returns true if a device has all states of extended dynamic state 3 that the suite sets together.

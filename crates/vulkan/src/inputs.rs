@@ -93,12 +93,12 @@ impl DrawInputs {
         let call = call(draw);
         let bytes = size_of_val(&*call.vertices);
         let vertices = offsets.allocate(bytes as u64, size_of::<Vertex>() as u64);
-        let indices = call.indices.as_ref().map(|all| {
+        let indices = call.indices.as_ref().map(|indices| {
             let (kind, size) = match call.index {
                 IndexFormat::Uint16 => (vk::IndexType::UINT16, size_of::<u16>()),
                 IndexFormat::Uint32 => (vk::IndexType::UINT32, size_of::<u32>()),
             };
-            let bytes = all.len() * size;
+            let bytes = indices.len() * size;
             (offsets.allocate(bytes as u64, size as u64), kind)
         });
         let colors = call.color_bytes().len() as u64;

@@ -471,5 +471,7 @@ pub(crate) fn targets(gpu: &Gpu, scene: &Scene, pass: &Pass) -> Result<Targets, 
 /// Returns the aspects of a format.
 fn aspects(format: TextureFormat) -> vk::ImageAspectFlags {
     let flags = format.aspects().iter().map(|a| format::aspect_flag(*a));
-    flags.fold(vk::ImageAspectFlags::empty(), |all, flag| all | flag)
+    flags.fold(vk::ImageAspectFlags::empty(), |aspects, flag| {
+        aspects | flag
+    })
 }

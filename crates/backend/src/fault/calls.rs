@@ -233,15 +233,16 @@ impl FaultyCalls {
         if !self.has(fault) {
             return Vec::new();
         }
-        let due = self
+        let matching = self
             .open
             .iter_mut()
             .filter(|open| !open.ended && kind(open));
-        due.map(|open| {
-            open.ended = true;
-            *open
-        })
-        .collect()
+        matching
+            .map(|open| {
+                open.ended = true;
+                *open
+            })
+            .collect()
     }
 
     /// Records a clear.

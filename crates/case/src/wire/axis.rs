@@ -39,14 +39,14 @@ impl<'de> Deserialize<'de> for Axis {
             }
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Axis, A::Error> {
                 let range = Count::deserialize(MapAccessDeserializer::new(map))?;
-                let all = (0..u64::from(range.count)).map(|i| {
+                let values = (0..u64::from(range.count)).map(|i| {
                     let number = u64::from(range.from) + i;
                     AxisValue {
                         name: number.to_string(),
                         value: number.into(),
                     }
                 });
-                Ok(Axis(all.collect()))
+                Ok(Axis(values.collect()))
             }
         }
         deserializer.deserialize_any(Values)

@@ -194,8 +194,8 @@ impl QuickWire {
     pub(crate) fn takes_all_of(&self, axis: &str) -> bool {
         match self {
             Self::Pairwise | Self::Each(_) | Self::First(_) => false,
-            Self::Where(due) => !due.contains_key(axis),
-            Self::Any(rows) => rows.iter().all(|due| !due.contains_key(axis)),
+            Self::Where(chosen) => !chosen.contains_key(axis),
+            Self::Any(rows) => rows.iter().all(|chosen| !chosen.contains_key(axis)),
         }
     }
 }

@@ -205,7 +205,7 @@ pub(crate) struct DrawWire {
     pub(crate) mesh: MeshSource,
     /// The factors of the vertices' positions, repeated as needed: they become the w of positions with w 1. A
     /// positive factor does not move a vertex in the picture.
-    #[serde(default = "one")]
+    #[serde(default = "unit_w")]
     pub(crate) w: Vec<f32>,
     /// The route by which the mesh's vertices reach the pipeline.
     #[serde(default)]
@@ -286,7 +286,7 @@ pub(crate) struct TargetWire {
     pub(crate) write_mask: String,
 }
 
-fn one() -> Vec<f32> {
+fn unit_w() -> Vec<f32> {
     vec![1.0]
 }
 

@@ -46,14 +46,14 @@ fn build(text: &[u8]) -> bool {
     let folder = tempfile::tempdir().unwrap();
     fs::create_dir(folder.path().join("area")).unwrap();
     fs::write(folder.path().join("area/file.json"), text).unwrap();
-    let told = |error: String| {
+    let check = |error: String| {
         assert!(!error.is_empty() && error.len() < 8000, "{error}");
         assert!(error.contains("file.json"), "{error}");
         false
     };
     let library = match Library::from_folder(folder.path()) {
         Ok(library) => library,
-        Err(error) => return told(error.to_string()),
+        Err(error) => return check(error.to_string()),
     };
     for case in library.cases(Profile::Quick).take(BUILT) {
         let id = case.id();
@@ -62,7 +62,7 @@ fn build(text: &[u8]) -> bool {
             Ok(case) => {
                 let _ = (case.requirements(), case.scene.bytes());
             }
-            Err(error) => return told(error.to_string()),
+            Err(error) => return check(error.to_string()),
         }
     }
     true

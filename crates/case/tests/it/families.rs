@@ -46,7 +46,7 @@ fn every_area_holds_its_cases() {
         let area = id.split('/').next().expect("an id has an area").to_owned();
         *counts.entry(area).or_insert(0) += 1;
     }
-    let due = [
+    let minimums = [
         ("depth", 1000),
         ("stencil", 3300),
         ("blend", 2900),
@@ -59,7 +59,7 @@ fn every_area_holds_its_cases() {
         ("size", 500),
         ("paths", 1500),
     ];
-    for (area, least) in due {
+    for (area, least) in minimums {
         let count = counts.get(area).copied().unwrap_or(0);
         assert!(
             count >= least,
@@ -73,7 +73,7 @@ fn every_area_holds_its_cases() {
 #[test]
 fn the_quick_profile_takes_some_of_every_file() {
     let library = Library::built_in().expect("built-in files parse");
-    let mut all = 0;
+    let mut total = 0;
     for file in library.files() {
         let full: BTreeSet<String> = file.cases(Profile::Full).map(|c| c.id()).collect();
         let quick: Vec<String> = file.cases(Profile::Quick).map(|c| c.id()).collect();
@@ -90,17 +90,17 @@ fn the_quick_profile_takes_some_of_every_file() {
         // value of each state, and the largest sizes take too long.
         let partly = ["combined/", "capabilities/", "found/", "sequence/", "size/"];
         if partly.iter().any(|area| file.name().starts_with(area)) {
-            all += quick.len();
+            total += quick.len();
             continue;
         }
         // Each value of each axis is in one of them.
         let parts = |id: &str| -> Vec<String> { id.split('/').map(str::to_owned).collect() };
-        let due: BTreeSet<String> = full.iter().flat_map(|id| parts(id)).collect();
+        let expected: BTreeSet<String> = full.iter().flat_map(|id| parts(id)).collect();
         let met: BTreeSet<String> = quick.iter().flat_map(|id| parts(id)).collect();
-        assert_eq!(met, due, "{}", file.name());
-        all += quick.len();
+        assert_eq!(met, expected, "{}", file.name());
+        total += quick.len();
     }
-    assert!(all <= 2721, "{all} cases are not quick");
+    assert!(total <= 2721, "{total} cases are not quick");
 }
 
 #[test]
@@ -244,8 +244,8 @@ fn stencil_operations_take_every_path_from_every_stored_value() {
     }
 }
 
-fn every_triple_takes_every_path(cases: &[Case], due: usize) {
-    assert_eq!(cases.len(), due);
+fn every_triple_takes_every_path(cases: &[Case], expected: usize) {
+    assert_eq!(cases.len(), expected);
     let key = |f: &StencilFace| (f.fail_op, f.depth_fail_op, f.pass_op);
     let mut front = BTreeSet::new();
     let mut back = BTreeSet::new();
@@ -271,23 +271,23 @@ fn every_triple_takes_every_path(cases: &[Case], due: usize) {
             for path in [Path::Fail, Path::DepthFail, Path::Pass] {
                 let list = inputs.remove(&(is_front, path)).unwrap_or_default();
                 let stored: BTreeSet<u8> = list.iter().map(|(stored, _)| *stored).collect();
-                let due = BTreeSet::from([0, 1, 90, 127, 128, 165, 254, 255]);
-                assert_eq!(stored, due, "{}: {is_front} {path:?}", case.id);
+                let expected = BTreeSet::from([0, 1, 90, 127, 128, 165, 254, 255]);
+                assert_eq!(stored, expected, "{}: {is_front} {path:?}", case.id);
                 // Whichever two operations are confused, some texel distinguishes them.
                 for a in StencilOperation::ALL {
                     for b in StencilOperation::ALL.iter().filter(|b| *b != a) {
-                        let told = list.iter().any(|(stored, reference)| {
+                        let distinguished = list.iter().any(|(stored, reference)| {
                             let [a, b] = [a, b].map(|op| operate(*op, *stored, *reference, mask));
                             a != b
                         });
-                        assert!(told, "{}: {a:?} and {b:?} look the same", case.id);
+                        assert!(distinguished, "{}: {a:?} and {b:?} look the same", case.id);
                     }
                 }
             }
         }
     }
-    assert_eq!(front.len(), due);
-    assert_eq!(back.len(), due);
+    assert_eq!(front.len(), expected);
+    assert_eq!(back.len(), expected);
 }
 
 #[test]
@@ -436,11 +436,15 @@ fn textbook_values_are_what_the_equations_give() {
         let frame = plain(&case.scene);
         for expect in &case.expect {
             let width = case.scene.attachments[expect.attachment].size[0];
-            let at = (expect.texel[1] * width + expect.texel[0]) as usize;
-            let found = frame[expect.attachment].color[at];
-            for (found, due) in found.iter().zip(&expect.value) {
-                let due = (due * 255.0).round() / 255.0;
-                assert!((found - due).abs() < 1e-6, "{}: {found} for {due}", case.id);
+            let index = (expect.texel[1] * width + expect.texel[0]) as usize;
+            let found = frame[expect.attachment].color[index];
+            for (found, value) in found.iter().zip(&expect.value) {
+                let expected = (value * 255.0).round() / 255.0;
+                assert!(
+                    (found - expected).abs() < 1e-6,
+                    "{}: {found} for {expected}",
+                    case.id
+                );
             }
         }
     }
@@ -466,19 +470,19 @@ fn culling_shows_each_face_alone() {
         let colors = &frame[case.scene.passes[0].color[0]].color;
         let shows = |color: [f32; 4]| colors.contains(&color.map(f64::from));
         let (front, back) = (shows(draw.params.color), shows(draw.params.back_color));
-        let due = match draw.cull {
+        let expected = match draw.cull {
             CullMode::None => (true, true),
             CullMode::Front => (false, true),
             CullMode::Back => (true, false),
             CullMode::FrontAndBack => (false, false),
         };
         // Triangles without an area show no face.
-        let due = if case.id.starts_with("cull/slivers/") {
+        let expected = if case.id.starts_with("cull/slivers/") {
             (false, false)
         } else {
-            due
+            expected
         };
-        assert_eq!((front, back), due, "{}", case.id);
+        assert_eq!((front, back), expected, "{}", case.id);
     }
 }
 

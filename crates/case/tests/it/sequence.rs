@@ -10,8 +10,8 @@ use std::collections::BTreeSet;
 
 /// The draws that alternate: the last three.
 fn steps(case: &Case) -> [&Draw; 3] {
-    let all: Vec<&Draw> = case.scene.passes.iter().flat_map(|p| &p.draws).collect();
-    let last = all.last_chunk().expect("a sequence has three steps");
+    let draws: Vec<&Draw> = case.scene.passes.iter().flat_map(|p| &p.draws).collect();
+    let last = draws.last_chunk().expect("a sequence has three steps");
     *last
 }
 
@@ -38,7 +38,7 @@ fn every_state_of_a_draw_has_its_file() {
         if !file.name().starts_with("sequence/state/") {
             continue;
         }
-        let mut own = BTreeSet::new();
+        let mut changing = BTreeSet::new();
         for case in file.cases(Profile::Full) {
             let id = case.id();
             let case = case.build().expect("built-in cases build");
@@ -49,13 +49,17 @@ fn every_state_of_a_draw_has_its_file() {
             let same = value("first=") == value("then=");
             assert_eq!(state.is_none(), same, "{id}");
             assert_ne!(state.as_deref(), Some(""), "{id} changes several states");
-            own.extend(state);
+            changing.extend(state);
         }
         // A disabled test has no parts that could differ.
-        let widest = own.iter().min_by_key(|name| name.len());
+        let widest = changing.iter().min_by_key(|name| name.len());
         let widest = widest.unwrap_or_else(|| panic!("{} changes nothing", file.name()));
         let is_part = |name: &String| name.starts_with(widest.as_str());
-        assert!(own.iter().all(is_part), "{}: {own:?}", file.name());
+        assert!(
+            changing.iter().all(is_part),
+            "{}: {changing:?}",
+            file.name()
+        );
         changed.insert(widest.clone());
     }
     let every = every_state();
@@ -74,9 +78,9 @@ fn draws_take_turns_in_a_pass_over_passes_and_over_framebuffers() {
     for case in cases.filter(|c| c.id().starts_with("sequence/state/")) {
         let case = case.build().expect("built-in cases build");
         let passes = &case.scene.passes;
-        let own = |pass: &etalon_scene::Pass| (pass.color.clone(), pass.depth_stencil);
-        let last = passes.last().map(own);
-        let before = passes.iter().rev().nth(1).map(own);
+        let targets = |pass: &etalon_scene::Pass| (pass.color.clone(), pass.depth_stencil);
+        let last = passes.last().map(targets);
+        let before = passes.iter().rev().nth(1).map(targets);
         if case.id.contains("/across=draw/") {
             assert_eq!(passes.len(), 1, "{}", case.id);
         } else {

@@ -35,7 +35,7 @@ pub(super) fn halves(shader: &str, counters: &[&str]) -> Value {
             "params": red(), "depth": test("less", true), "counters": counters })
 }
 
-fn of(names: &[&str], kind: &str) -> Value {
+fn counters_of(names: &[&str], kind: &str) -> Value {
     names.iter().map(|name| (*name, kind)).collect()
 }
 
@@ -55,7 +55,7 @@ pub(crate) fn any_samples_that_pass_are_told(s: &Subject) -> Checked {
         corner(true, "uniform_color", &["a"]),
         corner(true, "uniform_color", &["c"]),
     ];
-    let any = of(&["a", "b", "c", "d"], "any-samples-passed");
+    let any = counters_of(&["a", "b", "c", "d"], "any-samples-passed");
     assert_eq!(counted(s, any, draws)?.counters, [1, 0, 1, 0]);
     Ok(())
 }
@@ -79,14 +79,14 @@ pub(crate) fn any_samples_of_several_passes_are_told(s: &Subject) -> Checked {
             { "color": ["color"], "depth_stencil": "depth", "draws": [
                 draw([0, 0, 3, 3], "less", &["c"]),
                 draw([0, 0, 8, 8], "equal", &["a"])] }],
-        "counters": of(&["a", "b", "c", "d"], "any-samples-passed"),
+        "counters": counters_of(&["a", "b", "c", "d"], "any-samples-passed"),
     }))?;
     assert_eq!(frame.counters, [0, 1, 1, 0]);
     Ok(())
 }
 
 pub(crate) fn samples_that_pass_are_counted(s: &Subject) -> Checked {
-    let precise = || of(&["a", "b", "c"], "samples-passed");
+    let precise = || counters_of(&["a", "b", "c"], "samples-passed");
     let scissored = json!({ "scissor": [1, 1, 2, 16] });
     let draws = vec![
         corner(true, "uniform_color", &["a"]),
@@ -103,7 +103,7 @@ pub(crate) fn samples_that_pass_are_counted(s: &Subject) -> Checked {
     let again = json!({ "mesh": rect([1, 2, 4, 7]), "shader": "uniform_color", "counters": ["a"],
                         "write_mask": "" });
     let draws = vec![halves("uniform_color", &["a"]), again.clone(), again];
-    let frame = counted(s, of(&["a"], "samples-passed"), draws)?;
+    let frame = counted(s, counters_of(&["a"], "samples-passed"), draws)?;
     assert_eq!(frame.counters, [128 + 2 * 15]);
     Ok(())
 }
@@ -130,7 +130,7 @@ pub(crate) fn a_query_counts_what_it_encloses(s: &Subject) -> Checked {
                 "color": ["color"], "depth_stencil": "depth",
                 "draws": draws()[..if passes > 1 { 3 } else { 5 }] }); passes],
             "read": ["color"],
-            "counters": of(&["a", "b"], kind),
+            "counters": counters_of(&["a", "b"], kind),
             "queries": queries,
         })
     };
@@ -146,14 +146,14 @@ pub(crate) fn a_query_counts_what_it_encloses(s: &Subject) -> Checked {
 }
 
 pub(crate) fn each_sample_counts_by_itself(s: &Subject) -> Checked {
-    for (mask, due) in [(15, 1024), (5, 512), (0, 0)] {
+    for (mask, expected) in [(15, 1024), (5, 512), (0, 0)] {
         let frame = s.show(json!({
             "attachments": { "color": { "format": "rgba8unorm", "samples": 4 } },
             "draws": [{ "mesh": { "kind": "cover" }, "shader": "uniform_color", "counters": ["n"],
                         "multisample": { "mask": mask } }],
             "counters": { "n": "samples-passed" },
         }))?;
-        assert_eq!(frame.counters, [due], "{mask}");
+        assert_eq!(frame.counters, [expected], "{mask}");
     }
     Ok(())
 }
@@ -168,7 +168,7 @@ pub(crate) fn invocations_are_counted(s: &Subject) -> Checked {
         draw("c", json!({ "cull": "front" })),
         draw("c", json!({ "scissor": [0, 0, 0, 0] })),
     ];
-    let kinds = of(&["a", "b", "c"], "fragment-invocations");
+    let kinds = counters_of(&["a", "b", "c"], "fragment-invocations");
     let counters = counted(s, kinds, draws)?.counters;
     println!("{} fragment invocations for 15 texels", counters[0]);
     assert!(counters[0] >= 15, "{counters:?}");
@@ -199,7 +199,7 @@ pub(crate) fn statistics_tell_that_shaders_ran(s: &Subject) -> Checked {
 pub(crate) fn discarded_primitives_run_no_shader(s: &Subject) -> Checked {
     let discarded = json!({ "rasterizer_discard": true });
     let draw = with(corner(true, "uniform_color", &["n"]), discarded);
-    let frame = counted(s, of(&["n"], "fragment-invocations"), vec![draw])?;
+    let frame = counted(s, counters_of(&["n"], "fragment-invocations"), vec![draw])?;
     assert_eq!(frame.counters, [0]);
     Ok(())
 }
@@ -211,7 +211,11 @@ pub(crate) fn runs_are_counted(s: &Subject) -> Checked {
             json!({ "early_tests": "forced" }),
         )
     });
-    let frame = counted(s, of(&["a", "b", "c"], "shader-runs"), draws.to_vec())?;
+    let frame = counted(
+        s,
+        counters_of(&["a", "b", "c"], "shader-runs"),
+        draws.to_vec(),
+    )?;
     assert_eq!(frame.counters, [15, 0, 30]);
     check_painted(&frame, |x, y| x < 5 && y < 3);
     Ok(())
@@ -237,7 +241,7 @@ pub(crate) fn rejected_fragments_run(s: &Subject) -> Checked {
             { "color": ["color"], "depth_stencil": "depth", "draws": [
                 draw([7, 7, 8, 8], "counted_color", &[], "b")] }],
         "read": ["color"],
-        "counters": of(&["a", "b", "c"], "shader-runs"),
+        "counters": counters_of(&["a", "b", "c"], "shader-runs"),
     }))?;
     assert_eq!(frame.counters, [18, 7, 64]);
     Ok(())
@@ -309,7 +313,7 @@ pub(crate) fn forced_tests_come_before_the_shader(s: &Subject) -> Checked {
                 json!({ "early_tests": early }),
             )]
         };
-        let frame = counted(s, of(&["runs"], "shader-runs"), draw(&["runs"]))?;
+        let frame = counted(s, counters_of(&["runs"], "shader-runs"), draw(&["runs"]))?;
         assert_eq!(frame.counters, [runs], "{early}");
         check_painted(&frame, |x, _| x < 8);
         if s.offers(Feature::PreciseOcclusion) {
@@ -323,7 +327,7 @@ pub(crate) fn forced_tests_come_before_the_shader(s: &Subject) -> Checked {
 
 /// A forced test compares and stores the fragment's own depth, not the shader's.
 pub(crate) fn forced_tests_ignore_the_written_depth(s: &Subject) -> Checked {
-    let kinds = || of(&["runs"], "shader-runs");
+    let kinds = || counters_of(&["runs"], "shader-runs");
     let full = json!({
         "mesh": { "kind": "full", "z": 0.25, "value": 0.125 }, "shader": "counted_depth",
         "params": red(), "early_tests": "forced", "counters": ["runs"], "depth": test("less", true) });

@@ -10,8 +10,8 @@ use serde_json::{Value, json};
 
 /// Returns every format with depth; all backends must offer all of them.
 fn formats(s: &Subject) -> impl Iterator<Item = TextureFormat> {
-    let all = TextureFormat::ALL.iter().copied();
-    let formats: Vec<_> = all.filter(|f| f.has_depth()).collect();
+    let formats = TextureFormat::ALL.iter().copied();
+    let formats: Vec<_> = formats.filter(|f| f.has_depth()).collect();
     for format in &formats {
         assert!(s.limits().formats.contains_key(format), "{format}");
     }
@@ -29,7 +29,7 @@ fn cleared(format: TextureFormat, depth: f64) -> Value {
 
 /// Asserts that `depth` has the stored depths: 0 and 1 exactly, others within a step of the format.
 #[track_caller]
-fn check_stored(s: &Subject, format: TextureFormat, frame: &Frame, due: impl Fn(u32) -> f64) {
+fn check_stored(s: &Subject, format: TextureFormat, frame: &Frame, expected: impl Fn(u32) -> f64) {
     let (image, support) = (depth(frame, "depth"), &s.limits().formats[&format]);
     assert_eq!(image.read, support.read, "{format}");
     match image.read {
@@ -37,19 +37,19 @@ fn check_stored(s: &Subject, format: TextureFormat, frame: &Frame, due: impl Fn(
         ReadPath::Shader => assert_eq!(image.channels, [ChannelEncoding::Float32]),
     }
     for (x, y) in texels(image.size) {
-        let (due, came) = (due(x), values(image, x, y)[0]);
+        let (expected, came) = (expected(x), values(image, x, y)[0]);
         let step = match support.depth[0] {
-            encoding if due == 0.0 || due == 1.0 => {
+            encoding if expected == 0.0 || expected == 1.0 => {
                 let code = image.sample(x, y, 0);
-                let exact = code == [encoding.nearest_code(due)];
+                let exact = code == [encoding.nearest_code(expected)];
                 assert!(exact || image.channels != [encoding], "{format}: {code:?}");
                 0.0
             }
             ChannelEncoding::Float32 => 0.0,
             encoding => 1.0 / encoding.max_order() as f64,
         };
-        let near = (came - due).abs() <= step;
-        assert!(near, "{format}: {came} at ({x}, {y}), expected {due}");
+        let near = (came - expected).abs() <= step;
+        assert!(near, "{format}: {came} at ({x}, {y}), expected {expected}");
     }
 }
 
@@ -258,10 +258,10 @@ fn depths(s: &Subject, z: [f64; 2], state: Value) -> Result<[f64; 2], Missing> {
 }
 
 /// Draws columns, and asserts that they are red and have these depths.
-fn stores(s: &Subject, z: [f64; 2], state: Value, due: [f64; 2]) -> Checked {
+fn stores(s: &Subject, z: [f64; 2], state: Value, expected: [f64; 2]) -> Checked {
     let frame = s.draw(&columns(z, state))?;
     frame.is_red(|_, _| true);
-    frame.depth_is("depth", |x, _| due[x as usize / 8]);
+    frame.depth_is("depth", |x, _| expected[x as usize / 8]);
     Ok(())
 }
 
@@ -300,8 +300,8 @@ pub(crate) fn depths_outside_are_clipped(s: &Subject) -> Checked {
 
 pub(crate) fn depths_outside_are_clamped(s: &Subject) -> Checked {
     for z in OUTSIDE {
-        for due in [[0.0, 1.0], [0.25, 0.75]] {
-            stores(s, z, clamped(due), due)?;
+        for expected in [[0.0, 1.0], [0.25, 0.75]] {
+            stores(s, z, clamped(expected), expected)?;
         }
     }
     Ok(())
@@ -366,9 +366,9 @@ pub(crate) fn a_slope_bias_counts_the_slope(s: &Subject) -> Checked {
 
 /// The fragment's own depth is not tested against the bounds.
 pub(crate) fn bounds_reject_by_the_stored_depth(s: &Subject) -> Checked {
-    for (bounds, due) in [([0.5, 0.75], [0.0, 1.0]), ([0.625, 1.0], [0.5, 0.5])] {
+    for (bounds, expected) in [([0.5, 0.75], [0.0, 1.0]), ([0.625, 1.0], [0.5, 0.5])] {
         let came = depths(s, [0.0, 1.0], json!({ "depth_bounds": bounds }))?;
-        assert_eq!(came, due, "{bounds:?}");
+        assert_eq!(came, expected, "{bounds:?}");
     }
     let stored = json!({ "kind": "columns", "values": [0, 0.25, 0.5, 0.75] });
     let frame = s.show(json!({

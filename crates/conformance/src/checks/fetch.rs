@@ -18,8 +18,8 @@ fn row(keys: Value) -> Value {
 }
 
 /// Returns a draw of [`row`] to one of three rows of texels.
-fn draw(at: u32, mesh: Value, keys: Value) -> Value {
-    let viewport = json!({ "rect": [0, at, 4, 1], "depth": [0, 1] });
+fn draw(row: u32, mesh: Value, keys: Value) -> Value {
+    let viewport = json!({ "rect": [0, row, 4, 1], "depth": [0, 1] });
     with(
         json!({ "mesh": mesh, "shader": "flat_color", "viewport": viewport }),
         keys,

@@ -173,7 +173,7 @@ pub(crate) fn draws_store_0_and_1(s: &Subject) -> Checked {
                 "draws": [{ "mesh": { "kind": "columns", "values": VALUES }, "shader": "flat_color" }],
             }))?;
             let image = color(&frame, "color");
-            let on_border = |at| matches!(at % 4, 0 | 3);
+            let on_border = |position| matches!(position % 4, 0 | 3);
             for (x, y) in texels(image.size) {
                 if *samples > 1 && (on_border(x) || on_border(y)) {
                     continue;

@@ -68,10 +68,10 @@ pub(crate) fn one_sample_of_integers_is_taken(s: &Subject) -> Checked {
             [cleared, drawn][mask >> sample & 1]
         });
         for (x, y) in texels([16, 16]) {
-            let one = color(&frame, "one").sample(x, y, 0);
-            assert!(one == cleared || one == drawn, "{one:?}");
+            let single = color(&frame, "one").sample(x, y, 0);
+            assert!(single == cleared || single == drawn, "{single:?}");
             if s.limits().api == Api::Vulkan {
-                assert_eq!(one, color(&frame, "color").sample(x, y, 0));
+                assert_eq!(single, color(&frame, "color").sample(x, y, 0));
             }
         }
     }

@@ -29,8 +29,8 @@ fn float(format: &str, clear: [i32; 4]) -> Value {
 
 /// Asserts that a texel of floats is near these values.
 #[track_caller]
-fn near(frame: &Frame, name: &str, (x, y): (u32, u32), due: [f64; 4], off: f64) {
-    check_near(&values(color(frame, name), x, y), &due, off);
+fn near(frame: &Frame, name: &str, (x, y): (u32, u32), expected: [f64; 4], off: f64) {
+    check_near(&values(color(frame, name), x, y), &expected, off);
 }
 
 /// The last pass ignores the depth that the shader writes.
@@ -56,7 +56,7 @@ pub(crate) fn layers_are_peeled_one_by_one(s: &Subject) -> Checked {
         "read": ["after-second", "first", "second", "third"],
     }))?;
     let [red, green, blue] = [[255, 0, 0, 128], GREEN, [0, 0, 255, 64]];
-    for (at, name) in names.into_iter().enumerate() {
+    for (index, name) in names.into_iter().enumerate() {
         frame.color_is(name, |x, y| {
             let peeled: &[[u32; 4]] = match (x, y) {
                 (0..4, 0..2) => &[red, green, blue],
@@ -64,7 +64,7 @@ pub(crate) fn layers_are_peeled_one_by_one(s: &Subject) -> Checked {
                 (_, 0..2) => &[green, blue],
                 _ => &[blue],
             };
-            *peeled.get(at).unwrap_or(&NONE)
+            *peeled.get(index).unwrap_or(&NONE)
         });
     }
     near(&frame, "after-second", (0, 0), [0.5, 0.0, 0.0, 1.0], 1e-6);
@@ -165,18 +165,24 @@ pub(crate) fn moments_of_layers_tell_what_is_in_front(s: &Subject) -> Checked {
         "read": ["absorbance", "moments", "shown", "sum"],
     }))?;
     // A quarter of a layer's own absorbance counts as in front of it.
-    let own = 0.5_f64.powf(0.25) * 0.5;
+    let transmittance = 0.5_f64.powf(0.25) * 0.5;
     for (x, y) in texels([4, 4]) {
         let (absorbance, moments, green, red, shown) = if x < 2 && y < 3 {
             (
                 2.0,
                 [0.0, 0.5, 0.0, 0.125],
-                own,
-                own * 0.5,
+                transmittance,
+                transmittance * 0.5,
                 [0.25, 0.5, 0.25],
             )
         } else {
-            (1.0, [0.5, 0.25, 0.125, 0.0625], 0.0, own, [0.5, 0.0, 0.5])
+            (
+                1.0,
+                [0.5, 0.25, 0.125, 0.0625],
+                0.0,
+                transmittance,
+                [0.5, 0.0, 0.5],
+            )
         };
         near(&frame, "absorbance", (x, y), [absorbance; 4], 1e-4);
         near(&frame, "moments", (x, y), moments, 1e-4);

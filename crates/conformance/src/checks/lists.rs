@@ -35,8 +35,8 @@ fn listed(layers: &[([u32; 4], f64, [f64; 4])], nodes: u32) -> Value {
 }
 
 fn shown(frame: &Frame, (x, y): (u32, u32)) -> [f64; 4] {
-    let all = values(color(frame, "shown"), x, y);
-    std::array::from_fn(|c| all[c])
+    let channels = values(color(frame, "shown"), x, y);
+    std::array::from_fn(|c| channels[c])
 }
 
 const ALL: [u32; 4] = [0, 0, 4, 4];
@@ -71,8 +71,8 @@ pub(crate) fn a_full_pool_drops_the_rest(s: &Subject) -> Checked {
         prepared.submit().expect("the scene is drawn");
         let frame = prepared.read_back().expect("the frame is read back");
         let mut nodes = 0;
-        for at in texels([4, 4]) {
-            let [red, green, blue, _] = shown(&frame, at);
+        for texel in texels([4, 4]) {
+            let [red, green, blue, _] = shown(&frame, texel);
             // Each node halves the background.
             let count = (-blue.log2()).round();
             check_near(

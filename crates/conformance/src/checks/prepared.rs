@@ -64,19 +64,19 @@ pub(crate) fn a_second_submit_gives_the_same_frame(s: &Subject) -> Checked {
 }
 
 pub(crate) fn prepared_scenes_do_not_disturb_each_other(s: &Subject) -> Checked {
-    let (one, other) = (busy(CLEAR), busy([0.0, 0.0, 1.0, 1.0]));
-    let (due_one, due_other) = (s.draw(&one)?, s.draw(&other)?);
-    assert_ne!(due_one, due_other);
-    let (mut a, mut b) = (s.prepare(&one)?, s.prepare(&other)?);
+    let (first, second) = (busy(CLEAR), busy([0.0, 0.0, 1.0, 1.0]));
+    let (expected_first, expected_second) = (s.draw(&first)?, s.draw(&second)?);
+    assert_ne!(expected_first, expected_second);
+    let (mut a, mut b) = (s.prepare(&first)?, s.prepare(&second)?);
     assert!(a.read_back().is_err(), "nothing was submitted");
     a.submit().expect("the scene is drawn");
     b.submit().expect("the scene is drawn");
     a.submit().expect("the scene is drawn");
-    assert_eq!(read(&mut b), due_other);
-    assert_eq!(read(&mut a), due_one);
+    assert_eq!(read(&mut b), expected_second);
+    assert_eq!(read(&mut a), expected_first);
     drop(a);
     b.submit().expect("the scene is drawn");
-    assert_eq!(read(&mut b), due_other);
+    assert_eq!(read(&mut b), expected_second);
     drop(b);
     s.check_silence("scenes side by side");
     Ok(())
@@ -92,12 +92,15 @@ pub(crate) fn scenes_are_submitted_in_turns(s: &Subject) -> Checked {
     });
     let mut prepared = [(s.prepare(&red)?, RED), (s.prepare(&green)?, GREEN)];
     for _ in 0..2 {
-        for (one, _) in &mut prepared {
-            one.submit().expect("the scene is drawn");
+        for (drawn, _) in &mut prepared {
+            drawn.submit().expect("the scene is drawn");
         }
     }
-    for (one, due) in &mut prepared {
-        read(one).color_is("color", |x, y| if x < 5 && y < 3 { *due } else { BLUE });
+    for (drawn, expected) in &mut prepared {
+        read(drawn).color_is(
+            "color",
+            |x, y| if x < 5 && y < 3 { *expected } else { BLUE },
+        );
     }
     Ok(())
 }
@@ -147,12 +150,12 @@ pub(crate) fn denials_are_named(s: &Subject) -> Checked {
     large.attachments[0].size = [size, 1];
     let mut many = scene(over_blue(with(json!({ "mesh": full() }), painted())));
     many.attachments[0].samples = 64;
-    for (scene, due) in [
+    for (scene, expected) in [
         (large, Requirement::Size(size)),
         (many, Requirement::Samples(TextureFormat::Rgba8Unorm, 64)),
     ] {
         let error = s.backend.prepare(&scene).err();
-        assert_eq!(error, Some(BackendError::NotSupported(due)));
+        assert_eq!(error, Some(BackendError::NotSupported(expected)));
     }
     Ok(())
 }

@@ -30,7 +30,7 @@ fn clip(left: i32, bottom: i32, right: i32, top: i32) -> Value {
 }
 
 /// Returns a rectangle that covers exactly the viewport.
-fn whole() -> Value {
+fn viewport_rect() -> Value {
     clip(-1, -1, 1, 1)
 }
 
@@ -47,7 +47,7 @@ fn viewport(draw: Value, rect: [i32; 4]) -> Value {
 }
 
 pub(crate) fn a_viewport_counts_from_the_top_left(s: &Subject) -> Checked {
-    let frame = drawn(s, viewport(whole(), [4, 2, 8, 4]))?;
+    let frame = drawn(s, viewport(viewport_rect(), [4, 2, 8, 4]))?;
     frame.is_red(|x, y| (4..12).contains(&x) && (2..6).contains(&y));
     let frame = drawn(s, viewport(quarter(), [4, 2, 8, 4]))?;
     frame.is_red(|x, y| (4..8).contains(&x) && (2..4).contains(&y));
@@ -75,20 +75,20 @@ pub(crate) fn a_viewport_moves_depths_in_its_corner(s: &Subject) -> Checked {
 
 /// With a negative height, the second number is the bottom, and faces show their other side.
 pub(crate) fn a_viewport_of_negative_height_turns_the_picture_over(s: &Subject) -> Checked {
-    let frame = drawn(s, viewport(whole(), [4, 6, 8, -4]))?;
+    let frame = drawn(s, viewport(viewport_rect(), [4, 6, 8, -4]))?;
     frame.is_red(|x, y| (4..12).contains(&x) && (2..6).contains(&y));
     let frame = drawn(s, viewport(quarter(), [4, 6, 8, -4]))?;
     frame.is_red(|x, y| (4..8).contains(&x) && (4..6).contains(&y));
     for (rect, expected) in [([0, 0, 16, 16], RED), ([0, 16, 16, -16], GREEN)] {
-        faces(s, viewport(whole(), rect))?.color_is("color", |_, _| expected);
+        faces(s, viewport(viewport_rect(), rect))?.color_is("color", |_, _| expected);
     }
     Ok(())
 }
 
 pub(crate) fn a_viewport_may_reach_outside(s: &Subject) -> Checked {
-    let frame = drawn(s, viewport(whole(), [-8, -4, 16, 8]))?;
+    let frame = drawn(s, viewport(viewport_rect(), [-8, -4, 16, 8]))?;
     frame.is_red(|x, y| x < 8 && y < 4);
-    let frame = drawn(s, viewport(whole(), [12, 14, 100, 100]))?;
+    let frame = drawn(s, viewport(viewport_rect(), [12, 14, 100, 100]))?;
     frame.is_red(|x, y| x >= 12 && y >= 14);
     let frame = drawn(s, viewport(json!({ "mesh": full() }), [-16, -8, 32, 16]))?;
     frame.is_red(|_, y| y < 8);
@@ -102,14 +102,15 @@ pub(crate) fn a_viewport_may_reach_outside(s: &Subject) -> Checked {
 pub(crate) fn a_scissor_leaves_the_texels_inside(s: &Subject) -> Checked {
     for [x0, y0, width, height] in [[5, 7, 1, 1], [3, 12, 1, 1], [0, 0, 0, 0], [3, 12, 0, 4]] {
         let scissor = json!({ "scissor": [x0, y0, width, height] });
-        for draw in [whole(), json!({ "mesh": full() })] {
+        for draw in [viewport_rect(), json!({ "mesh": full() })] {
             let frame = drawn(s, with(draw, scissor.clone()))?;
-            let inside = |at: u32, from: u32, length: u32| (from..from + length).contains(&at);
+            let inside =
+                |position: u32, from: u32, length: u32| (from..from + length).contains(&position);
             frame.is_red(|x, y| inside(x, x0, width) && inside(y, y0, height));
         }
     }
     // The next draw has no scissor.
-    let first = with(whole(), json!({ "scissor": [5, 1, 1, 1] }));
+    let first = with(viewport_rect(), json!({ "scissor": [5, 1, 1, 1] }));
     let draws = [first, json!({ "mesh": rect([0, 0, 1, 1]) })];
     let frame = s.show(json!({
         "attachments": { "color": blue() },
@@ -122,13 +123,16 @@ pub(crate) fn a_scissor_leaves_the_texels_inside(s: &Subject) -> Checked {
 pub(crate) fn a_scissor_may_reach_outside(s: &Subject) -> Checked {
     for [left, top, width, height] in [[12, 13, 100, 4_000_000_000], [12, 2, u32::MAX, u32::MAX]] {
         let scissor = json!({ "scissor": [left, top, width, height] });
-        drawn(s, with(whole(), scissor))?.is_red(|x, y| x >= left && y >= top);
+        drawn(s, with(viewport_rect(), scissor))?.is_red(|x, y| x >= left && y >= top);
     }
     Ok(())
 }
 
 pub(crate) fn discarded_primitives_draw_nothing(s: &Subject) -> Checked {
-    let frame = drawn(s, with(whole(), json!({ "rasterizer_discard": true })))?;
+    let frame = drawn(
+        s,
+        with(viewport_rect(), json!({ "rasterizer_discard": true })),
+    )?;
     frame.is_red(|_, _| false);
     let frame = s.show(json!({
         "attachments": { "depth": { "format": "depth32float", "clear": 0.125 } },
@@ -291,11 +295,13 @@ pub(crate) fn polygons_may_be_drawn_as_their_edges(s: &Subject) -> Checked {
         Ok(())
     };
     let red: Vec<_> = (4..12)
-        .flat_map(|at| [(2, at), (at, 13), (at, at)])
+        .flat_map(|coordinate| [(2, coordinate), (coordinate, 13), (coordinate, coordinate)])
         .collect();
     let blue = [(5, 10), (4, 8), (12, 3), (15, 15)];
     edges(&[[2.5, 2.5], [2.5, 13.5], [13.5, 13.5]], &red, &blue)?;
-    let red: Vec<_> = (3..12).flat_map(|at| [(at, 2), (2, at)]).collect();
+    let red: Vec<_> = (3..12)
+        .flat_map(|coordinate| [(coordinate, 2), (2, coordinate)])
+        .collect();
     let blue = [(4, 4), (5, 6), (13, 13)];
     edges(&[[2.5, 2.5], [2.5, 12.5], [12.5, 2.5]], &red, &blue)
 }

@@ -257,8 +257,8 @@ pub(crate) fn samples_are_drawn_one_by_one(s: &Subject) -> Checked {
         for (x, y) in texels(image.size) {
             let mut covered = 0;
             for (sample, position) in (0..).zip(&s.limits().sample_positions[&count]) {
-                let at = |p: u16, origin: u32| f64::from(origin) + f64::from(p) / 256.0;
-                let (sx, sy) = (at(position[0], x), at(position[1], y));
+                let coordinate = |p: u16, origin: u32| f64::from(origin) + f64::from(p) / 256.0;
+                let (sx, sy) = (coordinate(position[0], x), coordinate(position[1], y));
                 let distance = sx - (8.0 + sy / 16.0);
                 let inside = image.sample(x, y, sample) == RED;
                 covered += u32::from(inside);

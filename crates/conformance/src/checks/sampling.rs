@@ -18,13 +18,13 @@ fn eight() -> Value {
 }
 
 /// Returns the texel that an index across or down addresses.
-fn addressed(mode: AddressMode, count: i32, at: i32) -> i32 {
+fn addressed(mode: AddressMode, count: i32, texel: i32) -> i32 {
     match mode {
-        AddressMode::ClampToEdge => at.clamp(0, count - 1),
-        AddressMode::Repeat => at.rem_euclid(count),
+        AddressMode::ClampToEdge => texel.clamp(0, count - 1),
+        AddressMode::Repeat => texel.rem_euclid(count),
         AddressMode::MirrorRepeat => {
-            let at = at.rem_euclid(2 * count);
-            at.min(2 * count - 1 - at)
+            let texel = texel.rem_euclid(2 * count);
+            texel.min(2 * count - 1 - texel)
         }
     }
 }
@@ -73,10 +73,10 @@ fn weights(s: &Subject, mode: AddressMode) -> Checked {
     let source = with(uploaded("grid", rows), json!({ "size": [4, 4] }));
     let uv = [0.0, 0.0, 1.0, 1.0];
     let frame = sampled(s, [16, 16], source, uv, "linear", [mode; 2])?;
-    let weighed = |at: u32, step: f64| {
-        let position = (f64::from(at) + 0.5) / 4.0 - 0.5;
+    let weighed = |texel: u32, step: f64| {
+        let position = (f64::from(texel) + 0.5) / 4.0 - 0.5;
         let (below, weight) = (position.floor() as i32, position - position.floor());
-        let value = |at| step * f64::from(addressed(mode, 4, at));
+        let value = |texel| step * f64::from(addressed(mode, 4, texel));
         value(below) * (1.0 - weight) + value(below + 1) * weight
     };
     for (x, y) in texels([16, 16]) {
@@ -89,7 +89,7 @@ fn weights(s: &Subject, mode: AddressMode) -> Checked {
 }
 
 /// In the middle between two texels both have equal weight; at a texel's centre only that texel counts.
-fn middles(s: &Subject, mode: AddressMode, due: [u32; 8]) -> Checked {
+fn middles(s: &Subject, mode: AddressMode, expected: [u32; 8]) -> Checked {
     let columns = uploaded("columns", [[40, 0, 0, 255], [200, 0, 0, 255]]);
     let source = with(columns, json!({ "size": [2, 4] }));
     let modes = [mode, AddressMode::ClampToEdge];
@@ -100,7 +100,7 @@ fn middles(s: &Subject, mode: AddressMode, due: [u32; 8]) -> Checked {
         let came = image.sample(x, y, 0);
         assert_eq!(came, image.sample(x, 0, 0));
         assert_eq!(came[1..], [0, 0, 255]);
-        check_within_one(came, [due[x as usize], 0, 0, 255]);
+        check_within_one(came, [expected[x as usize], 0, 0, 255]);
     }
     Ok(())
 }
@@ -137,7 +137,7 @@ pub(crate) fn averages_of_floats_are_floats(s: &Subject) -> Checked {
         "read": ["a"],
     }))?;
     for (x, y) in texels([8, 8]) {
-        let position = |at: u32| (f64::from(at) + 0.5) / 4.0 - 0.5;
+        let position = |texel: u32| (f64::from(texel) + 0.5) / 4.0 - 0.5;
         let red = position(x).clamp(0.0, 1.0);
         // Beyond the ends are the texels of the other end.
         let green = position(y).abs().min(2.0 - position(y));
@@ -176,12 +176,12 @@ pub(crate) fn each_draw_has_its_own_sampler(s: &Subject) -> Checked {
                 "sampler": { "filter": filter, "address": ["repeat", "repeat"] } })
     };
     let two = uploaded("grid", [[[0, 0, 0, 0], [200, 100, 0, 0]]]);
-    let one = uploaded("grid", [[[1, 2, 3, 4]]]);
+    let single = uploaded("grid", [[[1, 2, 3, 4]]]);
     let frame = s.show(json!({
         "attachments": {
             "a": { "format": "rgba8unorm", "size": [16, 16] },
             "two": with(two, json!({ "size": [2, 1] })),
-            "one": with(one, json!({ "size": [1, 1] })) },
+            "one": with(single, json!({ "size": [1, 1] })) },
         "draws": [draw([0, 0, 4, 16], "two", "linear"), draw([4, 0, 8, 16], "one", "linear"),
                   draw([8, 0, 16, 16], "one", "nearest")],
         "read": ["a"],

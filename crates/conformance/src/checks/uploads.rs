@@ -25,11 +25,14 @@ pub(crate) fn texels_keep_their_places(s: &Subject) -> Checked {
                     { "color": ["b"], "draws": [
                         { "mesh": rect([0, 0, 4, 2]), "shader": "uniform_color", "params": red() }] }],
             }))?;
-            let due = |x, y| value(if across { x } else { y });
-            frame.color_is("a", due);
-            frame.color_is("b", |x, y| if x < 4 && y < 2 { RED } else { due(x, y) });
+            let expected = |x, y| value(if across { x } else { y });
+            frame.color_is("a", expected);
+            frame.color_is(
+                "b",
+                |x, y| if x < 4 && y < 2 { RED } else { expected(x, y) },
+            );
             frame.color_is("t", |x, y| match format {
-                "rgba8unorm" => due(x, y),
+                "rgba8unorm" => expected(x, y),
                 _ => scaled(if across { x } else { y }).map(|v| (v as f32).to_bits()),
             });
         }
@@ -69,13 +72,13 @@ pub(crate) fn floats_are_clamped_where_they_are_drawn(s: &Subject) -> Checked {
 }
 
 pub(crate) fn floats_come_back_bit_by_bit(s: &Subject) -> Checked {
-    let due = [[0.1_f32, -3.0, 1e30, 0.0], [1.0, 2.5, 1e-30, 7.0]];
-    let texels = json!({ "kind": "columns", "values": due });
+    let expected = [[0.1_f32, -3.0, 1e30, 0.0], [1.0, 2.5, 1e-30, 7.0]];
+    let texels = json!({ "kind": "columns", "values": expected });
     let frame = s.show(json!({
         "attachments": { "t": { "format": "rgba32float", "size": [2, 1], "texels": texels } },
         "passes": [],
     }))?;
-    frame.color_is("t", |x, _| due[x as usize].map(f32::to_bits));
+    frame.color_is("t", |x, _| expected[x as usize].map(f32::to_bits));
     Ok(())
 }
 

@@ -59,9 +59,9 @@ impl Bits {
 
     /// Returns the masks of the words that change, each with its index.
     fn changed(&self) -> impl Iterator<Item = (usize, [u32; 2])> {
-        let all = self.and.into_iter().zip(self.xor).take(self.words);
-        let all = all.map(|(and, xor)| [and, xor]).enumerate();
-        all.filter(|(_, function)| *function != [u32::MAX, 0])
+        let words = self.and.into_iter().zip(self.xor).take(self.words);
+        let functions = words.map(|(and, xor)| [and, xor]).enumerate();
+        functions.filter(|(_, function)| *function != [u32::MAX, 0])
     }
 
     /// Applies the function to the first texels of a sample's planes.
@@ -83,8 +83,8 @@ impl Bits {
             let plane = &mut planes[word * AREA..];
             match and {
                 0 => {
-                    for (at, mask) in fragments.groups() {
-                        select(simd, lanes(plane, at), mask, &[xor; LANES]);
+                    for (start, mask) in fragments.groups() {
+                        select(simd, lanes(plane, start), mask, &[xor; LANES]);
                     }
                 }
                 _ => fragments.replace(simd, plane, |new| apply(new.as_flattened_mut(), and, xor)),

@@ -98,15 +98,15 @@ impl Edges {
     pub(crate) fn near(&self, x: i32, y: i32, sample: [i32; 2]) -> Rows {
         let units = UNITS as i32;
         let point = [x * units + sample[0], y * units + sample[1]];
-        let mut at = [0; 3];
-        for (i, at) in at.iter_mut().enumerate() {
+        let mut values = [0; 3];
+        for (i, slot) in values.iter_mut().enumerate() {
             let [px, py] = self.from[i];
             // These are products of 15-bit numbers, and the shift rounds down.
             let value = self.across[i] * (point[0] - px) + self.down[i] * (point[1] - py);
-            *at = (value + self.bias[i] as i32) >> UNITS.ilog2();
+            *slot = (value + self.bias[i] as i32) >> UNITS.ilog2();
         }
         Rows {
-            at,
+            at: values,
             across: self.across,
             down: self.down,
         }
@@ -118,13 +118,13 @@ impl Edges {
     pub(crate) fn rows(&self, x: i32, y: i32, sample: [i32; 2]) -> Rows {
         let units = UNITS as i32;
         let point = [x * units + sample[0], y * units + sample[1]];
-        let mut at = [0; 3];
-        for (i, at) in at.iter_mut().enumerate() {
+        let mut values = [0; 3];
+        for (i, slot) in values.iter_mut().enumerate() {
             // From texel to texel, the function grows by a multiple of `UNITS`, so the floor keeps all signs.
-            *at = self.at(i, point).div_euclid(UNITS).clamp(-FAR, FAR) as i32;
+            *slot = self.at(i, point).div_euclid(UNITS).clamp(-FAR, FAR) as i32;
         }
         Rows {
-            at,
+            at: values,
             across: self.across,
             down: self.down,
         }

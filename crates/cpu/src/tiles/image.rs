@@ -91,8 +91,8 @@ impl Image {
                     let (x, y) = (i % self.width, i / self.width);
                     let texel = self.layout.texel(|c| codes[c]);
                     for (word, value) in texel.into_iter().enumerate().take(self.layout.words) {
-                        let at = self.color_place(x, y, 0, word);
-                        self.color[at] = value;
+                        let place = self.color_place(x, y, 0, word);
+                        self.color[place] = value;
                     }
                 }
             }

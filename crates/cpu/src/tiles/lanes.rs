@@ -24,8 +24,8 @@ pub(crate) fn columns(x: i32, [start, end]: [i32; 2]) -> Mask {
 
 /// Returns the lanes at an index of planes.
 #[inline(always)]
-pub(crate) fn lanes<T>(planes: &mut [T], at: usize) -> &mut [T; LANES] {
-    let (lanes, _) = planes[at..at + LANES].as_chunks_mut();
+pub(crate) fn lanes<T>(planes: &mut [T], start: usize) -> &mut [T; LANES] {
+    let (lanes, _) = planes[start..start + LANES].as_chunks_mut();
     &mut lanes[0]
 }
 

@@ -64,7 +64,7 @@ impl Linear {
             .map(|part| u16x16::from_slice(simd, part));
         let invert = u8x16::from_slice(simd, &self.invert);
         let invert = invert.combine(invert);
-        let of = |code: u16x16<S>| {
+        let mapped = |code: u16x16<S>| {
             // 256 times the code times the fraction, in two parts that fit 16 bits.
             let product = code * upper + ((code * lower) >> 8);
             product.saturating_add(plus).saturating_sub(minus) >> 8
@@ -72,7 +72,7 @@ impl Linear {
         let bytes = texels.as_flattened_mut();
         for bytes in bytes.as_chunks_mut::<{ 2 * BYTES }>().0 {
             let (low, high) = (u8x32::from_slice(simd, bytes) ^ invert).widen();
-            of(low).narrow(of(high)).store_slice(bytes);
+            mapped(low).narrow(mapped(high)).store_slice(bytes);
         }
     }
 }
@@ -103,11 +103,12 @@ impl ChannelFunction {
         for off in [0, -1, 1, -2, 2, -4, 4, -8, 8] {
             let factor = (near as i64 + off).clamp(0, 65535) as u16;
             let (mut least, mut most) = (-65535, 65535);
-            for (code, due) in table.iter().enumerate() {
-                let (product, due) = (i32::from(product(code as u8, factor)), i32::from(*due));
-                let low = 256 * due - product;
-                least = least.max(if due > 0 { low } else { -65535 });
-                most = most.min(if due < 255 { low + 255 } else { 65535 });
+            for (code, expected) in table.iter().enumerate() {
+                let (product, expected) =
+                    (i32::from(product(code as u8, factor)), i32::from(*expected));
+                let low = 256 * expected - product;
+                least = least.max(if expected > 0 { low } else { -65535 });
+                most = most.min(if expected < 255 { low + 255 } else { 65535 });
             }
             let sum = (least + most).div_euclid(2);
             let found = Self {
@@ -118,8 +119,8 @@ impl ChannelFunction {
             };
             // Without an early exit, so that the loop is vectorized.
             let mut different = 0;
-            for (code, due) in table.iter().enumerate() {
-                different |= found.at(code as u8) ^ due;
+            for (code, expected) in table.iter().enumerate() {
+                different |= found.at(code as u8) ^ expected;
             }
             if different == 0 {
                 return Some(found);

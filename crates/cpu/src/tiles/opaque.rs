@@ -385,15 +385,15 @@ impl Opaque<'_> {
                     let row = y >= rect[1] && y < rect[3];
                     covered = covered & inside & I::Mask::splat(simd, row);
                 }
-                let at = place + (chunk * lanes) as usize;
+                let start = place + (chunk * lanes) as usize;
                 if DEPTH {
                     let codes: U = source.codes(simd, chunk, [x, y]);
-                    let stored = &mut depths[at..at + U::LEN];
+                    let stored = &mut depths[start..start + U::LEN];
                     covered = store.passed(simd, answers, covered, codes, stored);
                 }
                 if let Some(color) = store.color {
                     let new = U::splat(simd, color);
-                    replace(simd, covered, new, &mut colors[at..at + U::LEN]);
+                    replace(simd, covered, new, &mut colors[start..start + U::LEN]);
                 }
                 chunk += 1;
                 here.grow(rows.across, lanes);

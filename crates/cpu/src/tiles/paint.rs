@@ -20,7 +20,7 @@ use super::weights::{Constants, Weights};
 use crate::lanes::{Codes, LANES, Real};
 use crate::steps::{Faithful, Steps};
 use etalon_frame::ChannelEncoding;
-use etalon_pipeline::shader::Kept;
+use etalon_pipeline::shader::KeepCondition;
 use etalon_pipeline::{Arithmetic, BlendInput, Plain};
 use etalon_scene::{
     BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget, Draw, LogicOperation,
@@ -98,7 +98,7 @@ impl Paint {
         let state = &draw.multisample;
         let samples = pass.positions.len();
         if let Shading::Kept(limit) = shading {
-            let kept = Kept::unless_below([source[3]; LANES], [limit; LANES]);
+            let kept = KeepCondition::unless_below([source[3]; LANES], [limit; LANES]);
             if !Faithful.kept(&kept)[0] {
                 return Self::nothing();
             }
@@ -199,10 +199,10 @@ impl Blending {
     /// Returns the function of texels that are fetched from these channels.
     fn varying(self, fetched: &[ChannelEncoding]) -> Kernel {
         let replaces = self.target.blend.is_none() && self.logic.is_none();
-        let all = (0..self.channels.len()).all(|c| self.target.write_mask & (1 << c) != 0);
+        let writes_all = (0..self.channels.len()).all(|c| self.target.write_mask & (1 << c) != 0);
         // The code of an 8-bit unsigned normalized value determines the value and vice versa.
         let same = fetched == UNORM.0 && *self.channels == UNORM.0;
-        if replaces && all && same && !self.alpha_to_one {
+        if replaces && writes_all && same && !self.alpha_to_one {
             Kernel::Copy
         } else {
             Kernel::Varying(Box::new(Varying {
@@ -218,11 +218,11 @@ impl Blending {
 
     /// Returns the bit function that stores colours without blending, including logic operations.
     fn bits<S: Simd>(&self, simd: S) -> Bits {
-        let of = |code: u32| {
+        let texel_of = |code: u32| {
             let new = self.codes(simd, &self.channels().0.map(|e| [code & e.mask(); LANES]));
             self.layout.texel(|c| new[c][0])
         };
-        Bits::new(&self.layout, of(0), of(u32::MAX))
+        Bits::new(&self.layout, texel_of(0), texel_of(u32::MAX))
     }
 
     /// Returns true if each channel's result depends on no other channel of the destination.
@@ -399,9 +399,9 @@ impl Blending {
     #[inline(always)]
     fn channels(&self) -> Channels {
         let count = self.channels.len();
-        let mut all = [self.channels[count - 1]; 4];
-        all[..count].copy_from_slice(self.channels);
-        (all, count)
+        let mut channels = [self.channels[count - 1]; 4];
+        channels[..count].copy_from_slice(self.channels);
+        (channels, count)
     }
 
     /// Returns the codes after the function, by channel. It is large, so it is not inlined.
@@ -439,18 +439,18 @@ impl Blending {
 
     /// Applies the function to lanes of a sample's planes, in the lanes of a mask.
     #[inline(always)]
-    fn apply<S: Simd>(&self, simd: S, planes: &mut [u32], at: usize, mask: Mask) {
+    fn apply<S: Simd>(&self, simd: S, planes: &mut [u32], start: usize, mask: Mask) {
         let fields = self.layout.fields();
         let mut old = [[0; LANES]; 4];
         for (old, field) in old.iter_mut().zip(fields) {
-            let words = lanes(planes, field.word * AREA + at);
+            let words = lanes(planes, field.word * AREA + start);
             for (code, word) in old.iter_mut().zip(words) {
                 *code = field.code(*word);
             }
         }
         let new = self.codes(simd, &old);
         for word in 0..self.layout.words {
-            let stored = lanes(planes, word * AREA + at);
+            let stored = lanes(planes, word * AREA + start);
             let mut words = *stored;
             for (field, codes) in fields.iter().zip(&new) {
                 if field.word == word {
@@ -490,8 +490,8 @@ impl Kernel {
         match self {
             Self::Keep => {}
             Self::Store(word) => {
-                for (at, mask) in fragments.groups() {
-                    select(simd, lanes(planes, at), mask, &[*word; LANES]);
+                for (start, mask) in fragments.groups() {
+                    select(simd, lanes(planes, start), mask, &[*word; LANES]);
                 }
             }
             Self::Bits(bits) => bits.masked(simd, planes, fragments),
@@ -501,8 +501,8 @@ impl Kernel {
                 });
             }
             Self::Table(table) => {
-                for (at, mask) in fragments.groups() {
-                    let texels: &mut [Texel; LANES] = bytemuck::cast_mut(lanes(planes, at));
+                for (start, mask) in fragments.groups() {
+                    let texels: &mut [Texel; LANES] = bytemuck::cast_mut(lanes(planes, start));
                     for (lane, texel) in texels.iter_mut().enumerate() {
                         if mask & (1 << lane) != 0 {
                             *texel = std::array::from_fn(|c| table[c][usize::from(texel[c])]);
@@ -516,14 +516,14 @@ impl Kernel {
                 });
             }
             Self::Lanes(blending) => {
-                for (at, mask) in fragments.groups() {
-                    blending.apply(simd, planes, at, mask);
+                for (start, mask) in fragments.groups() {
+                    blending.apply(simd, planes, start, mask);
                 }
             }
             Self::Affine(affine) => affine.masked(simd, planes, fragments),
             Self::Copy => {
-                for (at, mask) in fragments.groups() {
-                    select(simd, lanes(planes, at), mask, &sources.words(at));
+                for (start, mask) in fragments.groups() {
+                    select(simd, lanes(planes, start), mask, &sources.words(start));
                 }
             }
             Self::Varying(varying) => varying.apply(simd, planes, fragments, sources),
@@ -558,8 +558,8 @@ impl Kernel {
             }
             Self::Affine(affine) => affine.whole(simd, planes, count),
             Self::Lanes(blending) => {
-                for at in (0..count).step_by(LANES) {
-                    blending.apply(simd, planes, at, ALL);
+                for start in (0..count).step_by(LANES) {
+                    blending.apply(simd, planes, start, ALL);
                 }
             }
         }
@@ -573,6 +573,6 @@ fn bits(tables: &[[u8; CODES]; 4], layout: &Layout) -> Option<Bits> {
         let mut codes = table.iter().zip(0..=u8::MAX);
         codes.all(|(new, old)| *new == old & and ^ xor)
     };
-    let of = |code: usize| layout.texel(|c| tables[c][code].into());
-    (tables.iter().all(equal)).then(|| Bits::new(layout, of(0), of(CODES - 1)))
+    let texel_of = |code: usize| layout.texel(|c| tables[c][code].into());
+    (tables.iter().all(equal)).then(|| Bits::new(layout, texel_of(0), texel_of(CODES - 1)))
 }

@@ -7,7 +7,7 @@ use crate::raster::bounds;
 use crate::steps::{Faithful, Steps};
 use crate::surface::depth_encoding;
 use etalon_frame::{ChannelEncoding, standard_sample_positions};
-use etalon_pipeline::shader::Kept;
+use etalon_pipeline::shader::KeepCondition;
 use etalon_pipeline::{Arithmetic, Plain, takes_logic, window_position};
 use etalon_scene::{
     AddressMode, ColorTarget, DepthState, Draw, EarlyTests, FilterMode, Mesh, Multisample, Pass,
@@ -99,12 +99,16 @@ impl PrimitiveRun {
                 at: 0,
             }];
         };
-        let (mut first, mut at) = (0, 0);
+        let (mut first, mut start) = (0, 0);
         let runs = indices.split(|i| *i == RESTART).map(|run| {
             let count = run.len() / 3;
-            let this = Self { first, count, at };
+            let this = Self {
+                first,
+                count,
+                at: start,
+            };
             first += count;
-            at += run.len() + 1;
+            start += run.len() + 1;
             this
         });
         runs.collect()
@@ -392,7 +396,7 @@ fn texture(scene: &Scene, draw: &Draw, pass: &PassPlan) -> Result<Shading, Reaso
     }
     let is_kept = |code: &u32| {
         let [alpha] = Plain::<1>.decode(ChannelEncoding::Unorm(8), [*code]);
-        let kept = Kept::unless_below([alpha; LANES], [draw.params.color[3]; LANES]);
+        let kept = KeepCondition::unless_below([alpha; LANES], [draw.params.color[3]; LANES]);
         !draw.shader.discards() || Faithful.kept(&kept)[0]
     };
     Ok(Shading::Texture {

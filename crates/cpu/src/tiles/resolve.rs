@@ -77,8 +77,8 @@ impl Resolve {
                 &planes[(first + word) * AREA..][..AREA]
             };
             let (targets, _) = target.as_chunks_mut::<LANES>();
-            for (at, target) in targets.iter_mut().enumerate() {
-                let words = |sample: usize| &plane(sample)[at * LANES..][..LANES];
+            for (chunk, target) in targets.iter_mut().enumerate() {
+                let words = |sample: usize| &plane(sample)[chunk * LANES..][..LANES];
                 let differ = (1..self.samples).fold(0, |bits, sample| {
                     let pairs = words(0).iter().zip(words(sample));
                     pairs.fold(bits, |bits, (a, b)| bits | (a ^ b))

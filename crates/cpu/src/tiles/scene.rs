@@ -202,15 +202,15 @@ fn chunks<T>(memory: Option<&mut [T]>, planes: usize) -> std::slice::ChunksExact
 /// Returns the vertices and primitives of the pass's draws.
 fn inputs<'a>(pass: &'a Pass, plan: &'a PassPlan, images: &'a [Image]) -> Vec<Input<'a>> {
     let (mut base, mut first) = (0, 0);
-    let mut all = Vec::with_capacity(plan.draws.len());
+    let mut inputs = Vec::with_capacity(plan.draws.len());
     for draw_plan in &plan.draws {
         let draw = &pass.draws[draw_plan.index];
         let input = Input::new(draw, draw_plan, images, base, first);
         base += draw.mesh.vertices.len();
         first += input.count;
-        all.push(input);
+        inputs.push(input);
     }
-    all
+    inputs
 }
 
 /// Transforms the vertices of a pass.
@@ -223,14 +223,14 @@ fn transform(machine: Machine, inputs: &[Input<'_>], placed: &mut Vec<Placed>) {
     let mut rest = placed.as_mut_slice();
     for input in inputs {
         let vertices = &input.draw.mesh.vertices;
-        let (own, others) = rest.split_at_mut(vertices.len());
+        let (slots, others) = rest.split_at_mut(vertices.len());
         rest = others;
         let each = if vertices.len() < SHARED {
             vertices.len().max(1)
         } else {
             vertices.len().div_ceil(machine.threads)
         };
-        let jobs: Vec<_> = vertices.chunks(each).zip(own.chunks_mut(each)).collect();
+        let jobs: Vec<_> = vertices.chunks(each).zip(slots.chunks_mut(each)).collect();
         on_threads(jobs, &|(vertices, placed)| {
             dispatch!(machine.level, _ => place(input.draw, vertices, placed));
         });

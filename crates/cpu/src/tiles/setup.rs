@@ -90,12 +90,13 @@ impl<'a> Input<'a> {
         let primitives: Vec<_> = match plan.runs {
             Some(_) => Vec::new(),
             None => {
-                let all = draw.primitives().into_iter().zip(draw.provoking_vertices());
-                all.filter_map(|(primitive, provoking)| match primitive {
-                    PrimitiveVertices::Triangle(triangle) => Some((triangle, provoking)),
-                    PrimitiveVertices::Point(_) | PrimitiveVertices::Line(_) => None,
-                })
-                .collect()
+                let primitives = draw.primitives().into_iter().zip(draw.provoking_vertices());
+                primitives
+                    .filter_map(|(primitive, provoking)| match primitive {
+                        PrimitiveVertices::Triangle(triangle) => Some((triangle, provoking)),
+                        PrimitiveVertices::Point(_) | PrimitiveVertices::Line(_) => None,
+                    })
+                    .collect()
             }
         };
         let count = match &plan.runs {
@@ -126,13 +127,13 @@ impl<'a> Input<'a> {
         if self.plan.runs.is_none() {
             return self.primitives[number];
         }
-        let at = run.at + 3 * (number - run.first);
+        let start = run.at + 3 * (number - run.first);
         let triangle = match &self.draw.mesh.indices {
             Some(indices) => {
-                let three = &indices[at..at + 3];
+                let three = &indices[start..start + 3];
                 [three[0], three[1], three[2]].map(|i| i as usize)
             }
-            None => [at, at + 1, at + 2],
+            None => [start, start + 1, start + 2],
         };
         (triangle, triangle[0])
     }
@@ -188,12 +189,12 @@ impl Part {
             let mut draw = SetUp::new(simd, pass, input, number, self);
             let (start, end) = (start - input.first, end - input.first);
             // Without runs, all primitives are one run.
-            let whole = [PrimitiveRun {
+            let single_run = [PrimitiveRun {
                 first: 0,
                 count: input.count,
                 at: 0,
             }];
-            let runs = input.plan.runs.as_deref().unwrap_or(&whole);
+            let runs = input.plan.runs.as_deref().unwrap_or(&single_run);
             let before = runs.partition_point(|run| run.first + run.count <= start);
             for run in &runs[before..] {
                 for number in run.first.max(start)..(run.first + run.count).min(end) {
@@ -267,8 +268,11 @@ impl<'a, S: Simd> SetUp<'a, S> {
         part: &'a mut Part,
     ) -> Self {
         let ends = |axis: usize| {
-            let all = || pass.positions.iter().map(|p| p[axis]);
-            [all().min().unwrap_or(0), all().max().unwrap_or(0)]
+            let positions = || pass.positions.iter().map(|p| p[axis]);
+            [
+                positions().min().unwrap_or(0),
+                positions().max().unwrap_or(0),
+            ]
         };
         Self {
             simd,
@@ -399,15 +403,15 @@ impl<'a, S: Simd> SetUp<'a, S> {
     /// Returns the depth code of a flat triangle.
     #[inline(always)]
     fn code(&mut self, encoding: ChannelEncoding, depth: f32, bias: f64) -> u32 {
-        let of = [u64::from(depth.to_bits()), bias.to_bits()];
+        let key = [u64::from(depth.to_bits()), bias.to_bits()];
         if let Some((last, code)) = self.code
-            && last == of
+            && last == key
         {
             return code;
         }
         let depth = super::depth::held(self.draw, depth, bias);
         let code = Faithful.depth_codes(encoding, [depth; LANES])[0];
-        self.code = Some((of, code));
+        self.code = Some((key, code));
         code
     }
 
@@ -511,11 +515,11 @@ impl<'a, S: Simd> SetUp<'a, S> {
 pub(crate) fn tile_texels(pass: &PassPlan, [x, y]: [usize; 2]) -> [i32; 4] {
     let [width, height] = pass.size;
     let (left, top) = (x * TILE, y * TILE);
-    let all = [
+    let bounds = [
         left,
         top,
         (left + TILE).min(width),
         (top + TILE).min(height),
     ];
-    all.map(|v| v as i32)
+    bounds.map(|v| v as i32)
 }

@@ -15,7 +15,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Returns the sets of vector instructions that this machine has, with their names.
 fn levels() -> Vec<(&'static str, Level)> {
     let best = Level::new();
-    let mut all = Vec::new();
+    let mut levels = Vec::new();
     #[cfg(target_arch = "x86_64")]
     {
         let named = [
@@ -24,12 +24,12 @@ fn levels() -> Vec<(&'static str, Level)> {
             ("avx2", best.as_avx2().map(|s| s.level())),
             ("avx512", best.as_avx512().map(|s| s.level())),
         ];
-        all.extend(named.into_iter().filter_map(|(n, l)| Some((n, l?))));
+        levels.extend(named.into_iter().filter_map(|(n, l)| Some((n, l?))));
     }
-    if all.is_empty() {
-        all.push(("best", best));
+    if levels.is_empty() {
+        levels.push(("best", best));
     }
-    all
+    levels
 }
 
 fn drawn(mut prepared: impl Prepared) -> Frame {
@@ -48,30 +48,30 @@ fn compare(
     let mut scene = scene.clone();
     scene.read = (0..scene.attachments.len()).collect();
     Plan::new(&scene, 0)?;
-    let due = drawn(PreparedScene::new(scene.clone(), Faithful));
+    let expected = drawn(PreparedScene::new(scene.clone(), Faithful));
     for (name, machine) in machines {
         let plan = Plan::new(&scene, 0)?;
         let frame = drawn(TiledScene::new(scene.clone(), plan, *machine));
-        if frame != due {
+        if frame != expected {
             return Ok(Some(format!(
                 "{name}, {}: {}",
                 machine.threads,
-                difference(&frame, &due)
+                difference(&frame, &expected)
             )));
         }
     }
     Ok(None)
 }
 
-fn difference(frame: &Frame, due: &Frame) -> String {
-    if frame.counters != due.counters {
-        return format!("counters {:?} for {:?}", frame.counters, due.counters);
+fn difference(frame: &Frame, expected: &Frame) -> String {
+    if frame.counters != expected.counters {
+        return format!("counters {:?} for {:?}", frame.counters, expected.counters);
     }
-    for (image, due) in frame.images.iter().zip(&due.images) {
-        let mut codes = image.codes.iter().zip(&due.codes);
-        if let Some(at) = codes.position(|(a, b)| a != b) {
+    for (image, expected) in frame.images.iter().zip(&expected.images) {
+        let mut codes = image.codes.iter().zip(&expected.codes);
+        if let Some(index) = codes.position(|(a, b)| a != b) {
             let channels = image.channels.len();
-            let texel = at / channels / image.samples as usize;
+            let texel = index / channels / image.samples as usize;
             let (x, y) = (
                 texel % image.size[0] as usize,
                 texel / image.size[0] as usize,
@@ -80,10 +80,10 @@ fn difference(frame: &Frame, due: &Frame) -> String {
                 "{} {:?} {x},{y} sample {} channel {}: {} for {}",
                 image.attachment,
                 image.aspect,
-                at / channels % image.samples as usize,
-                at % channels,
-                image.codes[at],
-                due.codes[at]
+                index / channels % image.samples as usize,
+                index % channels,
+                image.codes[index],
+                expected.codes[index]
             );
         }
     }
@@ -92,12 +92,13 @@ fn difference(frame: &Frame, due: &Frame) -> String {
 
 /// Returns every level, each with one of three numbers of threads.
 fn machines(turn: usize) -> Vec<(&'static str, Machine)> {
-    let all = levels().into_iter().enumerate();
-    all.map(|(i, (name, level))| {
-        let threads = 1 + (turn + i) % 3;
-        (name, Machine { level, threads })
-    })
-    .collect()
+    let levels = levels().into_iter().enumerate();
+    levels
+        .map(|(i, (name, level))| {
+            let threads = 1 + (turn + i) % 3;
+            (name, Machine { level, threads })
+        })
+        .collect()
 }
 
 /// Returns one level with one number of threads. Consecutive turns go through all pairs.
@@ -234,7 +235,7 @@ fn adapted(mut scene: Scene, turn: usize) -> Scene {
 }
 
 /// Returns true if all cases are compared, false for a sample.
-fn all() -> bool {
+fn compares_all() -> bool {
     std::env::var_os("ETALON_TESTS").is_some_and(|v| v == "all")
 }
 
@@ -243,7 +244,7 @@ fn scene_of(case: &CaseRef<'_>, turn: usize) -> Scenes {
     let id = case.id();
     // Smaller pictures replace large ones, and most of the matrix is one scene in different formats.
     let large = ["1280x720", "1920x1080", "1024x1024"];
-    let one_of_many = id.starts_with("perf/matrix/") && !turn.is_multiple_of(8) && !all();
+    let one_of_many = id.starts_with("perf/matrix/") && !turn.is_multiple_of(8) && !compares_all();
     if large.iter().any(|size| id.contains(size)) || one_of_many {
         Vec::new()
     } else {
@@ -258,7 +259,7 @@ fn kernels_draw_built_in_cases_as_spans_do() {
     let scenes = |i: usize| scene_of(&quick[i], i);
     let equal = compare_all(quick.len(), scenes, machines);
     assert!(equal > 1200, "{equal} quick cases have kernels");
-    let step = if all() { 1 } else { 8 };
+    let step = if compares_all() { 1 } else { 8 };
     let full: Vec<_> = library.cases(Profile::Full).step_by(step).collect();
     let scenes = |i: usize| scene_of(&full[i], i);
     let equal = compare_all(full.len(), scenes, machine);
@@ -268,7 +269,7 @@ fn kernels_draw_built_in_cases_as_spans_do() {
 #[test]
 fn kernels_draw_random_scenes_in_many_tiles_as_spans_do() {
     // Each scene is drawn in two sizes: 1,800 pictures, or 10,200.
-    let count = if all() { 1_700 } else { 300 };
+    let count = if compares_all() { 1_700 } else { 300 };
     let files = ["common", "extended", "multisample"].map(|flavor| {
         let text = format!(
             r#"{{"about":"t","spec":["t"],"axes":{{"seed":{{"from":5000,"count":{count}}}}},

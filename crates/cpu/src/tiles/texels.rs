@@ -23,9 +23,9 @@ impl<'a> Sources<'a> {
     /// Returns the words of the first texture's texels at an index of the tile's plane, which must be one
     /// word each.
     #[inline(always)]
-    pub(crate) fn words(&self, at: usize) -> Codes {
+    pub(crate) fn words(&self, offset: usize) -> Codes {
         match self.texels {
-            Some(texels) => texels.first.plane(self.tile, at, 0),
+            Some(texels) => texels.first.plane(self.tile, offset, 0),
             None => [0; LANES],
         }
     }
@@ -94,11 +94,11 @@ impl Texture<'_> {
 
     /// Returns a word of the texels at an index of a tile's plane.
     #[inline(always)]
-    fn plane(&self, tile: usize, at: usize, word: usize) -> Codes {
+    fn plane(&self, tile: usize, offset: usize, word: usize) -> Codes {
         if let Some(clear) = self.image.clear.color {
             return [clear[word]; LANES];
         }
-        let start = (tile * self.image.layout.words + word) * AREA + at;
+        let start = (tile * self.image.layout.words + word) * AREA + offset;
         let (lanes, _) = self.image.color[start..start + LANES].as_chunks();
         lanes[0]
     }
@@ -117,8 +117,8 @@ impl Texture<'_> {
                 continue;
             };
             if last.replace(field.word) != Some(field.word) {
-                for (words, at) in words.as_chunks_mut().0.iter_mut().zip(places) {
-                    *words = self.plane(tile, usize::from(*at), field.word);
+                for (words, place) in words.as_chunks_mut().0.iter_mut().zip(places) {
+                    *words = self.plane(tile, usize::from(*place), field.word);
                 }
             }
             for (code, word) in codes.iter_mut().zip(&words) {

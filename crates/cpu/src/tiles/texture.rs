@@ -62,7 +62,9 @@ fn positions(mode: AddressMode, coordinate: Real, size: usize) -> Codes {
     for (scaled, c) in scaled.iter_mut().zip(coordinate) {
         *scaled = (c * size as f32).floor();
     }
-    let small = scaled.iter().fold(true, |all, v| all & (v.abs() < WHOLE));
+    let small = scaled
+        .iter()
+        .fold(true, |small, v| small & (v.abs() < WHOLE));
     let mut result = [0; LANES];
     if mode == AddressMode::Repeat && size.is_power_of_two() && small {
         for (place, v) in result.iter_mut().zip(scaled) {

@@ -69,15 +69,15 @@ mod tests {
     fn helpers_end_with_their_thread() {
         // On Linux, threads have folders; elsewhere their end cannot be observed.
         let folder = || std::fs::read_link("/proc/thread-self").ok();
-        let own = thread::spawn(move || {
-            let (all, folders) = (Barrier::new(TESTED), Mutex::new(Vec::new()));
+        let owner = thread::spawn(move || {
+            let (barrier, folders) = (Barrier::new(TESTED), Mutex::new(Vec::new()));
             on_threads(vec![(); TESTED], &|()| {
-                all.wait();
+                barrier.wait();
                 folders.lock().expect("no job fails").extend(folder());
             });
             folders.into_inner().expect("no job fails")
         });
-        let folders = own.join().expect("jobs are done");
+        let folders = owner.join().expect("jobs are done");
         assert!(folders.is_empty() || folders.len() == TESTED, "{folders:?}");
         for folder in folders {
             let folder = std::path::Path::new("/proc").join(folder);

@@ -41,10 +41,14 @@ impl<T: Copy> Layer<'_, T> {
     #[inline(always)]
     fn touch(&mut self, same: bool) {
         if let Some(value) = self.clear.take() {
-            let one = self.words * AREA;
-            let end = if same { one } else { self.planes.len() };
+            let sample_words = self.words * AREA;
+            let end = if same {
+                sample_words
+            } else {
+                self.planes.len()
+            };
             let end = end.min(self.planes.len());
-            for sample in self.planes[..end].chunks_exact_mut(one) {
+            for sample in self.planes[..end].chunks_exact_mut(sample_words) {
                 for (plane, value) in sample.chunks_exact_mut(AREA).zip(value) {
                     plane.fill(value);
                 }
@@ -65,8 +69,8 @@ impl<T: Copy> Layer<'_, T> {
     /// Returns the planes of a sample.
     #[inline(always)]
     fn sample(&mut self, sample: usize) -> &mut [T] {
-        let one = self.words * AREA;
-        &mut self.planes[sample * one..(sample + 1) * one]
+        let sample_words = self.words * AREA;
+        &mut self.planes[sample * sample_words..(sample + 1) * sample_words]
     }
 }
 
@@ -92,8 +96,8 @@ impl<'a> Tile<'a> {
         paint: &'p Paint,
     ) -> impl Iterator<Item = (&'t mut Layer<'a, u32>, &'p Kernel)> {
         let first = iter::once((&mut self.color, &paint.kernel));
-        let all = first.chain(self.others.iter_mut().zip(&paint.others));
-        all.filter(|(_, kernel)| !kernel.keeps())
+        let layers = first.chain(self.others.iter_mut().zip(&paint.others));
+        layers.filter(|(_, kernel)| !kernel.keeps())
     }
 }
 
@@ -245,8 +249,8 @@ impl Drawing<'_, '_> {
             self.tile.stencil.touch(self.same);
         }
         let samples = u32::MAX >> (32 - self.pass.positions.len());
-        let all = whole && paint.samples & samples == samples;
-        if self.same && !all {
+        let covers_all = whole && paint.samples & samples == samples;
+        if self.same && !covers_all {
             self.expand();
         }
         if !whole && face.is_none() {
@@ -270,12 +274,16 @@ impl Drawing<'_, '_> {
             texels: input.texels,
         };
         self.samples(simd, &work, whole, outcome);
-        let all = all && work.is_constant();
+        let replaces_all = covers_all && work.is_constant();
         if !fails {
-            self.widen(triangle, plan, all && outcome == Some(TestResult::Passes));
+            self.widen(
+                triangle,
+                plan,
+                replaces_all && outcome == Some(TestResult::Passes),
+            );
         }
         if let Some(face) = face {
-            self.widen_stencils(face, all, outcome);
+            self.widen_stencils(face, replaces_all, outcome);
         }
         None
     }
@@ -305,14 +313,14 @@ impl Drawing<'_, '_> {
     /// Widens the range of depths to include every depth that a triangle might have written, to all texels or
     /// to some.
     #[inline(always)]
-    fn widen(&mut self, triangle: &Triangle, plan: &DrawPlan, all: bool) {
+    fn widen(&mut self, triangle: &Triangle, plan: &DrawPlan, replaces_all: bool) {
         if !plan.depth.is_some_and(|d| d.write) {
             return;
         }
         let code = triangle.code;
         self.range = if !triangle.is_flat() {
             ANY
-        } else if all {
+        } else if replaces_all {
             [code; 2]
         } else {
             [self.range[0].min(code), self.range[1].max(code)]
@@ -322,19 +330,24 @@ impl Drawing<'_, '_> {
     /// Widens the range of stencil values to include every value that a face might have written, to all
     /// texels or to some.
     #[inline(always)]
-    fn widen_stencils(&mut self, face: &StencilFace, all: bool, outcome: Option<TestResult>) {
+    fn widen_stencils(
+        &mut self,
+        face: &StencilFace,
+        replaces_all: bool,
+        outcome: Option<TestResult>,
+    ) {
         let old = self.stencils;
-        let of = |outcome: TestResult| operated(face, outcome.operation(face), old);
+        let updated = |outcome: TestResult| operated(face, outcome.operation(face), old);
         self.stencils = match outcome {
-            Some(outcome) if all => of(outcome),
-            Some(outcome) => hull(old, of(outcome)),
+            Some(outcome) if replaces_all => updated(outcome),
+            Some(outcome) => hull(old, updated(outcome)),
             None => [
                 TestResult::StencilFails,
                 TestResult::DepthFails,
                 TestResult::Passes,
             ]
             .into_iter()
-            .fold(old, |range, outcome| hull(range, of(outcome))),
+            .fold(old, |range, outcome| hull(range, updated(outcome))),
         };
     }
 
@@ -572,12 +585,12 @@ impl Drawing<'_, '_> {
         fragments: &mut Fragments,
     ) {
         let [left, top, ..] = self.texels;
-        let at = |place: usize| [left + (place % TILE) as i32, top + (place / TILE) as i32];
+        let texel_at = |place: usize| [left + (place % TILE) as i32, top + (place / TILE) as i32];
         let fetched = match (&work.texture, &work.plan.shading) {
             (Some((texture, coordinates)), Shading::Texture { address, kept, .. }) => {
                 let mut fetched = [[0; LANES]; MOST];
                 for ((place, mask), texels) in fragments.groups_mut().zip(&mut fetched) {
-                    let [x, y] = at(place);
+                    let [x, y] = texel_at(place);
                     *texels = texture.nearest(*address, coordinates.at(x, y));
                     *mask &= alphas_from(simd, texels, *kept);
                 }
@@ -597,7 +610,7 @@ impl Drawing<'_, '_> {
             match &work.depths {
                 None => fragments.test_depth(simd, state, plane, |_| [work.triangle.code; LANES]),
                 Some(depths) => fragments.test_depth(simd, state, plane, |place| {
-                    let [x, y] = at(place);
+                    let [x, y] = texel_at(place);
                     depths.codes(x, y, position)
                 }),
             }
@@ -616,7 +629,7 @@ impl Drawing<'_, '_> {
         if let Shading::Expensive(steps) = work.plan.shading {
             for (place, mask) in fragments.groups() {
                 if mask != 0 {
-                    work_off(steps, at(place));
+                    work_off(steps, texel_at(place));
                 }
             }
         }

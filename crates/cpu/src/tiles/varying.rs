@@ -116,8 +116,8 @@ impl Varying {
             inputs.source[3].fill(1.0);
         }
         for (word, words) in words.iter_mut().enumerate().take(layout.words) {
-            for (words, at) in words.as_chunks_mut().0.iter_mut().zip(places) {
-                *words = *lanes(planes, word * AREA + usize::from(*at));
+            for (words, place) in words.as_chunks_mut().0.iter_mut().zip(places) {
+                *words = *lanes(planes, word * AREA + usize::from(*place));
             }
         }
         for (old, field) in old.iter_mut().zip(fields) {
@@ -167,8 +167,8 @@ impl Varying {
         }
         for (word, new) in words.iter().enumerate().take(layout.words) {
             let groups = new.as_chunks().0.iter().zip(places.iter().zip(masks));
-            for (new, (at, mask)) in groups {
-                let stored = lanes(planes, word * AREA + usize::from(*at));
+            for (new, (place, mask)) in groups {
+                let stored = lanes(planes, word * AREA + usize::from(*place));
                 select(simd, stored, *mask, new);
             }
         }
@@ -347,14 +347,14 @@ impl Varying {
         }
     }
 
-    /// Returns a factor of a channel. A factor that is not an input is written to the plane `own`.
+    /// Returns a factor of a channel. A factor that is not an input is written to the plane `buffer`.
     #[inline(always)]
     fn factor<'a>(
         &self,
         factor: BlendFactor,
         c: usize,
         inputs: &'a Inputs,
-        own: &'a mut Plane,
+        buffer: &'a mut Plane,
     ) -> Factor<'a> {
         use BlendFactor as F;
         let Inputs {
@@ -373,12 +373,12 @@ impl Varying {
             F::SrcAlphaSaturated => {
                 let mut plain = Plain::<1>;
                 let encoding = self.encoding(c);
-                for ((own, source), stored) in own.iter_mut().zip(&source[3]).zip(&stored[3]) {
+                for ((slot, source), stored) in buffer.iter_mut().zip(&source[3]).zip(&stored[3]) {
                     let rest = plain.blend_complement(encoding, [*stored]);
                     let least = plain.min([*source], rest);
-                    [*own] = plain.blend_factor(encoding, least);
+                    [*slot] = plain.blend_factor(encoding, least);
                 }
-                Factor::Value(own)
+                Factor::Value(buffer)
             }
             F::Src => Factor::Value(&source[c]),
             F::OneMinusSrc => Factor::Complement(&source[c]),
@@ -393,17 +393,17 @@ impl Varying {
             F::Src1Alpha => Factor::Value(&second[3]),
             F::OneMinusSrc1Alpha => Factor::Complement(&second[3]),
             F::Constant | F::OneMinusConstant => {
-                own.fill(constant(c));
+                buffer.fill(constant(c));
                 match factor {
-                    F::Constant => Factor::Value(own),
-                    _ => Factor::Complement(own),
+                    F::Constant => Factor::Value(buffer),
+                    _ => Factor::Complement(buffer),
                 }
             }
             F::ConstantAlpha | F::OneMinusConstantAlpha => {
-                own.fill(constant(3));
+                buffer.fill(constant(3));
                 match factor {
-                    F::ConstantAlpha => Factor::Value(own),
-                    _ => Factor::Complement(own),
+                    F::ConstantAlpha => Factor::Value(buffer),
+                    _ => Factor::Complement(buffer),
                 }
             }
         }

@@ -72,8 +72,8 @@ impl Weights {
         if !(finite(constants.source) && finite(constants.second) && finite(constants.constant)) {
             return None;
         }
-        let mut all = [None; 4];
-        for (c, channel) in all.iter_mut().enumerate() {
+        let mut slots = [None; 4];
+        for (c, channel) in slots.iter_mut().enumerate() {
             let component = if c == 3 { &alpha } else { &color };
             let (source, destination) = match component.operation {
                 BlendOperation::Add => (1.0, 1.0),
@@ -88,7 +88,7 @@ impl Weights {
                 of_destination: weight(component.dst_factor, destination),
             });
         }
-        let [Some(r), Some(g), Some(b), Some(a)] = all else {
+        let [Some(r), Some(g), Some(b), Some(a)] = slots else {
             return None;
         };
         let mut keep = 0;
@@ -162,12 +162,12 @@ fn join(words: &mut Codes, codes: &Codes, bit: u32) {
 impl ChannelWeights {
     /// Returns the codes of one channel, from the stored values of the channel and of alpha.
     #[inline(always)]
-    fn codes(&self, own: &Real, alpha: &Real) -> Codes {
-        let mut result = *own;
+    fn codes(&self, stored: &Real, alpha: &Real) -> Codes {
+        let mut result = *stored;
         for (result, alpha) in result.iter_mut().zip(alpha) {
-            let own = *result;
-            let source = self.source * self.of_source.at(own, *alpha);
-            let destination = own * self.of_destination.at(own, *alpha);
+            let value = *result;
+            let source = self.source * self.of_source.at(value, *alpha);
+            let destination = value * self.of_destination.at(value, *alpha);
             *result = self.of_source.sign * source + self.of_destination.sign * destination;
         }
         Faithful.color_codes(UNORM, result)
@@ -181,44 +181,44 @@ impl Weight {
             second,
             constant,
         } = constants;
-        let all = |constant, own, alpha| Self {
+        let weights = |constant, of_channel, alpha| Self {
             constant,
-            own,
+            own: of_channel,
             alpha,
             most: f32::INFINITY,
             sign,
         };
         use BlendFactor as F;
         match factor {
-            F::Zero => all(0.0, 0.0, 0.0),
-            F::One => all(1.0, 0.0, 0.0),
-            F::Src => all(source[channel], 0.0, 0.0),
-            F::OneMinusSrc => all(1.0 - source[channel], 0.0, 0.0),
-            F::SrcAlpha => all(source[3], 0.0, 0.0),
-            F::OneMinusSrcAlpha => all(1.0 - source[3], 0.0, 0.0),
-            F::Src1 => all(second[channel], 0.0, 0.0),
-            F::OneMinusSrc1 => all(1.0 - second[channel], 0.0, 0.0),
-            F::Src1Alpha => all(second[3], 0.0, 0.0),
-            F::OneMinusSrc1Alpha => all(1.0 - second[3], 0.0, 0.0),
-            F::Constant => all(constant[channel], 0.0, 0.0),
-            F::OneMinusConstant => all(1.0 - constant[channel], 0.0, 0.0),
-            F::ConstantAlpha => all(constant[3], 0.0, 0.0),
-            F::OneMinusConstantAlpha => all(1.0 - constant[3], 0.0, 0.0),
-            F::Dst => all(0.0, 1.0, 0.0),
-            F::OneMinusDst => all(1.0, -1.0, 0.0),
-            F::DstAlpha => all(0.0, 0.0, 1.0),
-            F::OneMinusDstAlpha => all(1.0, 0.0, -1.0),
-            F::SrcAlphaSaturated if channel == 3 => all(1.0, 0.0, 0.0),
+            F::Zero => weights(0.0, 0.0, 0.0),
+            F::One => weights(1.0, 0.0, 0.0),
+            F::Src => weights(source[channel], 0.0, 0.0),
+            F::OneMinusSrc => weights(1.0 - source[channel], 0.0, 0.0),
+            F::SrcAlpha => weights(source[3], 0.0, 0.0),
+            F::OneMinusSrcAlpha => weights(1.0 - source[3], 0.0, 0.0),
+            F::Src1 => weights(second[channel], 0.0, 0.0),
+            F::OneMinusSrc1 => weights(1.0 - second[channel], 0.0, 0.0),
+            F::Src1Alpha => weights(second[3], 0.0, 0.0),
+            F::OneMinusSrc1Alpha => weights(1.0 - second[3], 0.0, 0.0),
+            F::Constant => weights(constant[channel], 0.0, 0.0),
+            F::OneMinusConstant => weights(1.0 - constant[channel], 0.0, 0.0),
+            F::ConstantAlpha => weights(constant[3], 0.0, 0.0),
+            F::OneMinusConstantAlpha => weights(1.0 - constant[3], 0.0, 0.0),
+            F::Dst => weights(0.0, 1.0, 0.0),
+            F::OneMinusDst => weights(1.0, -1.0, 0.0),
+            F::DstAlpha => weights(0.0, 0.0, 1.0),
+            F::OneMinusDstAlpha => weights(1.0, 0.0, -1.0),
+            F::SrcAlphaSaturated if channel == 3 => weights(1.0, 0.0, 0.0),
             F::SrcAlphaSaturated => Self {
                 most: source[3],
-                ..all(1.0, 0.0, -1.0)
+                ..weights(1.0, 0.0, -1.0)
             },
         }
     }
 
     #[inline(always)]
-    fn at(&self, own: f32, alpha: f32) -> f32 {
-        let factor = self.constant + self.own * own + self.alpha * alpha;
+    fn at(&self, value: f32, alpha: f32) -> f32 {
+        let factor = self.constant + self.own * value + self.alpha * alpha;
         if factor < self.most {
             factor
         } else {

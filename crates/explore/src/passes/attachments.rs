@@ -1,28 +1,28 @@
 //! Removes attachments: from passes, from read-back, or entirely if they are unused.
 
 use crate::document::{list, parts};
-use crate::edit::{Edit, below, place};
+use crate::edit::{Edit, below, pointer};
 use serde_json::{Value, json};
 
 /// Removes each attachment of a pass, with all keys that refer to it.
 pub(crate) fn bound(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let mut edits = Vec::new();
     for (p, pass) in list(&document["scene"], "passes").iter().enumerate() {
-        let place = place!["scene", "passes", p];
+        let pointer = pointer!["scene", "passes", p];
         if pass.get("depth_stencil").is_some() {
-            edits.push(without_depth_stencil(pass, &place));
+            edits.push(without_depth_stencil(pass, &pointer));
         }
         if pass.get("depth_stencil_resolve").is_some() {
-            edits.push(Edit::removal(below(&place, "depth_stencil_resolve")));
+            edits.push(Edit::removal(below(&pointer, "depth_stencil_resolve")));
         }
         for location in (0..list(pass, "color").len()).rev() {
-            edits.push(without_color(pass, &place, location));
+            edits.push(without_color(pass, &pointer, location));
         }
     }
     edits
 }
 
-fn without_depth_stencil(pass: &Value, place: &[crate::edit::Step]) -> Edit {
+fn without_depth_stencil(pass: &Value, pointer: &[crate::edit::Step]) -> Edit {
     let mut edit = Edit::default();
     let keys = [
         "depth_stencil",
@@ -31,36 +31,36 @@ fn without_depth_stencil(pass: &Value, place: &[crate::edit::Step]) -> Edit {
     ];
     for key in keys {
         if pass.get(key).is_some() {
-            edit.remove.push(below(place, key));
+            edit.remove.push(below(pointer, key));
         }
     }
     for key in ["depth", "stencil"] {
         if pass["operations"].get(key).is_some() {
-            edit.remove.push(below(&below(place, "operations"), key));
+            edit.remove.push(below(&below(pointer, "operations"), key));
         }
     }
     for (c, clear) in list(pass, "clears").iter().enumerate() {
         if clear.get("color").is_none() {
-            edit.remove.push(below(&below(place, "clears"), c));
+            edit.remove.push(below(&below(pointer, "clears"), c));
         }
     }
     for (d, draw) in list(pass, "draws").iter().enumerate() {
         for key in ["depth", "stencil", "depth_bounds"] {
             if draw.get(key).is_some() {
                 edit.remove
-                    .push(below(&below(&below(place, "draws"), d), key));
+                    .push(below(&below(&below(pointer, "draws"), d), key));
             }
         }
     }
     edit
 }
 
-fn without_color(pass: &Value, place: &[crate::edit::Step], location: usize) -> Edit {
-    let mut edit = Edit::removal(below(&below(place, "color"), location));
+fn without_color(pass: &Value, pointer: &[crate::edit::Step], location: usize) -> Edit {
+    let mut edit = Edit::removal(below(&below(pointer, "color"), location));
     for (part, members) in [
-        (below(place, "resolve"), list(pass, "resolve")),
+        (below(pointer, "resolve"), list(pass, "resolve")),
         (
-            below(&below(place, "operations"), "color"),
+            below(&below(pointer, "operations"), "color"),
             list(&pass["operations"], "color"),
         ),
     ] {
@@ -69,7 +69,7 @@ fn without_color(pass: &Value, place: &[crate::edit::Step], location: usize) -> 
         }
     }
     for (c, clear) in list(pass, "clears").iter().enumerate() {
-        let part = below(&below(place, "clears"), c);
+        let part = below(&below(pointer, "clears"), c);
         match clear.get("color").and_then(Value::as_u64) {
             Some(number) if number == location as u64 => edit.remove.push(part),
             Some(number) if number > location as u64 => {
@@ -81,7 +81,7 @@ fn without_color(pass: &Value, place: &[crate::edit::Step], location: usize) -> 
     }
     for (d, draw) in list(pass, "draws").iter().enumerate() {
         if list(draw, "targets").len() > location {
-            let targets = below(&below(&below(place, "draws"), d), "targets");
+            let targets = below(&below(&below(pointer, "draws"), d), "targets");
             edit.remove.push(below(&targets, location));
         }
     }
@@ -94,7 +94,7 @@ pub(crate) fn read(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let parts = parts(count).into_iter().filter(|part| part.len() < count);
     parts
         .map(|part| Edit {
-            remove: part.map(|i| place!["scene", "read", i]).collect(),
+            remove: part.map(|i| pointer!["scene", "read", i]).collect(),
             ..Edit::default()
         })
         .collect()
@@ -110,7 +110,7 @@ pub(crate) fn unused(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let names = attachments.into_iter().flatten().map(|(name, _)| name);
     let unused: Vec<_> = names
         .filter(|name| !named.contains(&name.as_str()))
-        .map(|name| place!["scene", "attachments", name.as_str()])
+        .map(|name| pointer!["scene", "attachments", name.as_str()])
         .collect();
     let parts = parts(unused.len()).into_iter();
     parts
@@ -162,7 +162,7 @@ mod tests {
         let unused = unused(&no_depth, None);
         assert_eq!(
             unused[0],
-            Edit::removal(place!["scene", "attachments", "d"])
+            Edit::removal(pointer!["scene", "attachments", "d"])
         );
     }
 }

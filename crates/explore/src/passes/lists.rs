@@ -1,7 +1,7 @@
 //! Shortens lists: removes further frames, passes, draws, clear commands and counters.
 
 use crate::document::{draws_of, list, parts, passes_of};
-use crate::edit::{Edit, below, place};
+use crate::edit::{Edit, below, pointer};
 use serde_json::{Map, Value, json};
 use std::ops::Range;
 
@@ -14,16 +14,16 @@ pub(crate) fn frames(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
         .collect();
     let mut edits = Vec::new();
     for sizes in parts(given.len()) {
-        let places = given[sizes].iter().map(|key| place![*key]);
+        let pointers = given[sizes].iter().map(|key| pointer![*key]);
         edits.push(Edit {
-            remove: places.collect(),
+            remove: pointers.collect(),
             ..Edit::default()
         });
     }
     for key in ["variants", "submissions", "expect"] {
         for part in parts(list(document, key).len()) {
             edits.push(Edit {
-                remove: part.map(|i| place![key, i]).collect(),
+                remove: part.map(|i| pointer![key, i]).collect(),
                 ..Edit::default()
             });
         }
@@ -37,7 +37,7 @@ pub(crate) fn passes(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     parts
         .map(|part| {
             let mut edit = renumbered(document, "/passes", &part);
-            edit.remove = part.map(|i| place!["scene", "passes", i]).collect();
+            edit.remove = part.map(|i| pointer!["scene", "passes", i]).collect();
             edit
         })
         .collect()
@@ -55,12 +55,12 @@ pub(crate) fn draws(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
                 };
                 let gone = part.clone().filter(|i| (*i as u64) < before).count() as u64;
                 if gone > 0 {
-                    let place = place!["scene", "passes", p, "clears", c, "before"];
-                    edit.replace.push((place, json!(before - gone)));
+                    let pointer = pointer!["scene", "passes", p, "clears", c, "before"];
+                    edit.replace.push((pointer, json!(before - gone)));
                 }
             }
-            let places = part.map(|d| place!["scene", "passes", p, "draws", d]);
-            edit.remove = places.collect();
+            let pointers = part.map(|d| pointer!["scene", "passes", p, "draws", d]);
+            edit.remove = pointers.collect();
             edits.push(edit);
         }
     }
@@ -72,9 +72,9 @@ pub(crate) fn clears(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let mut edits = Vec::new();
     for (p, pass) in list(&document["scene"], "passes").iter().enumerate() {
         for part in parts(list(pass, "clears").len()) {
-            let places = part.map(|c| place!["scene", "passes", p, "clears", c]);
+            let pointers = part.map(|c| pointer!["scene", "passes", p, "clears", c]);
             edits.push(Edit {
-                remove: places.collect(),
+                remove: pointers.collect(),
                 ..Edit::default()
             });
         }
@@ -92,30 +92,30 @@ pub(crate) fn counters(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let mut edits = Vec::new();
     for part in parts(names.len()) {
         let gone = &names[part];
-        let whole = gone.len() == names.len();
+        let all_gone = gone.len() == names.len();
         let mut edit = Edit {
-            remove: if whole {
-                vec![place!["scene", "counters"]]
+            remove: if all_gone {
+                vec![pointer!["scene", "counters"]]
             } else {
                 gone.iter()
-                    .map(|name| place!["scene", "counters", name.as_str()])
+                    .map(|name| pointer!["scene", "counters", name.as_str()])
                     .collect()
             },
             ..Edit::default()
         };
         for draw in draws_of(document) {
             let counters = below(&draw, "counters");
-            let Some(Value::Array(used)) = crate::edit::at(document, &counters) else {
+            let Some(Value::Array(used)) = crate::edit::value_at(document, &counters) else {
                 continue;
             };
-            let places = used.iter().enumerate().filter_map(|(i, name)| {
+            let pointers = used.iter().enumerate().filter_map(|(i, name)| {
                 let name = name.as_str()?;
                 gone.iter().any(|g| *g == name).then(|| below(&counters, i))
             });
-            if whole {
+            if all_gone {
                 edit.remove.push(counters.clone());
             } else {
-                edit.remove.extend(places);
+                edit.remove.extend(pointers);
             }
         }
         edits.push(edit);
@@ -160,7 +160,7 @@ fn renumbered(document: &Value, list: &str, gone: &Range<usize>) -> Edit {
     if let Some(changes) = document.get("judged_as") {
         let changes = moved(changes);
         if Value::Object(changes.clone()) != document["judged_as"] {
-            edit.replace.push((place!["judged_as"], changes.into()));
+            edit.replace.push((pointer!["judged_as"], changes.into()));
         }
     }
     let variants = document.get("variants").and_then(Value::as_array);
@@ -179,7 +179,7 @@ fn renumbered(document: &Value, list: &str, gone: &Range<usize>) -> Edit {
             }
             if Value::Object(changes.clone()) != *variant.get(key).unwrap_or(&Value::Null) {
                 edit.replace
-                    .push((place!["variants", v, key], changes.into()));
+                    .push((pointer!["variants", v, key], changes.into()));
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Simplifies meshes: replaces many primitives by one, and shortens lists.
 
 use crate::document::{draws_of, parts};
-use crate::edit::{Edit, at, below};
+use crate::edit::{Edit, below, value_at};
 use serde_json::{Map, Value, json};
 
 /// The mesh kinds with a single primitive, the simplest first.
@@ -12,19 +12,19 @@ const PARTS: usize = 12;
 /// Simplifies the mesh of each draw.
 pub(crate) fn meshes(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
     let mut edits = Vec::new();
-    for place in draws_of(document) {
-        let mesh_place = below(&place, "mesh");
-        let Some(Value::Object(mesh)) = at(document, &mesh_place) else {
+    for pointer in draws_of(document) {
+        let mesh_pointer = below(&pointer, "mesh");
+        let Some(Value::Object(mesh)) = value_at(document, &mesh_pointer) else {
             continue;
         };
         let kind = mesh.get("kind").and_then(Value::as_str).unwrap_or_default();
         let rank = WHOLE.iter().position(|k| *k == kind);
-        for whole in &WHOLE[..rank.unwrap_or(WHOLE.len())] {
-            for mesh in wholes(mesh, whole, texel) {
-                edits.push(Edit::replacement(mesh_place.clone(), mesh));
+        for simpler in &WHOLE[..rank.unwrap_or(WHOLE.len())] {
+            for mesh in wholes(mesh, simpler, texel) {
+                edits.push(Edit::replacement(mesh_pointer.clone(), mesh));
             }
         }
-        edits.extend(shorter(mesh, &mesh_place));
+        edits.extend(shorter(mesh, &mesh_pointer));
     }
     edits
 }
@@ -37,12 +37,12 @@ fn wholes(mesh: &Map<String, Value>, kind: &str, texel: Option<[u32; 2]>) -> Vec
         list.cloned().unwrap_or_default()
     };
     let (values, z, windings) = (list("values"), list("z"), list("windings"));
-    let part_of = |key: &str, of: &[Value], part: usize| -> Option<Value> {
+    let part_of = |key: &str, items: &[Value], part: usize| -> Option<Value> {
         let single = mesh.get(key).filter(|v| !v.is_array() || key == "value");
-        if of.is_empty() {
+        if items.is_empty() {
             single.cloned()
         } else {
-            of.get(part % of.len()).cloned()
+            items.get(part % items.len()).cloned()
         }
     };
     let count = values.len().max(z.len()).max(1);
@@ -52,7 +52,7 @@ fn wholes(mesh: &Map<String, Value>, kind: &str, texel: Option<[u32; 2]>) -> Vec
         .min(count - 1);
     let order = std::iter::once(first).chain((0..count).filter(|i| *i != first));
     for part in order.take(PARTS) {
-        let mut whole = json!({ "kind": kind });
+        let mut replacement = json!({ "kind": kind });
         let keys = [
             ("value", part_of("value", &values, part)),
             ("z", part_of("z", &z, part)),
@@ -61,11 +61,11 @@ fn wholes(mesh: &Map<String, Value>, kind: &str, texel: Option<[u32; 2]>) -> Vec
         for (key, value) in keys {
             let fits = key != "winding" || kind == "full";
             if let Some(value) = value.filter(|_| fits) {
-                whole[key] = value;
+                replacement[key] = value;
             }
         }
-        if !meshes.contains(&whole) {
-            meshes.push(whole);
+        if !meshes.contains(&replacement) {
+            meshes.push(replacement);
         }
     }
     meshes
@@ -73,7 +73,7 @@ fn wholes(mesh: &Map<String, Value>, kind: &str, texel: Option<[u32; 2]>) -> Vec
 
 /// Returns edits that shorten a list of the mesh: by a primitive for vertices, and by an item for other
 /// lists.
-fn shorter(mesh: &Map<String, Value>, place: &[crate::edit::Step]) -> Vec<Edit> {
+fn shorter(mesh: &Map<String, Value>, pointer: &[crate::edit::Step]) -> Vec<Edit> {
     let mut edits = Vec::new();
     for key in ["values", "z", "windings", "uv", "indices"] {
         let length = mesh.get(key).and_then(Value::as_array).map_or(0, Vec::len);
@@ -81,9 +81,9 @@ fn shorter(mesh: &Map<String, Value>, place: &[crate::edit::Step]) -> Vec<Edit> 
             continue;
         }
         for part in parts(length).into_iter().filter(|p| p.len() < length) {
-            let places = part.map(|i| below(&below(place, key), i));
+            let pointers = part.map(|i| below(&below(pointer, key), i));
             edits.push(Edit {
-                remove: places.collect(),
+                remove: pointers.collect(),
                 ..Edit::default()
             });
         }
@@ -96,8 +96,8 @@ fn shorter(mesh: &Map<String, Value>, place: &[crate::edit::Step]) -> Vec<Edit> 
             let mut edit = Edit::default();
             for key in ["positions", "values", "uv"] {
                 if length(key) == count {
-                    let places = vertices.clone().map(|i| below(&below(place, key), i));
-                    edit.remove.extend(places);
+                    let pointers = vertices.clone().map(|i| below(&below(pointer, key), i));
+                    edit.remove.extend(pointers);
                 }
             }
             edits.push(edit);

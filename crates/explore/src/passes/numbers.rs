@@ -1,7 +1,7 @@
 //! Simplifies numbers: to 0, 1, a half, or fewer digits.
 
 use super::words::walk;
-use crate::edit::{Edit, Place, Step, at, place};
+use crate::edit::{Edit, Pointer, Step, pointer, value_at};
 use serde_json::{Value, json};
 
 /// The keys of numbers that have their own pass, or are not values.
@@ -11,24 +11,28 @@ const LONGEST: usize = 16;
 
 /// Simplifies all numbers of a scene: lists as a whole, then each number.
 pub(crate) fn numbers(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
-    let mut lists: Vec<Place> = Vec::new();
-    let mut singles: Vec<(Place, f64)> = Vec::new();
-    walk(&document["scene"], place!["scene"], &mut |place, value| {
-        let named =
-            |step: &Step| matches!(step, Step::Key(key) if NOT_VALUES.contains(&key.as_str()));
-        let Some(number) = value.as_f64().filter(|_| !place.iter().any(named)) else {
-            return;
-        };
-        singles.push((place.clone(), number));
-        if let Some((Step::Item(_), list)) = place.split_last()
-            && lists.last().is_none_or(|last| last != list)
-        {
-            lists.push(list.to_vec());
-        }
-    });
+    let mut lists: Vec<Pointer> = Vec::new();
+    let mut singles: Vec<(Pointer, f64)> = Vec::new();
+    walk(
+        &document["scene"],
+        pointer!["scene"],
+        &mut |pointer, value| {
+            let named =
+                |step: &Step| matches!(step, Step::Key(key) if NOT_VALUES.contains(&key.as_str()));
+            let Some(number) = value.as_f64().filter(|_| !pointer.iter().any(named)) else {
+                return;
+            };
+            singles.push((pointer.clone(), number));
+            if let Some((Step::Item(_), list)) = pointer.split_last()
+                && lists.last().is_none_or(|last| last != list)
+            {
+                lists.push(list.to_vec());
+            }
+        },
+    );
     let mut edits = Vec::new();
     for list in &lists {
-        let Some(Value::Array(items)) = at(document, list) else {
+        let Some(Value::Array(items)) = value_at(document, list) else {
             continue;
         };
         if !items.iter().all(Value::is_number) {
@@ -52,15 +56,15 @@ pub(crate) fn numbers(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
             }
         }
     }
-    for (place, number) in singles {
-        let length = place.split_last().map_or(0, |(_, parent)| {
-            at(document, parent)
+    for (pointer, number) in singles {
+        let length = pointer.split_last().map_or(0, |(_, parent)| {
+            value_at(document, parent)
                 .and_then(Value::as_array)
                 .map_or(0, Vec::len)
         });
         if length <= LONGEST {
             let simple = simpler(number).into_iter();
-            edits.extend(simple.map(|n| Edit::replacement(place.clone(), n)));
+            edits.extend(simple.map(|n| Edit::replacement(pointer.clone(), n)));
         }
     }
     // Drops edits that change nothing or do not apply.
@@ -101,10 +105,10 @@ fn simpler(number: f64) -> Vec<Value> {
     numbers.into_iter().map(value).collect()
 }
 
-/// Returns a path extended by a key.
+/// Returns a pointer to a key of the scene.
 #[cfg(test)]
-fn of(key: &str) -> Place {
-    place!["scene", key]
+fn scene_pointer(key: &str) -> Pointer {
+    pointer!["scene", key]
 }
 
 #[cfg(test)]
@@ -131,9 +135,13 @@ mod tests {
         let document =
             json!({ "scene": { "size": [3, 3], "color": [1, 1, 1, 1], "rect": [2, 7] } });
         let edits = numbers(&document, None);
-        assert!(edits.contains(&Edit::replacement(of("color"), 1)));
-        assert!(edits.contains(&Edit::replacement(of("rect"), json!([0, 0]))));
-        let touches = |edit: &Edit| edit.replace.iter().any(|(p, _)| p.starts_with(&of("size")));
+        assert!(edits.contains(&Edit::replacement(scene_pointer("color"), 1)));
+        assert!(edits.contains(&Edit::replacement(scene_pointer("rect"), json!([0, 0]))));
+        let touches = |edit: &Edit| {
+            edit.replace
+                .iter()
+                .any(|(p, _)| p.starts_with(&scene_pointer("size")))
+        };
         assert!(!edits.iter().any(touches));
     }
 }

@@ -1,7 +1,7 @@
 //! Reduces sizes: crops pictures, preferably to the wrong texel, and removes samples.
 
 use crate::document::{draws_of, list};
-use crate::edit::{Edit, Place, at, below, place};
+use crate::edit::{Edit, Pointer, below, pointer, value_at};
 use serde_json::{Value, json};
 
 /// The size of attachments without `size`.
@@ -41,9 +41,9 @@ pub(crate) fn sizes(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
                 let mut edit = Edit::default();
                 for (name, attachment) in attachments {
                     if size(attachment) == from {
-                        let place = place!["scene", "attachments", name.as_str()];
-                        edit.replace.push((below(&place, "size"), json!(to)));
-                        window.crop_texels(attachment, &place, &mut edit);
+                        let pointer = pointer!["scene", "attachments", name.as_str()];
+                        edit.replace.push((below(&pointer, "size"), json!(to)));
+                        window.crop_texels(attachment, &pointer, &mut edit);
                     }
                 }
                 window.crop_rectangles(document, &mut edit);
@@ -62,7 +62,12 @@ struct Window {
 }
 
 impl Window {
-    fn crop_texels(self, attachment: &Value, own: &[crate::edit::Step], edit: &mut Edit) {
+    fn crop_texels(
+        self,
+        attachment: &Value,
+        attachment_pointer: &[crate::edit::Step],
+        edit: &mut Edit,
+    ) {
         let texels = &attachment["texels"];
         let Some(values) = texels["values"].as_array() else {
             return;
@@ -80,18 +85,21 @@ impl Window {
                 .collect(),
             _ => return,
         };
-        let place = below(&below(own, "texels"), "values");
-        edit.replace.push((place, json!(values)));
+        let pointer = below(&below(attachment_pointer, "texels"), "values");
+        edit.replace.push((pointer, json!(values)));
     }
 
     /// Moves rectangles with the picture, and clips them to it.
     fn crop_rectangles(self, document: &Value, edit: &mut Edit) {
         for draw in draws_of(document) {
             self.crop(document, below(&draw, "scissor"), edit);
-            let whole = at(document, &below(&draw, "viewport")).is_none();
+            let full_viewport = value_at(document, &below(&draw, "viewport")).is_none();
             let mesh = below(&draw, "mesh");
             let texels = below(&mesh, "texels");
-            if let Some(corners) = at(document, &texels).and_then(numbers).filter(|_| whole) {
+            if let Some(corners) = value_at(document, &texels)
+                .and_then(numbers)
+                .filter(|_| full_viewport)
+            {
                 let [l, t] = [0, 1].map(|i| self.moved(corners[i], i));
                 let [r, b] = [0, 1].map(|i| self.moved(corners[i + 2], i));
                 edit.replace.push((texels, json!([l, t, r, b])));
@@ -104,21 +112,21 @@ impl Window {
         let passes = list(&document["scene"], "passes").iter().enumerate();
         for (p, pass) in passes {
             for c in 0..list(pass, "clears").len() {
-                let place = place!["scene", "passes", p, "clears", c, "rect"];
-                self.crop(document, place, edit);
+                let pointer = pointer!["scene", "passes", p, "clears", c, "rect"];
+                self.crop(document, pointer, edit);
             }
         }
-        self.crop(document, place!["relation", "within"], edit);
+        self.crop(document, pointer!["relation", "within"], edit);
     }
 
     /// Crops a rectangle of left, top, width and height.
-    fn crop(self, document: &Value, place: Place, edit: &mut Edit) {
-        let Some([x, y, w, h]) = at(document, &place).and_then(numbers) else {
+    fn crop(self, document: &Value, pointer: Pointer, edit: &mut Edit) {
+        let Some([x, y, w, h]) = value_at(document, &pointer).and_then(numbers) else {
             return;
         };
         let [l, t] = [self.moved(x, 0), self.moved(y, 1)];
         let [r, b] = [self.moved(x + w, 0), self.moved(y + h, 1)];
-        edit.replace.push((place, json!([l, t, r - l, b - t])));
+        edit.replace.push((pointer, json!([l, t, r - l, b - t])));
     }
 
     /// Returns a coordinate, relative to the window.
@@ -131,9 +139,9 @@ impl Window {
 /// Returns four non-negative integers.
 fn numbers(value: &Value) -> Option<[u64; 4]> {
     let list = value.as_array()?.iter();
-    let whole = |v: &Value| v.as_f64().filter(|v| *v >= 0.0 && v.fract() == 0.0);
+    let as_integer = |v: &Value| v.as_f64().filter(|v| *v >= 0.0 && v.fract() == 0.0);
     let sizes: Vec<u64> = list
-        .map(|v| whole(v).map(|v| v as u64))
+        .map(|v| as_integer(v).map(|v| v as u64))
         .collect::<Option<_>>()?;
     sizes.try_into().ok()
 }
@@ -151,18 +159,18 @@ pub(crate) fn samples(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
         let mut edit = Edit::default();
         for (name, attachment) in attachments {
             if samples_of(attachment) == most {
-                let place = place!["scene", "attachments", name.as_str(), "samples"];
+                let pointer = pointer!["scene", "attachments", name.as_str(), "samples"];
                 match to {
-                    1 => edit.remove.push(place),
-                    _ => edit.replace.push((place, json!(to))),
+                    1 => edit.remove.push(pointer),
+                    _ => edit.replace.push((pointer, json!(to))),
                 }
             }
         }
         if to == 1 {
             for draw in draws_of(document) {
-                let place = below(&draw, "multisample");
-                if at(document, &place).is_some() {
-                    edit.remove.push(place);
+                let pointer = below(&draw, "multisample");
+                if value_at(document, &pointer).is_some() {
+                    edit.remove.push(pointer);
                 }
             }
             let mut unresolved = edit.clone();
@@ -170,8 +178,8 @@ pub(crate) fn samples(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
             let passes = list(&document["scene"], "passes").iter().enumerate();
             for (p, pass) in passes {
                 if pass.get("resolve").is_some() {
-                    let place = place!["scene", "passes", p, "resolve"];
-                    unresolved.remove.push(place);
+                    let pointer = pointer!["scene", "passes", p, "resolve"];
+                    unresolved.remove.push(pointer);
                 }
                 let pairs = list(pass, "color").iter().zip(list(pass, "resolve"));
                 for (from, resolved) in pairs {
@@ -182,7 +190,7 @@ pub(crate) fn samples(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
             }
             unresolved
                 .replace
-                .push((place!["scene", "read"], json!(read)));
+                .push((pointer!["scene", "read"], json!(read)));
             edits.push(edit);
             edits.push(unresolved);
         } else {

@@ -1,7 +1,7 @@
 //! Resets states to their defaults, by removing their keys.
 
 use crate::document::{draws_of, parts};
-use crate::edit::{Edit, Place, at, below, place};
+use crate::edit::{Edit, Pointer, below, pointer, value_at};
 use serde_json::Value;
 
 /// The keys that a case cannot lack, or that have their own pass.
@@ -11,8 +11,8 @@ const KEPT: [&str; 4] = ["format", "kind", "size", "shader"];
 /// draw: all, halves, and so on down to single states.
 pub(crate) fn of_draws(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let draws = draws_of(document);
-    let states = |draw: &Place| -> Vec<Place> {
-        let map = at(document, draw).and_then(Value::as_object);
+    let states = |draw: &Pointer| -> Vec<Pointer> {
+        let map = value_at(document, draw).and_then(Value::as_object);
         let keys = map.into_iter().flat_map(|map| map.keys());
         let keys = keys.filter(|key| !["mesh", "shader"].contains(&key.as_str()));
         keys.map(|key| below(draw, key.as_str())).collect()
@@ -22,7 +22,7 @@ pub(crate) fn of_draws(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
         ..Edit::default()
     }];
     // One state, from all draws that have it.
-    let mut keys: Vec<Place> = draws.iter().flat_map(states).collect();
+    let mut keys: Vec<Pointer> = draws.iter().flat_map(states).collect();
     keys.sort_by(|a, b| a.last().cmp(&b.last()));
     for same in keys.chunk_by(|a, b| a.last() == b.last()) {
         edits.push(Edit {
@@ -45,21 +45,23 @@ pub(crate) fn of_draws(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
 /// Removes each key of the scene, outer keys first.
 pub(crate) fn members(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let mut edits = Vec::new();
-    let mut next = vec![place!["scene"]];
+    let mut next = vec![pointer!["scene"]];
     while !next.is_empty() {
         let mut inner = Vec::new();
-        for place in next {
-            match at(document, &place) {
+        for pointer in next {
+            match value_at(document, &pointer) {
                 Some(Value::Object(map)) => {
                     for key in map.keys() {
-                        let member = below(&place, key.as_str());
+                        let member = below(&pointer, key.as_str());
                         if !KEPT.contains(&key.as_str()) {
                             edits.push(Edit::removal(member.clone()));
                         }
                         inner.push(member);
                     }
                 }
-                Some(Value::Array(list)) => inner.extend((0..list.len()).map(|i| below(&place, i))),
+                Some(Value::Array(list)) => {
+                    inner.extend((0..list.len()).map(|i| below(&pointer, i)))
+                }
                 _ => {}
             }
         }
@@ -81,7 +83,7 @@ fn sizes(document: &Value) -> Vec<Edit> {
     };
     given
         .filter(|(_, size)| *size == first)
-        .map(|(name, _)| Edit::removal(place!["scene", "attachments", name.as_str(), "size"]))
+        .map(|(name, _)| Edit::removal(pointer!["scene", "attachments", name.as_str(), "size"]))
         .collect()
 }
 
@@ -97,20 +99,21 @@ mod tests {
             "passes": [{ "draws": [{ "stencil": { "front": { "compare": "less" } } }] }]
         } });
         let edits = members(&document, None);
-        let place = |edit: &Edit| {
+        let pointer = |edit: &Edit| {
             let keys = edit.remove[0].iter().map(|step| match step {
                 crate::edit::Step::Key(key) => key.clone(),
                 crate::edit::Step::Item(i) => i.to_string(),
             });
             keys.collect::<Vec<_>>().join("/")
         };
-        let places: Vec<String> = edits.iter().map(place).collect();
-        let place_of = |name: &str| places.iter().position(|p| p.ends_with(name)).unwrap();
+        let pointers: Vec<String> = edits.iter().map(pointer).collect();
+        let pointer_of = |name: &str| pointers.iter().position(|p| p.ends_with(name)).unwrap();
         assert!(
-            place_of("/stencil") < place_of("/front") && place_of("/front") < place_of("/compare")
+            pointer_of("/stencil") < pointer_of("/front")
+                && pointer_of("/front") < pointer_of("/compare")
         );
-        assert!(places.contains(&"scene/attachments/b/size".to_owned()));
-        assert!(!places.contains(&"scene/attachments/a/size".to_owned()));
-        assert!(!places.iter().any(|p| p.ends_with("format")));
+        assert!(pointers.contains(&"scene/attachments/b/size".to_owned()));
+        assert!(!pointers.contains(&"scene/attachments/a/size".to_owned()));
+        assert!(!pointers.iter().any(|p| p.ends_with("format")));
     }
 }

@@ -2,7 +2,7 @@
 //! uploaded texels by a clear value.
 
 use crate::document::draws_of;
-use crate::edit::{Edit, at, below, place};
+use crate::edit::{Edit, below, pointer, value_at};
 use serde_json::{Map, Value, json};
 
 /// The shaders that replace others, the simplest first.
@@ -13,8 +13,8 @@ const COLORS: usize = 6;
 /// Simplifies the shader of each draw.
 pub(crate) fn shaders(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
     let mut edits = Vec::new();
-    for place in draws_of(document) {
-        let Some(draw) = at(document, &place) else {
+    for pointer in draws_of(document) {
+        let Some(draw) = value_at(document, &pointer) else {
             continue;
         };
         let shader = draw["shader"].as_str().unwrap_or_default();
@@ -22,22 +22,22 @@ pub(crate) fn shaders(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
         let texels = colors_of_textures(document, draw, texel);
         if rank.is_none_or(|rank| rank > 0) {
             for color in colors(draw).into_iter().chain(texels.clone()).take(COLORS) {
-                let mut edit = without_inputs(draw, &place);
+                let mut edit = without_inputs(draw, &pointer);
                 edit.replace = vec![
-                    (below(&place, "shader"), json!(SIMPLE[0])),
-                    (below(&place, "params"), json!({ "color": color })),
+                    (below(&pointer, "shader"), json!(SIMPLE[0])),
+                    (below(&pointer, "params"), json!({ "color": color })),
                 ];
                 edits.push(edit);
             }
         }
         if rank.is_none() {
-            let mut edit = without_inputs(draw, &place);
-            edit.replace = vec![(below(&place, "shader"), json!(SIMPLE[1]))];
+            let mut edit = without_inputs(draw, &pointer);
+            edit.replace = vec![(below(&pointer, "shader"), json!(SIMPLE[1]))];
             edits.push(edit.clone());
             for color in texels.into_iter().chain([json!(1)]) {
                 let mut edit = edit.clone();
                 let mesh = json!({ "kind": "cover", "value": color });
-                edit.replace.push((below(&place, "mesh"), mesh));
+                edit.replace.push((below(&pointer, "mesh"), mesh));
                 edits.push(edit);
             }
         }
@@ -46,11 +46,11 @@ pub(crate) fn shaders(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
 }
 
 /// Returns an edit that removes the keys that only shaders with textures have.
-fn without_inputs(draw: &Value, place: &[crate::edit::Step]) -> Edit {
+fn without_inputs(draw: &Value, pointer: &[crate::edit::Step]) -> Edit {
     let keys = ["textures", "sampler", "early_tests", "clip_distances"];
     let given = keys.into_iter().filter(|key| draw.get(key).is_some());
     Edit {
-        remove: given.map(|key| below(place, key)).collect(),
+        remove: given.map(|key| below(pointer, key)).collect(),
         ..Edit::default()
     }
 }
@@ -87,11 +87,12 @@ pub(crate) fn texels(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
         if attachment.get("texels").is_none() {
             continue;
         }
-        let own = place!["scene", "attachments", name.as_str()];
-        edits.push(Edit::removal(below(&own, "texels")));
+        let attachment_pointer = pointer!["scene", "attachments", name.as_str()];
+        edits.push(Edit::removal(below(&attachment_pointer, "texels")));
         if let Some(color) = color(attachment, texel) {
-            let mut edit = Edit::removal(below(&own, "texels"));
-            edit.replace.push((below(&own, "clear"), color));
+            let mut edit = Edit::removal(below(&attachment_pointer, "texels"));
+            edit.replace
+                .push((below(&attachment_pointer, "clear"), color));
             edits.push(edit);
         }
         // Makes all texels equal, for shaders that need uploaded texels.
@@ -100,8 +101,8 @@ pub(crate) fn texels(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
             && attachment["texels"]["kind"] != "grid"
         {
             let alike = vec![value; values.len()];
-            let place = below(&below(&own, "texels"), "values");
-            edits.push(Edit::replacement(place, alike));
+            let pointer = below(&below(&attachment_pointer, "texels"), "values");
+            edits.push(Edit::replacement(pointer, alike));
         }
     }
     edits

@@ -1,6 +1,6 @@
 //! Replaces formats, functions and factors by common ones.
 
-use crate::edit::{Edit, Place, Step, below, place};
+use crate::edit::{Edit, Pointer, Step, below, pointer};
 use serde_json::{Value, json};
 
 /// The simple values under a key, the simplest first. Values that are not listed are the least simple.
@@ -29,14 +29,14 @@ pub(crate) fn words(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     let mut edits = Vec::new();
     walk(
         &document["scene"]["passes"],
-        place!["scene", "passes"],
-        &mut |place, value| {
-            let key = place.iter().rev().find_map(|step| match step {
+        pointer!["scene", "passes"],
+        &mut |pointer, value| {
+            let key = pointer.iter().rev().find_map(|step| match step {
                 Step::Key(key) => Some(key.as_str()),
                 Step::Item(_) => None,
             });
             if *value == json!(true) {
-                edits.push(Edit::replacement(place.clone(), false));
+                edits.push(Edit::replacement(pointer.clone(), false));
             }
             let (Some(key), Some(word)) = (key, value.as_str()) else {
                 return;
@@ -51,7 +51,7 @@ pub(crate) fn words(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
             for other in &simple[..rank] {
                 // Masks only lose bits.
                 if key != "write_mask" || word.contains(other) {
-                    edits.push(Edit::replacement(place.clone(), *other));
+                    edits.push(Edit::replacement(pointer.clone(), *other));
                 }
             }
         },
@@ -79,15 +79,15 @@ pub(crate) fn formats(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
                 if format(attachment) != from {
                     continue;
                 }
-                let place = place!["scene", "attachments", name.as_str()];
-                edit.replace.push((below(&place, "format"), json!(to)));
+                let pointer = pointer!["scene", "attachments", name.as_str()];
+                edit.replace.push((below(&pointer, "format"), json!(to)));
                 let aspect = match *to {
                     "depth32float" => "depth",
                     "stencil8" => "stencil",
                     _ => continue,
                 };
                 if let Some(value) = attachment["clear"].get(aspect) {
-                    edit.replace.push((below(&place, "clear"), value.clone()));
+                    edit.replace.push((below(&pointer, "clear"), value.clone()));
                 }
             }
             edits.push(edit);
@@ -97,19 +97,19 @@ pub(crate) fn formats(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
 }
 
 /// Calls a function with every string, number and boolean below a path.
-pub(super) fn walk(value: &Value, place: Place, each: &mut dyn FnMut(&Place, &Value)) {
+pub(super) fn walk(value: &Value, pointer: Pointer, each: &mut dyn FnMut(&Pointer, &Value)) {
     match value {
         Value::Object(map) => {
             for (key, value) in map {
-                walk(value, below(&place, key.as_str()), each);
+                walk(value, below(&pointer, key.as_str()), each);
             }
         }
         Value::Array(list) => {
             for (i, value) in list.iter().enumerate() {
-                walk(value, below(&place, i), each);
+                walk(value, below(&pointer, i), each);
             }
         }
-        _ => each(&place, value),
+        _ => each(&pointer, value),
     }
 }
 

@@ -72,8 +72,8 @@ impl Maker<'_> {
             draw["clip_distances"] = json!(self.choices.below(1 << shader.clip_distances()));
         }
         self.counters(shader, &mut draw);
-        let whole = draw["mesh"]["kind"] == "full" && shader == Shader::UniformColor;
-        if whole && self.extra("tiles") {
+        let is_plain = draw["mesh"]["kind"] == "full" && shader == Shader::UniformColor;
+        if is_plain && self.extra("tiles") {
             let size = self.size.map(|n| n.div_ceil(2));
             let colors: Vec<Value> = (0..4).map(|_| self.color()).collect();
             draw["tiles"] = json!({ "size": size, "colors": colors });

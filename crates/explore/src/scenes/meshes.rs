@@ -272,9 +272,9 @@ impl Maker<'_> {
         let left = if centroid { cut } else { -1.0 };
         let [right, bottom] = [w, h].map(|n| f64::from(n) + 1.0);
         let mut line = |length: u32| {
-            let at = f64::from(self.choices.range(0, length));
+            let position = f64::from(self.choices.range(0, length));
             let sign = self.choices.of(&[1.0, -1.0]);
-            move |place: f64| (place - at) * sign
+            move |place: f64| (place - position) * sign
         };
         let (u, v) = (line(w), line(h));
         // A distance that is 0 everywhere clips nothing.

@@ -103,8 +103,8 @@ impl Maker<'_> {
         let attachments = formats.iter().chain(&depth_stencil);
         let mut counts = vec![4, 4, 2, 8, 16];
         for format in attachments {
-            let own = self.space.samples.get(format);
-            counts.retain(|n| own.is_some_and(|s| s.contains(n)));
+            let supported = self.space.samples.get(format);
+            counts.retain(|n| supported.is_some_and(|s| s.contains(n)));
         }
         match counts[..] {
             [] => 1,

@@ -56,17 +56,17 @@ fn words(query: &str) -> Vec<&str> {
 fn named(query: &str) -> (Metrics, BTreeSet<String>) {
     let words = words(query);
     let (mut metrics, mut groups) = (Metrics::new(), BTreeSet::new());
-    for (at, word) in words.iter().enumerate() {
+    for (index, word) in words.iter().enumerate() {
         if word.starts_with("etalon_") {
             let labels = metrics.entry((*word).to_owned()).or_default();
-            if words.get(at + 1) == Some(&"{") {
-                let inner = words[at + 1..].split(|w| *w == "}").next().unwrap();
-                let of = inner.split(|w| *w == "{" || *w == ",");
-                labels.extend(of.filter_map(|l| l.first()).map(|l| (*l).to_owned()));
+            if words.get(index + 1) == Some(&"{") {
+                let inner = words[index + 1..].split(|w| *w == "}").next().unwrap();
+                let parts = inner.split(|w| *w == "{" || *w == ",");
+                labels.extend(parts.filter_map(|l| l.first()).map(|l| (*l).to_owned()));
             }
         }
-        if ["by", "without", "on", "ignoring"].contains(word) && words[at + 1] == "(" {
-            let inner = words[at + 2..].split(|w| *w == ")").next().unwrap();
+        if ["by", "without", "on", "ignoring"].contains(word) && words[index + 1] == "(" {
+            let inner = words[index + 2..].split(|w| *w == ")").next().unwrap();
             let labels = inner.iter().filter(|w| **w != ",");
             groups.extend(labels.map(|l| (*l).to_owned()));
         }
@@ -78,9 +78,9 @@ fn named(query: &str) -> (Metrics, BTreeSet<String>) {
 fn queries(value: &Value) -> Vec<&str> {
     match value {
         Value::Object(object) => {
-            let own = ["expr", "definition"].map(|key| object.get(key).and_then(Value::as_str));
+            let direct = ["expr", "definition"].map(|key| object.get(key).and_then(Value::as_str));
             let inner = object.values().flat_map(queries);
-            own.into_iter().flatten().chain(inner).collect()
+            direct.into_iter().flatten().chain(inner).collect()
         }
         Value::Array(items) => items.iter().flat_map(queries).collect(),
         _ => Vec::new(),
@@ -111,16 +111,16 @@ fn the_dashboard_asks_for_metrics_and_labels_that_are_written() {
             groups.extend(label.map(str::to_owned));
         }
         for (metric, labels) in metrics {
-            let due = written.get(&metric);
-            let due = due.unwrap_or_else(|| panic!("no metric {metric}: {query}"));
+            let known = written.get(&metric);
+            let known = known.unwrap_or_else(|| panic!("no metric {metric}: {query}"));
             for label in labels.union(&groups) {
-                assert!(due.contains(label), "{metric} has no {label}: {query}");
+                assert!(known.contains(label), "{metric} has no {label}: {query}");
             }
             asked.insert(metric);
         }
     }
-    let all: BTreeSet<String> = written.into_keys().collect();
-    assert_eq!(asked, all, "the dashboard shows every metric");
+    let metrics: BTreeSet<String> = written.into_keys().collect();
+    assert_eq!(asked, metrics, "the dashboard shows every metric");
 }
 
 #[test]
@@ -137,19 +137,19 @@ fn the_queries_agree_with_the_suite_on_what_is_good() {
     assert!(lists > 0);
     for name in ["duckdb.sql", "clickhouse.sql"] {
         let sql = text(name);
-        let mut all: Vec<BTreeSet<String>> = Vec::new();
+        let mut lists: Vec<BTreeSet<String>> = Vec::new();
         for list in sql.split("verdict in (").skip(1) {
             let list = list.split(')').next().unwrap();
             let named = list
                 .split(',')
                 .map(|v| v.trim().trim_matches('\'').to_owned());
-            all.push(named.collect());
+            lists.push(named.collect());
         }
         // The question about disagreement parts what was not drawn from what is good.
         let drawn: BTreeSet<String> = ["pass", "imprecise", "measured"].map(str::to_owned).into();
         let rest: BTreeSet<String> = good().difference(&drawn).cloned().collect();
-        assert!(all.len() > 3, "{name}");
-        for list in all {
+        assert!(lists.len() > 3, "{name}");
+        for list in lists {
             assert!(
                 [&good(), &drawn, &rest].contains(&&list),
                 "{name}: {list:?}"

@@ -9,11 +9,11 @@ fn every_format_is_the_same_each_time_and_stays_in_its_folder() {
     let dir = tempfile::tempdir().unwrap();
     let history = history(dir.path(), &daily(&["2026-01-01", "2026-01-02"]));
     for format in FORMATS {
-        let (one, two) = (dir.path().join("x/one"), dir.path().join("x/two"));
-        let all = Selection::default();
-        let written = export(&history, format, &all, &one).unwrap();
-        export(&history, format, &all, &two).unwrap();
-        let (a, b) = (files(&one), files(&two));
+        let (first, second) = (dir.path().join("x/one"), dir.path().join("x/two"));
+        let everything = Selection::default();
+        let written = export(&history, format, &everything, &first).unwrap();
+        export(&history, format, &everything, &second).unwrap();
+        let (a, b) = (files(&first), files(&second));
         assert_eq!(a.len() as u64, written.files, "{format:?}");
         assert!(a.values().eq(b.values()), "{format:?}");
         assert_eq!(fs::read_dir(dir.path().join("x")).unwrap().count(), 2);

@@ -41,17 +41,17 @@ fn read(out: &Path, name: &str) -> Value {
 #[test]
 fn bencher_has_every_time_with_its_interval() {
     let (out, _dir) = exported(&nights(), Format::Bencher, &Selection::default());
-    let all = read(&out, "bencher.json");
-    assert_eq!(all.as_object().unwrap().len(), 2);
+    let measures = read(&out, "bencher.json");
+    assert_eq!(measures.as_object().unwrap().len(), 2);
     assert_eq!(
-        all[BENCHMARK],
+        measures[BENCHMARK],
         json!({
             "latency": {"value": 0.5e9, "lower_value": 0.25e9, "upper_value": 1e9},
             "gpu-time": {"value": 0.125e9},
         })
     );
     assert_eq!(
-        all["methods/b gl:x an OS, a processor, 2 cores"],
+        measures["methods/b gl:x an OS, a processor, 2 cores"],
         json!({ "latency": {"value": 2e9, "lower_value": 1.5e9, "upper_value": 2.5e9} })
     );
 }
@@ -59,15 +59,22 @@ fn bencher_has_every_time_with_its_interval() {
 #[test]
 fn the_action_has_wall_times_with_their_reach() {
     let (out, _dir) = exported(&nights(), Format::ActionBenchmark, &Selection::default());
-    let all = read(&out, "benchmark-action.json");
+    let document = read(&out, "benchmark-action.json");
     let of_case = |name: &str| {
-        let all = all.as_array().unwrap();
-        all.iter().find(|one| one["name"] == name).unwrap().clone()
+        let entries = document.as_array().unwrap();
+        entries
+            .iter()
+            .find(|entry| entry["name"] == name)
+            .unwrap()
+            .clone()
     };
-    let one = of_case(BENCHMARK);
-    assert_eq!((&one["unit"], &one["value"]), (&json!("ns"), &json!(0.5e9)));
-    assert_eq!(one["range"], "± 500000000");
-    let extra = one["extra"].as_str().unwrap();
+    let entry = of_case(BENCHMARK);
+    assert_eq!(
+        (&entry["unit"], &entry["value"]),
+        (&json!("ns"), &json!(0.5e9))
+    );
+    assert_eq!(entry["range"], "± 500000000");
+    let extra = entry["extra"].as_str().unwrap();
     assert!(
         extra.contains("2026-01-02") && extra.contains("1.0"),
         "{extra}"
@@ -81,7 +88,7 @@ fn the_latest_run_is_the_latest_of_those_selected() {
         last: None,
     };
     let (out, _dir) = exported(&nights(), Format::Bencher, &selection);
-    let all = read(&out, "bencher.json");
-    assert_eq!(all.as_object().unwrap().len(), 1);
-    assert_eq!(all.get(BENCHMARK), None);
+    let measures = read(&out, "bencher.json");
+    assert_eq!(measures.as_object().unwrap().len(), 1);
+    assert_eq!(measures.get(BENCHMARK), None);
 }

@@ -140,7 +140,7 @@ pub(crate) fn selected<'r>(runs: &'r [NewRun], selection: &Selection) -> Vec<&'r
     let mut kept: Vec<&NewRun> = runs
         .iter()
         .enumerate()
-        .filter(|(at, run)| last[&run.header] == *at)
+        .filter(|(index, run)| last[&run.header] == *index)
         .map(|(_, run)| run)
         .filter(|run| selection.since.is_none_or(|since| time(run) >= since))
         .collect();
@@ -165,14 +165,14 @@ pub(crate) fn middle(rounds: &[f32]) -> Option<f64> {
 
 /// The files of a folder and their content.
 pub(crate) fn files(dir: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
-    let mut all = BTreeMap::new();
+    let mut content = BTreeMap::new();
     for entry in fs::read_dir(dir).unwrap() {
         let path = entry.unwrap().path();
         if path.is_dir() {
-            all.extend(files(&path));
+            content.extend(files(&path));
         } else {
-            all.insert(path.clone(), fs::read(&path).unwrap());
+            content.insert(path.clone(), fs::read(&path).unwrap());
         }
     }
-    all
+    content
 }

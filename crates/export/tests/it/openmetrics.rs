@@ -27,11 +27,11 @@ fn name(text: &mut &str, end: char) -> String {
 /// Reads a value in quotes.
 fn quoted(text: &mut &str) -> String {
     let mut value = String::new();
-    let mut all = text.strip_prefix('"').unwrap().chars();
+    let mut chars = text.strip_prefix('"').unwrap().chars();
     loop {
-        match all.next().unwrap() {
+        match chars.next().unwrap() {
             '"' => break,
-            '\\' => value.push(match all.next().unwrap() {
+            '\\' => value.push(match chars.next().unwrap() {
                 'n' => '\n',
                 escaped @ ('"' | '\\') => escaped,
                 other => panic!("no escape: {other:?}"),
@@ -40,7 +40,7 @@ fn quoted(text: &mut &str) -> String {
             other => value.push(other),
         }
     }
-    *text = all.as_str();
+    *text = chars.as_str();
     value
 }
 
@@ -59,10 +59,10 @@ fn sample(line: &str) -> (Series, i64, f64) {
         }
     }
     let rest = rest.strip_prefix("} ").unwrap();
-    let (value, at) = rest.split_once(' ').unwrap();
+    let (value, timestamp) = rest.split_once(' ').unwrap();
     (
         (metric, labels),
-        at.parse().unwrap(),
+        timestamp.parse().unwrap(),
         value.parse().unwrap(),
     )
 }
@@ -93,16 +93,19 @@ fn read(text: &str) -> Samples {
             assert_eq!(metric, family, "{line}");
             continue;
         }
-        let (series, at, value) = sample(line);
+        let (series, timestamp, value) = sample(line);
         assert_eq!(series.0, family, "{line}");
         assert!(value.is_finite(), "{line}");
         if let Some((_, earlier)) = before.as_ref().filter(|(same, _)| *same == series) {
-            assert!(*earlier < at, "{line}");
+            assert!(*earlier < timestamp, "{line}");
         } else {
             assert!(!samples.contains_key(&series), "apart: {line}");
         }
-        samples.entry(series.clone()).or_default().insert(at, value);
-        before = Some((series, at));
+        samples
+            .entry(series.clone())
+            .or_default()
+            .insert(timestamp, value);
+        before = Some((series, timestamp));
     }
     samples
 }
@@ -113,7 +116,7 @@ fn series<const N: usize>(metric: &str, labels: [(&str, &str); N]) -> Series {
 }
 
 /// The samples that these runs make.
-fn due(runs: &[&NewRun]) -> Samples {
+fn expected_samples(runs: &[&NewRun]) -> Samples {
     let mut samples = Samples::new();
     // Of two samples at one time, the later replaces the other.
     let mut records = BTreeMap::new();
@@ -131,7 +134,7 @@ fn due(runs: &[&NewRun]) -> Samples {
             }
         }
     }
-    for (((adapter, machine), at), outcomes) in records {
+    for (((adapter, machine), timestamp), outcomes) in records {
         for (case, outcome) in outcomes {
             let unexpected = outcome.unexpected().to_string();
             let series = series(
@@ -144,11 +147,15 @@ fn due(runs: &[&NewRun]) -> Samples {
                     ("unexpected", &unexpected),
                 ],
             );
-            *samples.entry(series).or_default().entry(at).or_default() += 1.0;
+            *samples
+                .entry(series)
+                .or_default()
+                .entry(timestamp)
+                .or_default() += 1.0;
         }
     }
     for (((adapter, machine), case, ruler), by_time) in times {
-        let mut take = |metric: &str, time: Option<&str>, at: i64, rounds: &[f32]| {
+        let mut take = |metric: &str, time: Option<&str>, timestamp: i64, rounds: &[f32]| {
             let labels = [
                 ("adapter", Some(&*adapter)),
                 ("machine", Some(&machine)),
@@ -161,16 +168,21 @@ fn due(runs: &[&NewRun]) -> Samples {
                 .filter_map(|(name, value)| value.map(|value| (name.to_owned(), value.to_owned())));
             if let Some(median) = middle(rounds) {
                 let series = (metric.to_owned(), labels.collect());
-                samples.entry(series).or_default().insert(at, median);
+                samples.entry(series).or_default().insert(timestamp, median);
             }
         };
-        for (at, times) in by_time {
-            take("etalon_frame_seconds", Some("wall"), at, &times.wall);
-            take("etalon_frame_seconds", Some("cpu"), at, &times.cpu);
-            take("etalon_frame_seconds", Some("gpu"), at, &times.gpu);
+        for (timestamp, times) in by_time {
+            take("etalon_frame_seconds", Some("wall"), timestamp, &times.wall);
+            take("etalon_frame_seconds", Some("cpu"), timestamp, &times.cpu);
+            take("etalon_frame_seconds", Some("gpu"), timestamp, &times.gpu);
             let read_back = &times.read_back;
-            take("etalon_frame_seconds", Some("read-back"), at, read_back);
-            take("etalon_ruler_seconds", None, at, &times.ruler);
+            take(
+                "etalon_frame_seconds",
+                Some("read-back"),
+                timestamp,
+                read_back,
+            );
+            take("etalon_ruler_seconds", None, timestamp, &times.ruler);
         }
     }
     samples
@@ -178,8 +190,8 @@ fn due(runs: &[&NewRun]) -> Samples {
 
 #[test]
 fn known_samples_have_these_values() {
-    let all = Selection::default();
-    let (out, _dir) = exported(&daily(&["2026-01-01"]), Format::OpenMetrics, &all);
+    let everything = Selection::default();
+    let (out, _dir) = exported(&daily(&["2026-01-01"]), Format::OpenMetrics, &everything);
     let text = fs::read_to_string(out.join("history.om")).unwrap();
     assert!(text.contains(r#"adapter="../a\"b\\c\n/é""#), "{text}");
     let samples = read(&text);
@@ -205,6 +217,6 @@ proptest! {
         prop_assume!(!chosen.is_empty());
         let (out, _dir) = exported(&runs, Format::OpenMetrics, &selection);
         let text = fs::read_to_string(out.join("history.om")).unwrap();
-        prop_assert_eq!(read(&text), due(&chosen));
+        prop_assert_eq!(read(&text), expected_samples(&chosen));
     }
 }

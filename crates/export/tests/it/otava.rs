@@ -17,10 +17,10 @@ type Row = BTreeMap<String, String>;
 fn records(text: &str) -> Vec<Vec<String>> {
     let (mut records, mut record, mut field) = (Vec::new(), Vec::new(), String::new());
     let mut quoted = false;
-    let mut all = text.chars().peekable();
-    while let Some(c) = all.next() {
+    let mut chars = text.chars().peekable();
+    while let Some(c) = chars.next() {
         match c {
-            '"' if quoted && all.peek() == Some(&'"') => field.extend(all.next()),
+            '"' if quoted && chars.peek() == Some(&'"') => field.extend(chars.next()),
             '"' => quoted = !quoted,
             ',' if !quoted => record.push(std::mem::take(&mut field)),
             '\n' if !quoted => {
@@ -72,17 +72,17 @@ fn read(out: &Path) -> BTreeMap<String, Vec<Row>> {
 }
 
 /// Time, commit, version and times of each run of each test.
-type Told = BTreeMap<String, Vec<(i64, String, String, [Option<f64>; 5])>>;
+type TestRows = BTreeMap<String, Vec<(i64, String, String, [Option<f64>; 5])>>;
 
-fn due(runs: &[&NewRun]) -> Told {
-    let mut tests = Told::new();
+fn expected_rows(runs: &[&NewRun]) -> TestRows {
+    let mut tests = TestRows::new();
     for run in runs {
         for part in &run.adapters {
             for (case, times) in &part.times {
                 let ruler = run.ruler.as_deref().map(|ruler| format!(", ruler {ruler}"));
                 let ruler = ruler.unwrap_or_default();
                 let title = format!("{case} {} {}{ruler}", part.timeline, machine(run));
-                let all = [
+                let measured = [
                     &times.wall,
                     &times.cpu,
                     &times.gpu,
@@ -93,7 +93,7 @@ fn due(runs: &[&NewRun]) -> Told {
                     time(run),
                     run.commit.clone().unwrap_or_default(),
                     part.adapter.driver_version.clone(),
-                    all.map(|rounds| middle(rounds)),
+                    measured.map(|rounds| middle(rounds)),
                 );
                 tests.entry(title).or_default().push(row);
             }
@@ -102,7 +102,7 @@ fn due(runs: &[&NewRun]) -> Told {
     tests
 }
 
-fn told(tests: BTreeMap<String, Vec<Row>>) -> Told {
+fn exported_rows(tests: BTreeMap<String, Vec<Row>>) -> TestRows {
     let row = |row: Row| {
         let value = |name: &str| match row[name].as_str() {
             "" => None,
@@ -128,6 +128,6 @@ proptest! {
         let chosen = selected(&runs, &selection);
         prop_assume!(!chosen.is_empty());
         let (out, _dir) = exported(&runs, Format::Otava, &selection);
-        prop_assert_eq!(told(read(&out)), due(&chosen));
+        prop_assert_eq!(exported_rows(read(&out)), expected_rows(&chosen));
     }
 }

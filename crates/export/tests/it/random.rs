@@ -72,8 +72,8 @@ fn rounds() -> impl Strategy<Value = Vec<f32>> {
 }
 
 fn times() -> impl Strategy<Value = FrameTimes> {
-    let all = (rounds(), rounds(), rounds(), rounds(), rounds());
-    (0u32..u32::MAX, all).prop_map(|(frames, (wall, cpu, gpu, read_back, ruler))| FrameTimes {
+    let parts = (rounds(), rounds(), rounds(), rounds(), rounds());
+    (0u32..u32::MAX, parts).prop_map(|(frames, (wall, cpu, gpu, read_back, ruler))| FrameTimes {
         frames,
         wall,
         cpu,
@@ -110,11 +110,11 @@ pub(crate) fn runs() -> impl Strategy<Value = Vec<NewRun>> {
         prop::option::of("[a-z\"\\\\\n]{0,3}"),
         select(&[None, None, Some("a ruler"), Some(HOSTILE)][..]),
     );
-    vec((parts, about, prop::bool::weighted(0.2)), 1..6).prop_map(|all| {
+    vec((parts, about, prop::bool::weighted(0.2)), 1..6).prop_map(|runs| {
         let mut made: Vec<NewRun> = Vec::new();
-        for (number, (parts, about, resumes)) in (1..).zip(all) {
+        for (number, (parts, about, resumes)) in (1..).zip(runs) {
             let (kind, day, released, machine, commit, label, ruler) = about;
-            let at = |day: u8| parse_time(&format!("2026-01-0{day}")).unwrap();
+            let time_on = |day: u8| parse_time(&format!("2026-01-0{day}")).unwrap();
             let named = |parts: BTreeMap<&str, NewAdapter>| -> Vec<NewAdapter> {
                 let each = parts.into_iter().map(|(name, mut part)| {
                     name.clone_into(&mut part.timeline);
@@ -129,8 +129,8 @@ pub(crate) fn runs() -> impl Strategy<Value = Vec<NewRun>> {
             made.push(NewRun {
                 header: header.filter(|_| resumes).unwrap_or(run.header),
                 kind,
-                started: at(day),
-                released: released.map(at),
+                started: time_on(day),
+                released: released.map(time_on),
                 commit,
                 labels: Labels::from_iter(labels),
                 ruler: ruler.map(str::to_owned),

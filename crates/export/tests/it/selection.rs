@@ -48,7 +48,7 @@ fn where_no_run_is_selected_nothing_is_written() {
 #[test]
 fn a_run_of_the_day_itself_is_late_enough() {
     let runs = daily(&DAYS);
-    for (selection, due) in [
+    for (selection, expected) in [
         (since("2026-01-02"), 2),
         (since("2026-01-02T00:00:01Z"), 1),
         (last(2), 2),
@@ -63,12 +63,16 @@ fn a_run_of_the_day_itself_is_late_enough() {
     ] {
         let dir = tempfile::tempdir().unwrap();
         let history = history(dir.path(), &runs);
-        assert_eq!(selected(&runs, &selection).len(), due);
+        assert_eq!(selected(&runs, &selection).len(), expected);
         for (format, rows) in FORMATS.into_iter().zip([3, 3, 1]) {
             let out = dir.path().join(format!("{format:?}"));
             let written = export(&history, format, &selection, &out).unwrap();
             // Two records and a time of each run.
-            assert_eq!(written.rows, rows * due as u64, "{format:?} {selection:?}");
+            assert_eq!(
+                written.rows,
+                rows * expected as u64,
+                "{format:?} {selection:?}"
+            );
         }
     }
 }

@@ -53,10 +53,10 @@ fn records(runs: &[&NewRun]) -> Vec<(String, Row)> {
         for part in &run.adapters {
             for (case, outcome) in &part.outcomes {
                 let method = outcome.measures.method.as_ref();
-                let mut all = shared(run, part);
+                let mut fields = shared(run, part);
                 let area = case.split('/').next().unwrap();
                 let reason = outcome.expected.as_deref();
-                all.extend(row([
+                fields.extend(row([
                     ("area", text(area)),
                     ("case", text(case)),
                     ("verdict", text(outcome.verdict.name())),
@@ -71,7 +71,7 @@ fn records(runs: &[&NewRun]) -> Vec<(String, Row)> {
                     ("wrong_share", number(method.map(|m| m.wrong.into()))),
                 ]));
                 let day = format_time(time(run));
-                rows.push((format!("{} {}", &day[..10], part.timeline), all));
+                rows.push((format!("{} {}", &day[..10], part.timeline), fields));
             }
         }
     }
@@ -84,8 +84,8 @@ fn frame_times(runs: &[&NewRun]) -> Vec<(String, Row)> {
     for run in runs {
         for part in &run.adapters {
             for (case, times) in &part.times {
-                let mut all = shared(run, part);
-                all.extend(row([
+                let mut fields = shared(run, part);
+                fields.extend(row([
                     ("case", text(case)),
                     ("frames", Field::Long(times.frames.into())),
                     ("wall", number(middle(&times.wall))),
@@ -94,7 +94,7 @@ fn frame_times(runs: &[&NewRun]) -> Vec<(String, Row)> {
                     ("read_back", number(middle(&times.read_back))),
                     ("ruler", number(middle(&times.ruler))),
                 ]));
-                rows.push((part.timeline.clone(), all));
+                rows.push((part.timeline.clone(), fields));
             }
         }
     }

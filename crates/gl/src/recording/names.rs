@@ -85,7 +85,7 @@ const EXTENSIONS: &[(&str, u32)] = &[
     ("GL_HSL_LUMINOSITY_KHR", 0x92B0),
 ];
 
-fn of(table: &[(&str, u32)], value: u32) -> Option<Constant> {
+fn constant_in(table: &[(&str, u32)], value: u32) -> Option<Constant> {
     let name = table.iter().find(|(_, v)| *v == value)?.0.to_owned();
     Some(Constant { name, value })
 }
@@ -99,24 +99,24 @@ fn nameless(value: u32) -> Constant {
 
 /// Returns a constant whose kind is unknown.
 pub(super) fn constant(value: u32) -> Constant {
-    of(NAMES, value)
-        .or_else(|| of(EXTENSIONS, value))
+    constant_in(NAMES, value)
+        .or_else(|| constant_in(EXTENSIONS, value))
         .unwrap_or_else(|| nameless(value))
 }
 
 /// Returns a constant, or `GL_NONE`.
 pub(super) fn or_none(value: u32) -> Constant {
-    of(&[("GL_NONE", 0)], value).unwrap_or_else(|| constant(value))
+    constant_in(&[("GL_NONE", 0)], value).unwrap_or_else(|| constant(value))
 }
 
 /// Returns a blend factor or a stencil operation.
 pub(super) fn factor(value: u32) -> Constant {
-    of(&[("GL_ZERO", 0), ("GL_ONE", 1)], value).unwrap_or_else(|| constant(value))
+    constant_in(&[("GL_ZERO", 0), ("GL_ONE", 1)], value).unwrap_or_else(|| constant(value))
 }
 
 /// Returns the mode of a draw.
 pub(super) fn primitive(value: u32) -> Constant {
-    of(PRIMITIVES, value).unwrap_or_else(|| nameless(value))
+    constant_in(PRIMITIVES, value).unwrap_or_else(|| nameless(value))
 }
 
 /// Returns the constant that a parameter's value names, if any. Small numbers are not constants.

@@ -11,18 +11,18 @@ pub(crate) fn offers(backend: &dyn Backend) {
     let limits = backend.limits();
     for (format, support) in &limits.formats {
         let shader = limits.api == Api::OpenGlEs && format.has_depth();
-        let due = [ReadPath::Copy, ReadPath::Shader][usize::from(shader)];
-        assert_eq!(support.read, due, "{format}");
+        let expected = [ReadPath::Copy, ReadPath::Shader][usize::from(shader)];
+        assert_eq!(support.read, expected, "{format}");
     }
     let rgba8 = &limits.formats[&TextureFormat::Rgba8Unorm];
-    let due: &[u32] = if is(backend, "softpipe") {
+    let expected: &[u32] = if is(backend, "softpipe") {
         &[1]
     } else if is(backend, "virgl") {
         &[1, 2, 4]
     } else {
         &[1, 4]
     };
-    assert_eq!(rgba8.samples, due);
+    assert_eq!(rgba8.samples, expected);
 }
 
 #[test]
@@ -75,12 +75,12 @@ fn two_adapters_take_turns() {
                 }
             }
             for _ in 0..2 {
-                for (one, _) in &mut prepared {
-                    one.submit().expect("it is drawn");
+                for (drawn, _) in &mut prepared {
+                    drawn.submit().expect("it is drawn");
                 }
             }
-            for (one, color) in &mut prepared {
-                let frame = one.read_back().expect("it is read back");
+            for (drawn, color) in &mut prepared {
+                let frame = drawn.read_back().expect("it is read back");
                 assert_eq!(frame.images[0].sample(0, 0, 0), *color);
                 assert_eq!(frame.images[0].sample(15, 15, 0), [0, 0, 255, 255]);
             }

@@ -30,13 +30,21 @@ fn a_case_has_its_verdicts_in_the_order_of_time_whatever_the_order_of_adding() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("deep/etalon.db");
         let mut writer = Writer::open(&path).unwrap();
-        for at in order {
-            let made = run(at as u8, days[at], vec![with("cpu", "1", rows[at])]);
+        for index in order {
+            let made = run(
+                index as u8,
+                days[index],
+                vec![with("cpu", "1", rows[index])],
+            );
             assert!(matches!(writer.add(&made).unwrap(), Added::New(_)));
         }
         let history = History::open_read(&path).unwrap();
-        for (at, due) in ["ppff", "ffpp", "p", "pppy"].into_iter().enumerate() {
-            assert_eq!(verdicts(&history, &case(at), "cpu"), due, "{order:?}");
+        for (index, expected) in ["ppff", "ffpp", "p", "pppy"].into_iter().enumerate() {
+            assert_eq!(
+                verdicts(&history, &case(index), "cpu"),
+                expected,
+                "{order:?}"
+            );
         }
         assert_eq!(verdicts(&history, "depth/none", "cpu"), "");
         assert_eq!(verdicts(&history, &case(0), "gl:none"), "");
@@ -106,10 +114,10 @@ fn a_run_that_was_resumed_stands_for_the_one_before() {
     let path = folder.path().join("etalon.db");
     let mut writer = Writer::open(&path).unwrap();
     let part = run(1, "2026-01-01", vec![with("cpu", "1", "p")]);
-    let mut whole = run(2, "2026-01-01", vec![with("cpu", "1", "pf")]);
-    whole.header = part.header;
+    let mut complete = run(2, "2026-01-01", vec![with("cpu", "1", "pf")]);
+    complete.header = part.header;
     writer.add(&part).unwrap();
-    writer.add(&whole).unwrap();
+    writer.add(&complete).unwrap();
     let history = History::open_read(&path).unwrap();
     let [first, second] = history.runs() else {
         panic!("{:?}", history.runs());

@@ -22,10 +22,10 @@ fn a_comparison_is_over_the_cases_of_both() {
     };
     assert_eq!(cpu.common, 5);
     let name = |id| history.case_name(id).unwrap().to_string();
-    let of = |kind| cpu.of(kind).map(|c| name(c.case)).collect::<Vec<_>>();
-    assert_eq!(of(ChangeKind::Fixed), [case(1)]);
-    assert_eq!(of(ChangeKind::Broken), [case(2)]);
-    assert_eq!(of(ChangeKind::Verdict), [case(3), case(4)]);
+    let changed = |kind| cpu.of(kind).map(|c| name(c.case)).collect::<Vec<_>>();
+    assert_eq!(changed(ChangeKind::Fixed), [case(1)]);
+    assert_eq!(changed(ChangeKind::Broken), [case(2)]);
+    assert_eq!(changed(ChangeKind::Verdict), [case(3), case(4)]);
     assert_eq!(
         cpu.gone.iter().map(|c| name(*c)).collect::<Vec<_>>(),
         [case(5)]

@@ -8,7 +8,7 @@ use std::path::Path;
 use std::thread;
 use std::time::Duration;
 
-fn one(number: u8) -> NewRun {
+fn numbered_run(number: u8) -> NewRun {
     let verdicts = if number.is_multiple_of(2) {
         "ppf"
     } else {
@@ -69,7 +69,7 @@ fn an_empty_file_becomes_a_history() {
     let error = History::open_read(&path).unwrap_err();
     assert!(matches!(error, HistoryError::None { .. }), "{error}");
     assert_line(&error, &path);
-    Writer::open(&path).unwrap().add(&one(1)).unwrap();
+    Writer::open(&path).unwrap().add(&numbered_run(1)).unwrap();
     assert_eq!(History::open_read(&path).unwrap().runs().len(), 1);
 }
 
@@ -77,7 +77,7 @@ fn an_empty_file_becomes_a_history() {
 fn a_newer_schema_is_refused_with_a_remedy() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("etalon.db");
-    Writer::open(&path).unwrap().add(&one(1)).unwrap();
+    Writer::open(&path).unwrap().add(&numbered_run(1)).unwrap();
     let connection = Connection::open(&path).unwrap();
     connection.pragma_update(None, "user_version", 7).unwrap();
     drop(connection);
@@ -100,11 +100,14 @@ fn a_locked_file_is_waited_for_and_then_named() {
     let mut writer = Writer::open_with(&path, Duration::from_millis(50)).unwrap();
     let other = Connection::open(&path).unwrap();
     other.execute_batch("BEGIN EXCLUSIVE").unwrap();
-    let error = writer.add(&one(1)).unwrap_err();
+    let error = writer.add(&numbered_run(1)).unwrap_err();
     assert!(matches!(error, HistoryError::Busy { .. }), "{error}");
     assert_line(&error, &path);
     other.execute_batch("COMMIT").unwrap();
-    assert!(matches!(writer.add(&one(1)).unwrap(), Added::New(_)));
+    assert!(matches!(
+        writer.add(&numbered_run(1)).unwrap(),
+        Added::New(_)
+    ));
 }
 
 #[test]
@@ -118,7 +121,10 @@ fn several_writers_add_at_a_time() {
                 for number in 0..8u8 {
                     // Each run comes from two of them.
                     let number = number * 4 + writer / 2 * 2;
-                    Writer::open(path).unwrap().add(&one(number)).unwrap();
+                    Writer::open(path)
+                        .unwrap()
+                        .add(&numbered_run(number))
+                        .unwrap();
                 }
             });
         }
@@ -134,7 +140,7 @@ fn a_full_disk_keeps_what_was_added_before() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("etalon.db");
     let mut writer = Writer::open(&path).unwrap();
-    writer.add(&one(0)).unwrap();
+    writer.add(&numbered_run(0)).unwrap();
     let pages: i64 = writer.pages().unwrap();
     writer.limit_pages(pages).unwrap();
     let large = run(1, "2026-01-02", vec![with("cpu", "1", &"pf".repeat(2000))]);
@@ -156,7 +162,7 @@ fn what_a_reader_found_when_it_began_stays_true() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("etalon.db");
     let mut writer = Writer::open(&path).unwrap();
-    writer.add(&one(0)).unwrap();
+    writer.add(&numbered_run(0)).unwrap();
     let history = History::open_read(&path).unwrap();
     let points = |history: &History| {
         history.case_history(&case(1), None).unwrap()[0]
@@ -164,7 +170,7 @@ fn what_a_reader_found_when_it_began_stays_true() {
             .len()
     };
     for number in 1..9 {
-        writer.add(&one(number)).unwrap();
+        writer.add(&numbered_run(number)).unwrap();
         assert_eq!((history.runs().len(), points(&history)), (1, 1));
     }
     assert_eq!(points(&History::open_read(&path).unwrap()), 9);

@@ -123,7 +123,7 @@ fn a_run_is_the_same_packed_or_not_and_by_any_name() {
         ("a", "2")
     );
     assert_eq!(part.outcomes["depth/a"].verdict, Verdict::Pass);
-    let due = FrameTimes {
+    let expected = FrameTimes {
         frames: 9,
         wall: vec![0.25],
         cpu: vec![0.125],
@@ -131,7 +131,7 @@ fn a_run_is_the_same_packed_or_not_and_by_any_name() {
         ..FrameTimes::default()
     };
     assert_eq!(part.times.len(), 1);
-    assert_eq!(part.times["methods/q/s/method=m"], due);
+    assert_eq!(part.times["methods/q/s/method=m"], expected);
     let method = part.outcomes["methods/q/s/method=m"]
         .measures
         .method
@@ -147,10 +147,10 @@ fn a_half_written_run_says_what_it_lacks_and_has_the_header_of_the_whole_one() {
     fs::write(&path, &text[..text.len() - 20]).unwrap();
     let half = read(folder.path()).unwrap().remove(0);
     fs::write(&path, &text).unwrap();
-    let whole = read(folder.path()).unwrap().remove(0);
-    assert_eq!((half.missing, whole.missing), (1, 0));
-    assert_eq!(half.header, whole.header);
-    assert_ne!(half.digest, whole.digest);
+    let complete = read(folder.path()).unwrap().remove(0);
+    assert_eq!((half.missing, complete.missing), (1, 0));
+    assert_eq!(half.header, complete.header);
+    assert_ne!(half.digest, complete.digest);
 }
 
 #[test]
@@ -161,7 +161,7 @@ fn damage_is_named_with_its_line() {
     other[1].adapter = "gl:none".to_owned();
     let mut timeless = header(2);
     timeless.started = "soon".to_owned();
-    for (text, due) in [
+    for (text, expected) in [
         (
             lines(&header(2), &other),
             "run.jsonl:3: the header names no adapter \"gl:none\"",
@@ -184,7 +184,7 @@ fn damage_is_named_with_its_line() {
     ] {
         fs::write(&path, text).unwrap();
         let error = read(folder.path()).unwrap_err().to_string();
-        assert!(error.contains(due) && !error.contains('\n'), "{error}");
+        assert!(error.contains(expected) && !error.contains('\n'), "{error}");
     }
     fs::write(&path, b"\x1f\x8b\x08 damaged").unwrap();
     assert!(read(folder.path()).is_err());
@@ -216,7 +216,7 @@ fn releases_of_a_line_are_runs_of_one_timeline_by_their_dates() {
         writer.add(run).unwrap();
     }
     let history = History::open_read(&path).unwrap();
-    let of = |case: &str| {
+    let points_of = |case: &str| {
         let found = history.case_history(case, Some("vulkan:swift")).unwrap();
         let points = found[0].points.iter().map(|p| {
             let outcome = history.outcome(p.outcome).unwrap();
@@ -232,7 +232,7 @@ fn releases_of_a_line_are_runs_of_one_timeline_by_their_dates() {
     };
     let known = Some("a-bug".to_owned());
     assert_eq!(
-        of("depth/a"),
+        points_of("depth/a"),
         [
             ("103.0.0".to_owned(), Verdict::Fail, false, known.clone()),
             ("106.0.2".to_owned(), Verdict::Fail, false, known),
@@ -240,7 +240,7 @@ fn releases_of_a_line_are_runs_of_one_timeline_by_their_dates() {
         ]
     );
     assert_eq!(
-        of("depth/b")[1],
+        points_of("depth/b")[1],
         ("106.0.2".to_owned(), Verdict::Pass, true, None)
     );
 }
@@ -301,14 +301,14 @@ fn the_reader_of_benches_is_that_of_records() {
     let part = &bench.adapters[0];
     assert_eq!(part.outcomes.len(), 2);
     assert_eq!(part.times.len(), 1, "times of other areas are not kept");
-    let due = FrameTimes {
+    let expected = FrameTimes {
         frames: 6,
         wall: vec![2.0, 2.0],
         cpu: vec![0.5, 0.5],
         ruler: vec![2.0, 2.0],
         ..FrameTimes::default()
     };
-    assert_eq!(part.times["perf/a"], due);
+    assert_eq!(part.times["perf/a"], expected);
     assert_eq!(Bench::read(folder.path()).unwrap().records.len(), 2);
     assert!(Run::read(folder.path()).is_err());
 }

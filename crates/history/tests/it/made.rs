@@ -24,7 +24,7 @@ pub(crate) fn adapter(name: &str, version: &str) -> NewAdapter {
 /// no record.
 pub(crate) fn with(name: &str, version: &str, verdicts: &str) -> NewAdapter {
     let mut made = adapter(name, version);
-    for (at, letter) in verdicts.chars().enumerate() {
+    for (index, letter) in verdicts.chars().enumerate() {
         let verdict = match letter {
             'p' => Verdict::Pass,
             'f' => Verdict::Fail,
@@ -32,15 +32,15 @@ pub(crate) fn with(name: &str, version: &str, verdicts: &str) -> NewAdapter {
             'n' => Verdict::NotSupported,
             _ => continue,
         };
-        made.outcomes.insert(case(at), Outcome::new(verdict));
+        made.outcomes.insert(case(index), Outcome::new(verdict));
     }
     made
 }
 
 /// The id of a case by number.
-pub(crate) fn case(at: usize) -> String {
-    let area = ["depth", "stencil", "perf"][at % 3];
-    format!("{area}/made/n={at}")
+pub(crate) fn case(index: usize) -> String {
+    let area = ["depth", "stencil", "perf"][index % 3];
+    format!("{area}/made/n={index}")
 }
 
 /// A run that began on this day, with a digest made of `number`.
@@ -82,14 +82,14 @@ pub(crate) type Content = BTreeMap<([u8; 32], String, String), Outcome>;
 
 /// The content that these runs have.
 pub(crate) fn content(runs: &[NewRun]) -> Content {
-    let mut all = Content::new();
+    let mut content = Content::new();
     for run in runs {
         for adapter in &run.adapters {
             for (case, outcome) in &adapter.outcomes {
                 let key = (run.digest, adapter.timeline.clone(), case.clone());
-                all.insert(key, outcome.clone());
+                content.insert(key, outcome.clone());
             }
         }
     }
-    all
+    content
 }

@@ -19,14 +19,14 @@ fn measures() -> impl Strategy<Value = Measures> {
         imprecise,
         open: 0,
     });
-    let asserted = vec((0u64..5, any::<u64>()), 0..2).prop_map(|all| {
-        let one = |(asserted, codes)| Asserted {
+    let asserted = vec((0u64..5, any::<u64>()), 0..2).prop_map(|pairs| {
+        let make = |(asserted, codes)| Asserted {
             aspect: Aspect::Color,
             channels: 5,
             asserted,
             codes,
         };
-        all.into_iter().map(one).collect::<Vec<_>>()
+        pairs.into_iter().map(make).collect::<Vec<_>>()
     });
     let method = prop::option::of((any::<f32>(), 0u32..4)).prop_map(|method| {
         method
@@ -87,14 +87,14 @@ fn runs() -> impl Strategy<Value = Vec<NewRun>> {
             let adapters = btree_map(0u8..3, (part(outcomes), 0u8..3), 0..3);
             vec((adapters, 1u8..28, 0u32..2, any::<bool>()), 1..10)
         })
-        .prop_map(|all| {
-            let one = |(at, (adapters, day, cores, label)): (usize, (Parts, u8, u32, bool))| {
+        .prop_map(|runs| {
+            let make = |(index, (adapters, day, cores, label)): (usize, (Parts, u8, u32, bool))| {
                 let parts = adapters.into_iter().map(|(name, (outcomes, version))| {
                     let made: NewAdapter = adapter(&format!("gl:{name}"), &version.to_string());
                     let timed = |case: &&String| case.starts_with("perf/");
                     let cases: &BTreeMap<String, Outcome> = &outcomes;
                     let times = cases.keys().filter(timed).map(|case| {
-                        let wall = [f32::from(day), 0.1 + at as f32];
+                        let wall = [f32::from(day), 0.1 + index as f32];
                         (case.clone(), times(&wall, 0.3))
                     });
                     NewAdapter {
@@ -103,7 +103,7 @@ fn runs() -> impl Strategy<Value = Vec<NewRun>> {
                         ..made
                     }
                 });
-                let mut made = run(at as u8, &format!("2026-01-{day:02}"), parts.collect());
+                let mut made = run(index as u8, &format!("2026-01-{day:02}"), parts.collect());
                 made.machine = Machine {
                     cores,
                     ..made.machine
@@ -113,39 +113,39 @@ fn runs() -> impl Strategy<Value = Vec<NewRun>> {
                 }
                 made
             };
-            all.into_iter().enumerate().map(one).collect()
+            runs.into_iter().enumerate().map(make).collect()
         })
 }
 
 /// The content as exports see it.
 fn by_record(history: &History) -> Result<Content, HistoryError> {
-    let mut all = Content::new();
+    let mut content = Content::new();
     history.each_record::<HistoryError>(|run, part, case, outcome| {
         let case = history.case_name(case)?.to_string();
         let outcome = history.outcome(outcome)?.as_ref().clone();
-        all.insert((run.digest, part.timeline.to_string(), case), outcome);
+        content.insert((run.digest, part.timeline.to_string(), case), outcome);
         Ok(())
     })?;
-    Ok(all)
+    Ok(content)
 }
 
 /// The content as the histories of cases see it.
 fn by_case(history: &History) -> Result<Content, HistoryError> {
-    let mut all = Content::new();
+    let mut content = Content::new();
     for case in history.cases()? {
-        for of in history.case_history(case, None)? {
+        for found in history.case_history(case, None)? {
             let mut time = i64::MIN;
-            for point in &of.points {
+            for point in &found.points {
                 let run = history.run(point.run).unwrap();
                 assert!(time <= run.time(), "points follow time");
                 time = run.time();
                 let outcome = history.outcome(point.outcome)?.as_ref().clone();
-                let key = (run.digest, of.timeline.to_string(), case.to_string());
-                assert!(all.insert(key, outcome).is_none());
+                let key = (run.digest, found.timeline.to_string(), case.to_string());
+                assert!(content.insert(key, outcome).is_none());
             }
         }
     }
-    Ok(all)
+    Ok(content)
 }
 
 proptest! {
@@ -167,9 +167,9 @@ proptest! {
             prop_assert!(matches!(writer.add(order[0]).unwrap(), Added::Already(_)));
         }
         let history = History::open_read(&path).unwrap();
-        let due = content(&runs);
-        prop_assert_eq!(&by_record(&history).unwrap(), &due);
-        prop_assert_eq!(&by_case(&history).unwrap(), &due);
+        let expected = content(&runs);
+        prop_assert_eq!(&by_record(&history).unwrap(), &expected);
+        prop_assert_eq!(&by_case(&history).unwrap(), &expected);
 
         let mut times = 0;
         for key in history.series_keys().unwrap() {
@@ -182,8 +182,8 @@ proptest! {
                 times += 1;
             }
         }
-        let due: usize = runs.iter().flat_map(|r| &r.adapters).map(|a| a.times.len()).sum();
-        prop_assert_eq!(times, due);
+        let expected: usize = runs.iter().flat_map(|r| &r.adapters).map(|a| a.times.len()).sum();
+        prop_assert_eq!(times, expected);
 
         for part in history.adapter_runs() {
             let counted: u32 = history.tallies(part).unwrap().iter().map(|t| t.records).sum();

@@ -59,8 +59,8 @@ fn clear(edges: &Edges) -> [f64; 4] {
 fn plain(edges: &Edges) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(edges));
-    let all = draw(Shader::FlatColor, mesh(SIZE, &edges.polygons()));
-    stage.pass(&[picture], None, vec![all]);
+    let drawn = draw(Shader::FlatColor, mesh(SIZE, &edges.polygons()));
+    stage.pass(&[picture], None, vec![drawn]);
     stage.read(&[picture])
 }
 
@@ -69,16 +69,16 @@ fn multisampled(edges: &Edges, count: u32) -> Scene {
     let picture = stage.color("picture", PICTURE, SIZE, clear(edges));
     let contents = Contents::Color(clear(edges).map(|c| c as f32));
     let samples = stage.attachment("samples", PICTURE, SIZE, count, contents);
-    let all = draw(Shader::FlatColor, mesh(SIZE, &edges.polygons()));
-    stage.resolving_pass(&[samples], vec![Some(picture)], None, vec![all]);
+    let drawn = draw(Shader::FlatColor, mesh(SIZE, &edges.polygons()));
+    stage.resolving_pass(&[samples], vec![Some(picture)], None, vec![drawn]);
     stage.read(&[picture])
 }
 
 fn supersampled(edges: &Edges, doublings: u32) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(edges));
-    let all = draw(Shader::FlatColor, mesh(SIZE, &edges.polygons()));
-    stage.supersampled(picture, clear(edges), doublings, all);
+    let drawn = draw(Shader::FlatColor, mesh(SIZE, &edges.polygons()));
+    stage.supersampled(picture, clear(edges), doublings, drawn);
     stage.read(&[picture])
 }
 
@@ -92,8 +92,8 @@ fn fxaa(edges: &Edges) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(edges));
     let jagged = stage.color("jagged", PICTURE, SIZE, clear(edges));
-    let all = draw(Shader::FlatColor, mesh(SIZE, &edges.polygons()));
-    stage.pass(&[jagged], None, vec![all]);
+    let drawn = draw(Shader::FlatColor, mesh(SIZE, &edges.polygons()));
+    stage.pass(&[jagged], None, vec![drawn]);
     let mut over_edges = draw(Shader::Fxaa, cover());
     over_edges.textures = vec![jagged];
     over_edges.sampler = Some(Sampler {

@@ -77,10 +77,10 @@ impl Piece {
             self.lines.iter().partition(|l| overlap || !l.end);
         let part = |edge: &Line| {
             let corners = self.clipped(|point| {
-                let own = edge.distance(point);
-                let all = smooth.iter().map(|l| l.distance(point));
-                let inside = all.clone().map(|d| d + MARGIN);
-                let nearer = all.map(|d| d - own);
+                let edge_distance = edge.distance(point);
+                let distances = smooth.iter().map(|l| l.distance(point));
+                let inside = distances.clone().map(|d| d + MARGIN);
+                let nearer = distances.map(|d| d - edge_distance);
                 let kept = hard.iter().map(|l| l.distance(point));
                 inside.chain(nearer).chain(kept).collect()
             });

@@ -121,9 +121,9 @@ fn pieces_in_front_and_behind_fill_the_picture_without_overlap() {
             });
             let pieces = edges.front.iter().chain(&edges.back);
             let sum: f64 = pieces.filter_map(|p| p.polygon()).map(|p| area(&p)).sum();
-            let all = f64::from(SIZE[0] * SIZE[1]);
+            let expected = f64::from(SIZE[0] * SIZE[1]);
             // Nothing is missing. Each piece is inside the picture, so nothing overlaps either.
-            assert!((sum - all).abs() < 1e-6, "{name:?}: {sum}");
+            assert!((sum - expected).abs() < 1e-6, "{name:?}: {sum}");
         }
     }
 }
@@ -134,8 +134,8 @@ fn a_smoothed_piece_knows_its_distance_from_the_nearest_edge() {
     for piece in &edges.front {
         for part in piece.smooth(true) {
             let nearest = |[x, y, _]: [f64; 3]| {
-                let all = piece.lines.iter().map(|l| l.distance([x, y]));
-                all.fold(f64::INFINITY, f64::min)
+                let distances = piece.lines.iter().map(|l| l.distance([x, y]));
+                distances.fold(f64::INFINITY, f64::min)
             };
             for (corner, uv) in part.corners.iter().zip(&part.uv) {
                 assert!((nearest(*corner) - uv[0]).abs() < 1e-9);
@@ -150,12 +150,12 @@ fn parts_of_a_smoothed_piece_hold_all_of_it() {
     for name in SCENES {
         let edges = edges(&wire(name, MethodName::None));
         for piece in edges.front.iter().chain(&edges.back) {
-            let Some(whole) = piece.polygon() else {
+            let Some(polygon) = piece.polygon() else {
                 continue;
             };
             for overlap in [false, true] {
                 let parts: f64 = piece.smooth(overlap).iter().map(area).sum();
-                assert!(parts > area(&whole) - 1e-9, "{name:?}");
+                assert!(parts > area(&polygon) - 1e-9, "{name:?}");
             }
         }
     }

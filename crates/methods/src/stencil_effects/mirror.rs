@@ -53,12 +53,12 @@ fn frame() -> Vec<Face> {
 }
 
 fn boxes(shift: f64) -> Vec<Face> {
-    let one = |low: [f64; 3], high: [f64; 3], color: [f64; 4]| {
-        let at = DVec3::new(shift, 0.0, 0.0);
-        cuboid(at + DVec3::from(low), at + DVec3::from(high), color)
+    let moved_box = |low: [f64; 3], high: [f64; 3], color: [f64; 4]| {
+        let offset = DVec3::new(shift, 0.0, 0.0);
+        cuboid(offset + DVec3::from(low), offset + DVec3::from(high), color)
     };
-    let lower = one([-0.45, 0.1, -0.4], [0.45, 0.6, 0.4], [0.9, 0.45, 0.35, 1.0]);
-    let upper = one([-0.2, 0.65, -0.2], [0.3, 0.95, 0.2], [0.4, 0.6, 0.9, 1.0]);
+    let lower = moved_box([-0.45, 0.1, -0.4], [0.45, 0.6, 0.4], [0.9, 0.45, 0.35, 1.0]);
+    let upper = moved_box([-0.2, 0.65, -0.2], [0.3, 0.95, 0.2], [0.4, 0.6, 0.9, 1.0]);
     [lower, upper].concat()
 }
 
@@ -82,8 +82,8 @@ fn parts(triangle: &Polygon, inside: &[Polygon]) -> Vec<Surface> {
 
 pub(super) fn show(method: MethodName, shift: f64) -> Shown {
     let eye = DVec3::new(0.0, 4.0, 4.5);
-    let at = DVec3::new(0.5, -0.1, 0.0);
-    let view = View::perspective(SIZE, [eye, at], 44.0, [1.0, 20.0]);
+    let target = DVec3::new(0.5, -0.1, 0.0);
+    let view = View::perspective(SIZE, [eye, target], 44.0, [1.0, 20.0]);
     let seen = |faces: &[Face]| settle(SIZE, &view.see(faces));
     let [x, z] = HALF;
     let mirror = seen(&[ground([-x, x, -z, z], [0.75, 0.85, 0.95, 0.3])]);

@@ -155,14 +155,14 @@ fn darken() -> Draw {
 
 /// Returns the cards behind the near plane, each followed by the shadows on it.
 fn surfaces(eye: f64) -> Vec<Surface> {
-    let mut all = Vec::new();
+    let mut surfaces = Vec::new();
     for on in CARDS.iter().filter(|card| card.z > eye) {
         let depth = window_depth(on.z, eye);
-        all.push(Polygon::rect(on.area, depth, on.color).surface());
+        surfaces.push(Polygon::rect(on.area, depth, on.color).surface());
         let [r, g, b, a] = on.color;
         let dark = [r * SHADE, g * SHADE, b * SHADE, a];
-        for of in CARDS.iter().filter(|card| card.z < on.z) {
-            let [left, top, right, bottom] = of.shadow_area(on.z);
+        for caster in CARDS.iter().filter(|card| card.z < on.z) {
+            let [left, top, right, bottom] = caster.shadow_area(on.z);
             let area = [
                 left.max(on.area[0]),
                 top.max(on.area[1]),
@@ -170,11 +170,11 @@ fn surfaces(eye: f64) -> Vec<Surface> {
                 bottom.min(on.area[3]),
             ];
             if area[0] < area[2] && area[1] < area[3] {
-                all.push(Polygon::rect(area, depth, dark).surface());
+                surfaces.push(Polygon::rect(area, depth, dark).surface());
             }
         }
     }
-    all
+    surfaces
 }
 
 pub(super) fn show(method: MethodName, eye: f64) -> Shown {

@@ -60,8 +60,8 @@ fn the_ground_begins_behind_the_eye() {
             .map(|v| v.position[3])
             .collect::<Vec<_>>()
     };
-    let whole = w(&ground(ENDS, 1.0, false));
-    assert!(whole.iter().any(|w| *w < -1.0) && whole.iter().any(|w| *w > 20.0));
+    let w_values = w(&ground(ENDS, 1.0, false));
+    assert!(w_values.iter().any(|w| *w < -1.0) && w_values.iter().any(|w| *w > 20.0));
     assert!(
         w(&ground([NEAREST, ENDS[1]], 1.0, true))
             .iter()

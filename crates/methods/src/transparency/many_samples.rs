@@ -93,21 +93,21 @@ fn overlap(a: &Polygon, b: &Polygon) -> bool {
 pub(super) fn thresholds(seed: u64, alphas: &[f64]) -> Vec<u32> {
     let mut noise = Noise::new(seed);
     let count = SIZE[0] * SIZE[1] * SAMPLES;
-    let mut one = || {
+    let mut threshold = || {
         let number = noise.next();
         let mut code = (number * 255.0).round();
         for alpha in alphas {
             let close = (code / 255.0 - alpha).abs() < 0.1 / 255.0;
             if close || (code / 255.0 < *alpha) != (number < *alpha) {
-                let at = alpha * 255.0;
+                let boundary = alpha * 255.0;
                 code = if number < *alpha {
-                    (at - 0.1).floor()
+                    (boundary - 0.1).floor()
                 } else {
-                    (at + 0.1).ceil()
+                    (boundary + 0.1).ceil()
                 };
             }
         }
         code as u32
     };
-    (0..count).map(|_| one()).collect()
+    (0..count).map(|_| threshold()).collect()
 }

@@ -68,8 +68,8 @@ pub(super) fn under() -> Option<BlendState> {
 pub(super) fn behind(glass: &Glass) -> Vec<Polygon> {
     let mut polygons = glass.opaque.clone();
     polygons.sort_by(|a, b| a.corners[0][2].total_cmp(&b.corners[0][2]));
-    let all = [0.0, 0.0, f64::from(SIZE[0]), f64::from(SIZE[1])];
-    polygons.push(Polygon::rect(all, 1.0, clear(glass)));
+    let everywhere = [0.0, 0.0, f64::from(SIZE[0]), f64::from(SIZE[1])];
+    polygons.push(Polygon::rect(everywhere, 1.0, clear(glass)));
     polygons
 }
 
@@ -84,8 +84,8 @@ pub(super) fn front_to_back(glass: &Glass) -> Scene {
     let polygons: Vec<Polygon> = polygons.map(premultiplied).collect();
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, [0.0; 4]);
-    let mut all = draw(Shader::FlatColor, mesh(SIZE, &polygons));
-    all.targets[0].blend = under();
-    stage.pass(&[picture], None, vec![all]);
+    let mut layers = draw(Shader::FlatColor, mesh(SIZE, &polygons));
+    layers.targets[0].blend = under();
+    stage.pass(&[picture], None, vec![layers]);
     stage.read(&[picture])
 }

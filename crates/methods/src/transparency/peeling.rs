@@ -68,8 +68,8 @@ pub(super) fn depth_peeling(glass: &Glass, polygons: &[Polygon], k: u32) -> Scen
 
 /// Returns a mesh over the whole picture at the farthest depth, without colour.
 fn far_cover() -> etalon_scene::Mesh {
-    let all = [0.0, 0.0, f64::from(SIZE[0]), f64::from(SIZE[1])];
-    mesh(SIZE, &[Polygon::rect(all, 1.0, [0.0; 4])])
+    let everywhere = [0.0, 0.0, f64::from(SIZE[0]), f64::from(SIZE[1])];
+    mesh(SIZE, &[Polygon::rect(everywhere, 1.0, [0.0; 4])])
 }
 
 /// Peels `k` times the nearest and the farthest remaining layer: the nearest is composed under the front

@@ -116,7 +116,7 @@ fn windows(alpha: f64) -> Glass {
         ([16.0, 8.0, 104.0, 32.0], 0.8),
     ];
     let order = [2, 5, 0, 3, 1, 4];
-    let one = |i: usize| {
+    let pane_at = |i: usize| {
         pane(Polygon::rect(
             rects[i].0,
             rects[i].1,
@@ -126,7 +126,7 @@ fn windows(alpha: f64) -> Glass {
     Glass {
         background: [0.9, 0.9, 0.85],
         opaque: vec![Polygon::rect([32.0, 56.0, 96.0, 80.0], 0.65, OPAQUE)],
-        objects: order.map(one).to_vec(),
+        objects: order.map(pane_at).to_vec(),
         coverage: Coverage::Center,
     }
 }
@@ -220,7 +220,7 @@ fn mixed(count: u32) -> impl Iterator<Item = u32> {
 }
 
 fn thin_layers(layers: u32, alpha: f64) -> Glass {
-    let one = |i: u32| {
+    let layer = |i: u32| {
         let inset = |step: u32, over: u32| f64::from(4 + step * i % over);
         let rect = [
             inset(7, 20),
@@ -238,7 +238,7 @@ fn thin_layers(layers: u32, alpha: f64) -> Glass {
     Glass {
         background: [0.95, 0.95, 0.9],
         opaque: Vec::new(),
-        objects: mixed(layers).map(one).collect(),
+        objects: mixed(layers).map(layer).collect(),
         coverage: Coverage::Center,
     }
 }

@@ -75,13 +75,13 @@ fn parameters_at_their_ends_are_drawn_and_those_beyond_are_refused_by_name() {
         angle: Some(65.0),
         ..wire(SceneName::IntersectingPanes, MethodName::Sorted)
     };
-    let one = Wire {
+    let single_layer = Wire {
         layers: Some(1),
         ..wire(SceneName::ThinLayers, MethodName::Stochastic)
     };
     let most = Wire {
         layers: Some(64),
-        ..one.clone()
+        ..single_layer.clone()
     };
     let once = Wire {
         k: Some(1),
@@ -91,7 +91,7 @@ fn parameters_at_their_ends_are_drawn_and_those_beyond_are_refused_by_name() {
         method: MethodName::DualDepthPeeling,
         ..once.clone()
     };
-    for wire in [near, one, most, once, dual] {
+    for wire in [near, single_layer, most, once, dual] {
         assert_valid(&scene(&wire));
     }
     let panes = wire(SceneName::IntersectingPanes, MethodName::Sorted);
@@ -322,11 +322,11 @@ fn panes_pass_through_each_other_from_a_third_of_a_right_angle_on() {
             ..wire(SceneName::IntersectingPanes, MethodName::Sorted)
         })
         .expect("the angle is in range");
-        let at = |p: &Polygon| {
+        let depth_at = |p: &Polygon| {
             let [from, to] = [p.corners[0], p.corners[2]];
             from[2] + (to[2] - from[2]) * (x - from[0]) / (to[0] - from[0])
         };
-        let depths: Vec<f64> = glass.polygons().map(at).collect();
+        let depths: Vec<f64> = glass.polygons().map(depth_at).collect();
         (0..3).min_by(|a, b| depths[*a].total_cmp(&depths[*b]))
     };
     // At the right end of the area that all of them cover.

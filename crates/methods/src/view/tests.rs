@@ -24,8 +24,8 @@ fn a_clipped_polygon_and_what_was_cut_off_make_the_whole() {
         let [kept, cut] = [clip(&shape, side), clip(&shape, |p| -side(p))];
         assert!(kept.iter().all(|p| side(*p) > -1e-12));
         assert!(cut.iter().all(|p| side(*p) < 1e-12));
-        let whole = area(&kept) + area(&cut);
-        assert!((whole - area(&shape)).abs() < 1e-12, "{whole}");
+        let total = area(&kept) + area(&cut);
+        assert!((total - area(&shape)).abs() < 1e-12, "{total}");
         // The polygon is still flat.
         assert!(kept.iter().all(|p| (p.z - 0.3 * p.x - 0.1).abs() < 1e-12));
     }
@@ -72,13 +72,13 @@ fn a_point_is_seen_where_its_ray_meets_the_picture() {
         panic!("a single face is seen as a single polygon");
     };
     let [low, high] = [64.0 - 12.8, 64.0 + 12.8];
-    for (corner, due) in
+    for (corner, expected) in
         polygon
             .corners
             .iter()
             .zip([[low, high], [high, high], [high, low], [low, low]])
     {
-        assert!((corner[0] - due[0]).abs() < 1e-9 && (corner[1] - due[1]).abs() < 1e-9);
+        assert!((corner[0] - expected[0]).abs() < 1e-9 && (corner[1] - expected[1]).abs() < 1e-9);
         assert!((corner[2] - window_depth(5.0, [1.0, 9.0])).abs() < 1e-12);
     }
     // Seen from its front it is counter-clockwise, which with y down is a negative area.
@@ -88,11 +88,11 @@ fn a_point_is_seen_where_its_ray_meets_the_picture() {
 #[test]
 fn nothing_is_left_beside_the_picture_or_before_the_near_plane() {
     let faces = cuboid(DVec3::splat(-3.0), DVec3::splat(3.0), [1.0; 4]);
-    for (at, some) in [(2.0, true), (3.05, true), (8.0, true), (-9.0, false)] {
-        let eye = DVec3::new(0.5, 0.2, at);
+    for (z, some) in [(2.0, true), (3.05, true), (8.0, true), (-9.0, false)] {
+        let eye = DVec3::new(0.5, 0.2, z);
         let view = View::perspective(SIZE, [eye, eye - DVec3::Z], 60.0, [0.1, 30.0]);
         let seen = view.see(&faces);
-        assert_eq!(!seen.is_empty(), some, "{at}");
+        assert_eq!(!seen.is_empty(), some, "{z}");
         for [x, y, depth] in seen.iter().flat_map(|p| p.corners.iter().copied()) {
             assert!((-1e-9..=128.000_001).contains(&x) && (-1e-9..=128.000_001).contains(&y));
             assert!((-1e-9..=1.000_001).contains(&depth), "{depth}");

@@ -140,9 +140,9 @@ impl Cases {
     fn changed(&self, mutant: &Mutant) -> impl Iterator<Item = Record> {
         let backend = MutantBackend::new(&mutant.name).unwrap();
         let numbered = self.all.iter().enumerate();
-        numbered.filter_map(move |(number, (case, due))| {
+        numbered.filter_map(move |(number, (case, faithful))| {
             let frames = draw(&backend, case);
-            if frames == *due.get_or_init(|| draw(&self.faithful, case)) {
+            if frames == *faithful.get_or_init(|| draw(&self.faithful, case)) {
                 return None;
             }
             let judged = self
@@ -157,11 +157,11 @@ impl Cases {
 
 /// Checks all mutants of a class.
 fn hunt(class: &str) {
-    let own: Vec<&Mutant> = mutants().iter().filter(|m| class_of(m) == class).collect();
-    let areas: BTreeSet<&str> = own.iter().map(|m| catching_area(m)).collect();
+    let members: Vec<&Mutant> = mutants().iter().filter(|m| class_of(m) == class).collect();
+    let areas: BTreeSet<&str> = members.iter().map(|m| catching_area(m)).collect();
     // Pictures are small elsewhere.
     let left_out = ["methods", "perf", "size"];
-    let all = LazyCell::new(|| Cases::new(Profile::Quick, |a| !left_out.contains(&a)));
+    let every_case = LazyCell::new(|| Cases::new(Profile::Quick, |a| !left_out.contains(&a)));
     let mut survivors = Vec::new();
     for area in areas {
         let mut cases = Cases::new(Profile::Quick, |a| a == area);
@@ -169,9 +169,9 @@ fn hunt(class: &str) {
         if class != "sticky" {
             cases = cases.scattered();
         }
-        for mutant in own.iter().filter(|m| catching_area(m) == area) {
+        for mutant in members.iter().filter(|m| catching_area(m) == area) {
             if mutant.legal.is_some() {
-                hold_legal(mutant, if everything() { &all } else { &cases });
+                hold_legal(mutant, if everything() { &every_case } else { &cases });
                 continue;
             }
             match cases.changed(mutant).find(|r| r.verdict.is_violation()) {
@@ -212,6 +212,6 @@ fn hold_legal(mutant: &Mutant, cases: &Cases) {
 
 #[test]
 fn every_class_has_its_test() {
-    let all: BTreeSet<&str> = mutants().iter().map(class_of).collect();
-    assert_eq!(all, CLASSES.iter().copied().collect());
+    let classes: BTreeSet<&str> = mutants().iter().map(class_of).collect();
+    assert_eq!(classes, CLASSES.iter().copied().collect());
 }

@@ -2,7 +2,7 @@
 
 use crate::arithmetic::Arithmetic;
 
-/// Returns a channel of a colour times its alpha; alpha itself unchanged.
+/// Returns a colour channel multiplied by alpha; alpha is returned unchanged.
 pub(super) fn premultiplied<A: Arithmetic>(a: &mut A, color: [A::Real; 4], c: usize) -> A::Real {
     if c == 3 {
         return color[3];
@@ -27,9 +27,9 @@ pub(super) fn share_between<A: Arithmetic>(
 ) -> A::Real {
     let way = a.sub(value, from);
     let way = a.rounded(way);
-    let whole = a.sub(to, from);
-    let whole = a.rounded(whole);
-    let share = a.div(way, whole);
+    let span = a.sub(to, from);
+    let span = a.rounded(span);
+    let share = a.div(way, span);
     a.rounded(share)
 }
 
@@ -53,26 +53,26 @@ pub(super) fn distance_behind<A: Arithmetic>(
 }
 
 /// Returns a sum at the precision of shaders.
-pub(super) fn sum<A: Arithmetic>(a: &mut A, one: A::Real, other: A::Real) -> A::Real {
-    let sum = a.add(one, other);
+pub(super) fn sum<A: Arithmetic>(a: &mut A, left: A::Real, right: A::Real) -> A::Real {
+    let sum = a.add(left, right);
     a.rounded(sum)
 }
 
 /// Returns a difference at the precision of shaders.
-pub(super) fn difference<A: Arithmetic>(a: &mut A, one: A::Real, other: A::Real) -> A::Real {
-    let difference = a.sub(one, other);
+pub(super) fn difference<A: Arithmetic>(a: &mut A, left: A::Real, right: A::Real) -> A::Real {
+    let difference = a.sub(left, right);
     a.rounded(difference)
 }
 
 /// Returns a product at the precision of shaders.
-pub(super) fn product<A: Arithmetic>(a: &mut A, one: A::Real, other: A::Real) -> A::Real {
-    let product = a.mul(one, other);
+pub(super) fn product<A: Arithmetic>(a: &mut A, left: A::Real, right: A::Real) -> A::Real {
+    let product = a.mul(left, right);
     a.rounded(product)
 }
 
 /// Returns a quotient at the precision of shaders.
-pub(super) fn quotient<A: Arithmetic>(a: &mut A, one: A::Real, other: A::Real) -> A::Real {
-    let quotient = a.div(one, other);
+pub(super) fn quotient<A: Arithmetic>(a: &mut A, left: A::Real, right: A::Real) -> A::Real {
+    let quotient = a.div(left, right);
     a.rounded(quotient)
 }
 

@@ -24,8 +24,8 @@ pub(super) fn fragment<A: Arithmetic>(
     let left = a.sub(one, before[3]);
     let left = a.rounded(left);
     let front = std::array::from_fn(|c| {
-        let own = premultiplied(a, color, c);
-        let share = a.mul(own, left);
+        let source = premultiplied(a, color, c);
+        let share = a.mul(source, left);
         let share = a.rounded(share);
         let sum = a.add(before[c], share);
         let sum = a.rounded(sum);

@@ -1,6 +1,6 @@
 //! Twin of `shaders/expensive_discard.wgsl`, without the cost.
 
-use super::interface::{FragmentInput, FragmentOutput, Kept};
+use super::interface::{FragmentInput, FragmentOutput, KeepCondition};
 use crate::arithmetic::Arithmetic;
 
 pub(super) fn fragment<A: Arithmetic>(
@@ -9,7 +9,7 @@ pub(super) fn fragment<A: Arithmetic>(
 ) -> FragmentOutput<A::Real> {
     let limit = a.constant(input.params.color[3]);
     FragmentOutput {
-        kept: Some(Kept::unless_below(input.color[3], limit)),
+        kept: Some(KeepCondition::unless_below(input.color[3], limit)),
         ..FragmentOutput::of(input.color)
     }
 }

@@ -1,6 +1,6 @@
 //! Twin of `shaders/exported_discard.wgsl`.
 
-use super::interface::{FragmentInput, FragmentOutput, Kept, StencilReference};
+use super::interface::{FragmentInput, FragmentOutput, KeepCondition, StencilReference};
 use crate::arithmetic::Arithmetic;
 
 pub(super) fn fragment<A: Arithmetic>(
@@ -11,7 +11,7 @@ pub(super) fn fragment<A: Arithmetic>(
     let color = input.params.color.map(|v| a.constant(v));
     FragmentOutput {
         reference: Some(StencilReference::of(red)),
-        kept: Some(Kept::unless_below(blue, color[2])),
+        kept: Some(KeepCondition::unless_below(blue, color[2])),
         ..FragmentOutput::of(color)
     }
 }

@@ -16,12 +16,12 @@ pub(super) fn fragment<A: Arithmetic>(
     let left = a.sub(one, fade);
     let left = a.rounded(left);
     let mixed = |a: &mut A, c: usize| {
-        let own = a.mul(input.color[c], left);
-        let own = a.rounded(own);
+        let unfogged = a.mul(input.color[c], left);
+        let unfogged = a.rounded(unfogged);
         let fog = a.constant(input.params.back_color[c]);
         let fog = a.mul(fog, fade);
         let fog = a.rounded(fog);
-        let sum = a.add(own, fog);
+        let sum = a.add(unfogged, fog);
         a.rounded(sum)
     };
     FragmentOutput::of([mixed(a, 0), mixed(a, 1), mixed(a, 2), input.color[3]])

@@ -31,9 +31,9 @@ pub(super) fn fragment<A: Arithmetic>(
     let contrast = difference(a, brightest, darkest);
     let threshold = product(a, brightest, relative);
     let threshold = a.max(least, threshold);
-    let own = tap(input, [u, v]);
+    let center = tap(input, [u, v]);
     if a.always_less(contrast, threshold) {
-        return FragmentOutput::of(own);
+        return FragmentOutput::of(center);
     }
 
     let nw = luma(a, input, [left, up]);
@@ -48,10 +48,10 @@ pub(super) fn fragment<A: Arithmetic>(
         let near = scaled(a, near, 2.0);
         let top = sum(a, nw, ne);
         let bottom = sum(a, sw, se);
-        let all = sum(a, near, top);
-        let all = sum(a, all, bottom);
+        let total = sum(a, near, top);
+        let total = sum(a, total, bottom);
         let twelve = a.constant(12.0);
-        let mean = quotient(a, all, twelve);
+        let mean = quotient(a, total, twelve);
         let apart = difference(a, mean, m);
         let apart = magnitude(a, apart);
         let apart = quotient(a, apart, contrast);
@@ -97,8 +97,8 @@ pub(super) fn fragment<A: Arithmetic>(
             let step = a.select_less(arrived, half, stride, zero);
             let walked = sum(a, walked, step);
             let signed = scaled(a, walked, direction);
-            let at = moved(a, start, along, signed);
-            let there = luma(a, input, at);
+            let position = moved(a, start, along, signed);
+            let there = luma(a, input, position);
             let there = difference(a, there, average);
             let end = a.select_less(arrived, half, there, end);
             let size = magnitude(a, end);
@@ -126,24 +126,28 @@ pub(super) fn fragment<A: Arithmetic>(
     let shift = a.select_less(differ, half, zero, shift);
     let shift = a.max(shift, single);
     let shift = product(a, side, shift);
-    let at = moved(a, [u, v], across, shift);
-    let blended = tap(input, at);
+    let position = moved(a, [u, v], across, shift);
+    let blended = tap(input, position);
     FragmentOutput::of(std::array::from_fn(|c| {
-        a.select_less(contrast, threshold, own[c], blended[c])
+        a.select_less(contrast, threshold, center[c], blended[c])
     }))
 }
 
-fn tap<R: Copy>(input: &FragmentInput<'_, R>, at: [R; 2]) -> [R; 4] {
-    input.taps.at(at).unwrap_or(input.texels[0])
+fn tap<R: Copy>(input: &FragmentInput<'_, R>, position: [R; 2]) -> [R; 4] {
+    input.taps.at(position).unwrap_or(input.texels[0])
 }
 
-fn luma<A: Arithmetic>(a: &mut A, input: &FragmentInput<'_, A::Real>, at: [A::Real; 2]) -> A::Real {
-    let [red, green, blue, _] = tap(input, at);
+fn luma<A: Arithmetic>(
+    a: &mut A,
+    input: &FragmentInput<'_, A::Real>,
+    position: [A::Real; 2],
+) -> A::Real {
+    let [red, green, blue, _] = tap(input, position);
     let red = scaled(a, red, 0.299);
     let green = scaled(a, green, 0.587);
     let blue = scaled(a, blue, 0.114);
-    let all = sum(a, red, green);
-    sum(a, all, blue)
+    let total = sum(a, red, green);
+    sum(a, total, blue)
 }
 
 /// Returns how sharply three lines of three texels bend; the middle line counts twice.
@@ -153,16 +157,16 @@ fn bend<A: Arithmetic>(
     middle: [A::Real; 3],
     last: [A::Real; 3],
 ) -> A::Real {
-    let mut of = |[one, center, other]: [A::Real; 3]| {
-        let ends = sum(a, one, other);
+    let mut bend_of = |[before, center, after]: [A::Real; 3]| {
+        let ends = sum(a, before, after);
         let twice = scaled(a, center, 2.0);
         let bend = difference(a, ends, twice);
         magnitude(a, bend)
     };
-    let [first, middle, last] = [of(first), of(middle), of(last)];
+    let [first, middle, last] = [bend_of(first), bend_of(middle), bend_of(last)];
     let middle = scaled(a, middle, 2.0);
-    let all = sum(a, first, middle);
-    sum(a, all, last)
+    let total = sum(a, first, middle);
+    sum(a, total, last)
 }
 
 /// Returns a position moved by a number of steps.

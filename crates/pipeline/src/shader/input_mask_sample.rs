@@ -10,8 +10,8 @@ pub(super) fn fragment<A: Arithmetic>(
 ) -> FragmentOutput<A::Real> {
     let mut output = input_mask::fragment(a, input);
     let first = input.params.color[0] as u32;
-    let own = input.sample.checked_sub(first);
-    if let Some(bit) = own.and_then(|n| output.color.get_mut(n as usize)) {
+    let bit_index = input.sample.checked_sub(first);
+    if let Some(bit) = bit_index.and_then(|n| output.color.get_mut(n as usize)) {
         let one = a.constant(1.0);
         *bit = a.sub(one, *bit);
     }

@@ -114,7 +114,7 @@ pub struct FragmentOutput<R> {
     /// The depth, if the shader writes one.
     pub depth: Option<R>,
     /// The condition under which the fragment is kept, if the shader can discard it.
-    pub kept: Option<Kept<R>>,
+    pub kept: Option<KeepCondition<R>>,
     /// The sample mask, if the shader writes one.
     pub mask: Option<SampleMask<R>>,
     /// The stencil reference, if the shader writes one.
@@ -150,7 +150,7 @@ impl<R: Copy> FragmentOutput<R> {
 
 /// The condition under which a fragment is kept.
 #[derive(Clone, Copy, Debug)]
-pub struct Kept<R> {
+pub struct KeepCondition<R> {
     /// The value that is compared.
     pub value: R,
     /// The limit that it is compared with.
@@ -159,7 +159,7 @@ pub struct Kept<R> {
     pub strict: bool,
 }
 
-impl<R> Kept<R> {
+impl<R> KeepCondition<R> {
     /// Discards values below a limit.
     pub fn unless_below(value: R, limit: R) -> Self {
         Self {
@@ -202,7 +202,7 @@ impl<R> SampleMask<R> {
     pub fn written(&self, bits: u32) -> u32 {
         match self.turned_but {
             None => bits,
-            Some(own) => !bits ^ (1 << own),
+            Some(kept) => !bits ^ (1 << kept),
         }
     }
 }

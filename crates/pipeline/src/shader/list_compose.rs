@@ -18,9 +18,9 @@ pub(super) fn fragment<A: Arithmetic>(
     for node in nodes {
         let alpha = node.color[3];
         let share = product(a, alpha, left);
-        for (sum_of, own) in color.iter_mut().zip(node.color) {
-            let own = product(a, own, share);
-            *sum_of = sum(a, *sum_of, own);
+        for (sum_of, channel) in color.iter_mut().zip(node.color) {
+            let weighted = product(a, channel, share);
+            *sum_of = sum(a, *sum_of, weighted);
         }
         let through = difference(a, one, alpha);
         left = product(a, left, through);

@@ -1,6 +1,6 @@
 //! Twin of `shaders/masked_discard.wgsl`.
 
-use super::interface::{FragmentInput, FragmentOutput, Kept, SampleMask};
+use super::interface::{FragmentInput, FragmentOutput, KeepCondition, SampleMask};
 use crate::arithmetic::Arithmetic;
 
 pub(super) fn fragment<A: Arithmetic>(
@@ -10,7 +10,7 @@ pub(super) fn fragment<A: Arithmetic>(
     let texel = input.texels[0];
     let [red, green, blue, _] = input.params.color.map(|v| a.constant(v));
     FragmentOutput {
-        kept: Some(Kept::unless_below(texel[2], blue)),
+        kept: Some(KeepCondition::unless_below(texel[2], blue)),
         mask: Some(SampleMask::of(texel[0])),
         ..FragmentOutput::of([red, green, blue, texel[3]])
     }

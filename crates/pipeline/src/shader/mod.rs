@@ -70,7 +70,8 @@ mod weighted_resolve;
 
 pub use expensive_color::cost;
 pub use interface::{
-    FragmentInput, FragmentOutput, InputMask, Kept, List, Node, SampleMask, StencilReference, Taps,
+    FragmentInput, FragmentOutput, InputMask, KeepCondition, List, Node, SampleMask,
+    StencilReference, Taps,
 };
 
 use crate::arithmetic::Arithmetic;

@@ -14,11 +14,11 @@ pub(super) fn fragment<A: Arithmetic>(
     let total = larger(a, absorbance[0], least);
     let moved = a.constant(1.875e-7);
     let b = [0, 1, 2, 3].map(|i| {
-        let whole = quotient(a, moments[i], total);
-        let whole = scaled(a, whole, 0.999_999_5);
+        let moment = quotient(a, moments[i], total);
+        let moment = scaled(a, moment, 0.999_999_5);
         match i {
-            1 | 3 => sum(a, whole, moved),
-            _ => whole,
+            1 | 3 => sum(a, moment, moved),
+            _ => moment,
         }
     });
     let (zero, one) = (a.constant(0.0), a.constant(1.0));
@@ -29,8 +29,8 @@ pub(super) fn fragment<A: Arithmetic>(
     let exponent = a.sub(zero, before);
     let transmittance = a.exp2(exponent);
     FragmentOutput::of([0, 1, 2, 3].map(|c| {
-        let own = premultiplied(a, input.color, c);
-        product(a, own, transmittance)
+        let source = premultiplied(a, input.color, c);
+        product(a, source, transmittance)
     }))
 }
 
@@ -52,12 +52,12 @@ fn in_front<A: Arithmetic>(a: &mut A, [b1, b2, b3, b4]: [A::Real; 4], z: A::Real
     let second = less(a, second, first, l);
     let first_over = quotient(a, first, d1);
     let second_over = quotient(a, second, d2);
-    let own = {
+    let at_depth = {
         let of_first = product(a, first, first_over);
         let of_second = product(a, second, second_over);
         let both = sum(a, of_first, of_second);
-        let all = sum(a, both, one);
-        quotient(a, one, all)
+        let total = sum(a, both, one);
+        quotient(a, one, total)
     };
     let tiny = a.constant(1e-9);
     let size = magnitude(a, second_over);
@@ -95,11 +95,11 @@ fn in_front<A: Arithmetic>(a: &mut A, [b1, b2, b3, b4]: [A::Real; 4], z: A::Real
         let under = product(a, to_own, to_far);
         quotient(a, over, under)
     };
-    let of_both = difference(a, one, own);
+    let of_both = difference(a, one, at_depth);
     let others = a.select_less(near, z, of_near, zero);
     let others = a.select_less(far, z, of_both, others);
-    let own = scaled(a, own, 0.25);
-    let share = sum(a, own, others);
+    let quarter = scaled(a, at_depth, 0.25);
+    let share = sum(a, quarter, others);
     let share = larger(a, share, zero);
     a.select_less(share, one, share, one)
 }
@@ -139,7 +139,7 @@ mod tests {
     }
 
     /// Returns the transmittance that the moments of layers, given as depth and alpha, yield at each layer.
-    fn told(layers: &[(f32, f32)]) -> Vec<f32> {
+    fn transmittances(layers: &[(f32, f32)]) -> Vec<f32> {
         let params = Params::default();
         let mut sums = [[[0.0_f32; 1]; 4]; 2];
         for layer in layers {
@@ -163,13 +163,13 @@ mod tests {
     }
 
     /// Returns the transmittance in front of each layer, including a quarter of its own absorbance.
-    fn due(layers: &[(f32, f32)]) -> Vec<f32> {
+    fn exact_transmittances(layers: &[(f32, f32)]) -> Vec<f32> {
         let in_front = |depth: f32| {
             let nearer = layers.iter().filter(|l| l.0 < depth);
             nearer.map(|l| 1.0 - l.1).product::<f32>()
         };
-        let one = |l: &(f32, f32)| in_front(l.0) * (1.0 - l.1).powf(0.25);
-        layers.iter().map(one).collect()
+        let transmittance = |l: &(f32, f32)| in_front(l.0) * (1.0 - l.1).powf(0.25);
+        layers.iter().map(transmittance).collect()
     }
 
     #[test]
@@ -183,11 +183,14 @@ mod tests {
                     for n in 0..27_usize {
                         let alpha = |by: usize| alphas[n / by % 3];
                         // Drawn in an order that differs from that of the depths.
-                        let all = [(second, alpha(1)), (third, alpha(3)), (first, alpha(9))];
+                        let drawn = [(second, alpha(1)), (third, alpha(3)), (first, alpha(9))];
                         for count in 1..=3 {
-                            let layers = &all[..count];
-                            for (told, due) in told(layers).into_iter().zip(due(layers)) {
-                                worst[count - 1] = worst[count - 1].max((told - due).abs());
+                            let layers = &drawn[..count];
+                            for (shown, expected) in transmittances(layers)
+                                .into_iter()
+                                .zip(exact_transmittances(layers))
+                            {
+                                worst[count - 1] = worst[count - 1].max((shown - expected).abs());
                             }
                         }
                     }
@@ -204,11 +207,11 @@ mod tests {
         for alphas in [[1.0, 1.0], [1.0, 0.5], [0.0, 1.0], [1e-7, 1e-7], [0.0, 0.0]] {
             for depths in [[0.2, 0.8], [0.5, 0.5], [0.0, 1.0]] {
                 let layers = [(depths[0], alphas[0]), (depths[1], alphas[1])];
-                let shown = told(&layers).into_iter().zip(alphas);
-                for (told, alpha) in shown {
+                let shown = transmittances(&layers).into_iter().zip(alphas);
+                for (value, alpha) in shown {
                     // Without alpha, nothing is visible.
-                    let known = if alpha == 0.0 { 0.0 } else { told };
-                    assert!((0.0..=1.0).contains(&known), "{layers:?}: {told}");
+                    let known = if alpha == 0.0 { 0.0 } else { value };
+                    assert!((0.0..=1.0).contains(&known), "{layers:?}: {value}");
                 }
             }
         }

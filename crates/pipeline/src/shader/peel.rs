@@ -1,6 +1,6 @@
 //! Twin of `shaders/peel.wgsl`.
 
-use super::interface::{FragmentInput, FragmentOutput, Kept};
+use super::interface::{FragmentInput, FragmentOutput, KeepCondition};
 use crate::arithmetic::Arithmetic;
 
 pub(super) fn fragment<A: Arithmetic>(
@@ -10,7 +10,7 @@ pub(super) fn fragment<A: Arithmetic>(
     let zero = a.constant(0.0);
     FragmentOutput {
         others: Some([[input.depth, zero, zero, a.constant(1.0)], [zero; 4]]),
-        kept: Some(Kept::above(input.depth, input.texels[0][0])),
+        kept: Some(KeepCondition::above(input.depth, input.texels[0][0])),
         ..FragmentOutput::of(input.color)
     }
 }

@@ -1,6 +1,6 @@
 //! Twin of `shaders/stochastic.wgsl`.
 
-use super::interface::{FragmentInput, FragmentOutput, Kept};
+use super::interface::{FragmentInput, FragmentOutput, KeepCondition};
 use crate::arithmetic::Arithmetic;
 
 pub(super) fn fragment<A: Arithmetic>(
@@ -16,7 +16,7 @@ pub(super) fn fragment<A: Arithmetic>(
         _ => input.texels[0][0],
     };
     FragmentOutput {
-        kept: Some(Kept::unless_below(alpha, threshold)),
+        kept: Some(KeepCondition::unless_below(alpha, threshold)),
         ..FragmentOutput::of([red, green, blue, a.constant(1.0)])
     }
 }

@@ -1,6 +1,6 @@
 //! Twin of `shaders/texel_discard.wgsl`.
 
-use super::interface::{FragmentInput, FragmentOutput, Kept};
+use super::interface::{FragmentInput, FragmentOutput, KeepCondition};
 use crate::arithmetic::Arithmetic;
 
 pub(super) fn fragment<A: Arithmetic>(
@@ -8,7 +8,7 @@ pub(super) fn fragment<A: Arithmetic>(
     input: &FragmentInput<'_, A::Real>,
 ) -> FragmentOutput<A::Real> {
     FragmentOutput {
-        kept: Some(Kept::unless_below(
+        kept: Some(KeepCondition::unless_below(
             input.texels[0][3],
             a.constant(input.params.color[3]),
         )),

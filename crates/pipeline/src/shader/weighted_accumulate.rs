@@ -22,8 +22,8 @@ pub(super) fn fragment<A: Arithmetic>(
     let weight = a.mul(alpha, weight);
     let weight = a.rounded(weight);
     let sum = std::array::from_fn(|c| {
-        let own = premultiplied(a, input.color, c);
-        let weighted = a.mul(own, weight);
+        let source = premultiplied(a, input.color, c);
+        let weighted = a.mul(source, weight);
         a.rounded(weighted)
     });
     FragmentOutput {

@@ -9,9 +9,9 @@ pub(super) fn fragment<A: Arithmetic>(
 ) -> FragmentOutput<A::Real> {
     let [sum, left] = input.texels;
     let least = a.constant(0.00001);
-    let all = a.max(sum[3], least);
+    let weight = a.max(sum[3], least);
     let mean = |a: &mut A, c: usize| {
-        let value = a.div(sum[c], all);
+        let value = a.div(sum[c], weight);
         a.rounded(value)
     };
     FragmentOutput::of([mean(a, 0), mean(a, 1), mean(a, 2), left[0]])

@@ -30,10 +30,10 @@ fn check(id: &str, scene: &Scene, limits: &Limits, rules: &Rules) {
     let walk = Walk::new(scene, limits, rules, Texels::All);
     for group in &set.groups {
         let ([width, height], samples) = (group.size, group.samples);
-        let all = (width * height * samples) as usize;
+        let count = (width * height * samples) as usize;
         // A step that is coprime to the sizes reaches all columns, rows and samples.
-        let step = if all > MOST { (all / MOST) | 1 } else { 1 };
-        for i in (0..all as u32).step_by(step) {
+        let step = if count > MOST { (count / MOST) | 1 } else { 1 };
+        for i in (0..count as u32).step_by(step) {
             let (texel, sample) = (i / samples, i % samples);
             let at = Sample {
                 size: group.size,
@@ -43,9 +43,9 @@ fn check(id: &str, scene: &Scene, limits: &Limits, rules: &Rules) {
                 sample,
             };
             walk.forget();
-            let own = alone(&walk, at);
+            let separate = alone(&walk, at);
             let shared = group.sample(at.x, at.y, sample);
-            assert_eq!(*shared, own, "{id} under {}: {at:?}", limits.api);
+            assert_eq!(*shared, separate, "{id} under {}: {at:?}", limits.api);
         }
     }
 }

@@ -52,7 +52,7 @@ fn a_written_depth_of_zero_and_one_is_pinned_and_so_is_what_follows() {
 
 #[test]
 fn a_vertex_depth_of_one_half_has_four_codes_on_16_bits_and_many_on_24() {
-    let of = |format: &str| {
+    let codes_of = |format: &str| {
         let scene = scene(
             &format!(r#"{COLOR},"depth":{{"format":"{format}","clear":1}}"#),
             r#"{"mesh":{"kind":"full","z":0.5},"shader":"uniform_color",
@@ -67,9 +67,9 @@ fn a_vertex_depth_of_one_half_has_four_codes_on_16_bits_and_many_on_24() {
         set.groups[0].sample(1, 1, 0).count(0)
     };
     // Viewport, interpolation and store are each computed within 1 part in 10^5.
-    assert_eq!(of("depth16unorm"), 4);
-    assert!((490..520).contains(&of("depth24plus")));
-    assert!((490..520).contains(&of("depth32float")));
+    assert_eq!(codes_of("depth16unorm"), 4);
+    assert!((490..520).contains(&codes_of("depth24plus")));
+    assert!((490..520).contains(&codes_of("depth32float")));
 }
 
 #[test]
@@ -297,14 +297,14 @@ fn clears_stand_between_their_draws() {
         r#","draws":[]"#,
     );
     let group = &set.groups[0];
-    let holds = |x, y, due: [i64; 4]| {
-        let all = &group.sample(x, y, 0).worlds;
-        assert_eq!(all.len(), 1);
-        let found: Vec<_> = all[0].channels[..4]
+    let holds = |x, y, expected: [i64; 4]| {
+        let worlds = &group.sample(x, y, 0).worlds;
+        assert_eq!(worlds.len(), 1);
+        let found: Vec<_> = worlds[0].channels[..4]
             .iter()
             .map(|c| (c.low, c.high))
             .collect();
-        assert_eq!(found, due.map(|d| (d, d)), "{x}, {y}");
+        assert_eq!(found, expected.map(|d| (d, d)), "{x}, {y}");
     };
     holds(0, 0, [255; 4]);
     holds(1, 1, [0, 0, 255, 0]);
@@ -404,7 +404,7 @@ fn resolved(format: &str, depth: &str, stencil: &str) -> etalon_frame::LegalSet 
 #[test]
 fn depth_and_stencil_are_resolved_each_by_its_mode() {
     let code = |value: f32| i64::from(value.to_bits());
-    for (depth, stencil, due) in [
+    for (depth, stencil, expected) in [
         ("sample-zero", "sample-zero", [code(0.0), 7]),
         ("max", "min", [code(1.0), 3]),
         ("min", "max", [code(0.0), 9]),
@@ -412,10 +412,10 @@ fn depth_and_stencil_are_resolved_each_by_its_mode() {
         ("max", "none", [code(1.0), 100]),
     ] {
         let set = resolved("depth32float-stencil8", depth, stencil);
-        let all = &set.groups[0].sample(1, 1, 0).worlds;
-        assert_eq!(all.len(), 1, "{depth}, {stencil}");
-        let found: Vec<_> = all[0].channels.iter().map(|c| (c.low, c.high)).collect();
-        assert_eq!(found, due.map(|d| (d, d)), "{depth}, {stencil}");
+        let worlds = &set.groups[0].sample(1, 1, 0).worlds;
+        assert_eq!(worlds.len(), 1, "{depth}, {stencil}");
+        let found: Vec<_> = worlds[0].channels.iter().map(|c| (c.low, c.high)).collect();
+        assert_eq!(found, expected.map(|d| (d, d)), "{depth}, {stencil}");
     }
 }
 
@@ -602,7 +602,7 @@ fn a_bias_that_is_no_normal_number_may_be_nothing() {
 #[test]
 fn samples_of_minus_one_are_read_as_either_code() {
     // A logic operation alone stores the least code, and no API can copy several samples out unresolved.
-    let of = |samples: u32| {
+    let legal_with = |samples: u32| {
         let scene = case(&format!(
             r#"{{"about":"t","spec":["t"],"scene":{{
                "attachments":{{"c":{{"format":"rgba8snorm","size":[1,1],"samples":{samples}}}}},
@@ -614,7 +614,7 @@ fn samples_of_minus_one_are_read_as_either_code() {
         legal_set(&scene, &limits, &Rules::of(&limits))
     };
     let allows = |samples: u32| {
-        let set = of(samples);
+        let set = legal_with(samples);
         let sample = set.groups[0].sample(0, 0, 0);
         [-128, -127, -126].map(|code| sample.allows(&[code, -1, code, code]))
     };
@@ -658,7 +658,7 @@ fn opengl_3_may_clamp_biased_depths_at_vertices() {
 
 #[test]
 fn the_step_of_a_float_bias_is_that_of_what_clipping_leaves() {
-    let of = |positions: &str, depth: f32| {
+    let allows = |positions: &str, depth: f32| {
         let scene = case(&format!(
             r#"{{"about":"t","spec":["t"],"scene":{{
                "attachments":{{"d":{{"format":"depth32float","size":[1,1]}}}},
@@ -674,10 +674,10 @@ fn the_step_of_a_float_bias_is_that_of_what_clipping_leaves() {
     };
     // The depth of 0.55 is far outside, and the drawn part is below 0.5.
     let beyond = "[-1,-1,0.45],[-1,6,0.45],[18,-1,0.55]";
-    assert!(of(beyond, 0.485_065_46) && of(beyond, 0.514_867_8));
-    assert!(!of(beyond, 0.6));
+    assert!(allows(beyond, 0.485_065_46) && allows(beyond, 0.514_867_8));
+    assert!(!allows(beyond, 0.6));
     let within = "[-1,-1,0.45],[-1,1,0.45],[1,-1,0.55]";
-    assert!(!of(within, 0.529_8) && of(within, 0.559_6));
+    assert!(!allows(within, 0.529_8) && allows(within, 0.559_6));
 }
 
 #[test]
@@ -766,7 +766,7 @@ fn filtering_may_round_each_step_to_codes() {
     );
     let limits = limits(Api::Vulkan);
     let order = |v: f32| ChannelEncoding::Float32.order_of_code(v.to_bits());
-    let of = |rules: &Rules, red: f32, alpha: f32| {
+    let allows = |rules: &Rules, red: f32, alpha: f32| {
         let set = legal_set(&case.scene, &limits, rules);
         let value = [red / 255.0, 0.0, 0.0, alpha / 255.0].map(order);
         set.groups[0].sample(1, 1, 0).allows(&value)
@@ -780,11 +780,11 @@ fn filtering_may_round_each_step_to_codes() {
         (0.0, false),
         (3.0, false),
     ] {
-        assert_eq!(of(&text, red, 255.0), legal, "{red}");
-        assert_eq!(of(&yardstick, red, 255.0), red == 1.5, "{red}");
+        assert_eq!(allows(&text, red, 255.0), legal, "{red}");
+        assert_eq!(allows(&yardstick, red, 255.0), red == 1.5, "{red}");
     }
     // Equal texels give only one result.
-    assert!(!of(&text, 1.5, 254.0));
+    assert!(!allows(&text, 1.5, 254.0));
 }
 
 #[test]

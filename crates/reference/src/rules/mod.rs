@@ -55,17 +55,17 @@ mod tests {
             (Api::OpenGlEs, [(3, 0), (3, 1), (3, 2)]),
             (Api::WebGpu, [(0, 0), (0, 0), (0, 0)]),
         ];
-        let mut all = Vec::new();
+        let mut result = Vec::new();
         for (api, versions) in versions {
             for (major, minor) in versions {
                 let mut limits = test_limits::limits(api);
                 limits.version = ApiVersion::new(major, minor);
-                all.push(limits.clone());
+                result.push(limits.clone());
                 limits.properties = Property::ALL.into_iter().collect();
-                all.push(limits);
+                result.push(limits);
             }
         }
-        all
+        result
     }
 
     #[test]
@@ -77,11 +77,11 @@ mod tests {
                 assert!(citation.contains(':'), "{name}: {citation:?}");
                 // If a version lacks a feature, its rule cites the first version that has the feature. If an
                 // API is silent, its rule names the other APIs.
-                let own = rules.text.split(" (").next().expect("a name");
-                let family = own.split(' ').next().expect("a word");
+                let title = rules.text.split(" (").next().expect("a name");
+                let family = title.split(' ').next().expect("a word");
                 assert!(
                     citation.contains(family) || citation.starts_with("WGSL"),
-                    "{own}, {name}: {citation}"
+                    "{title}, {name}: {citation}"
                 );
             }
         }
@@ -134,12 +134,12 @@ mod tests {
 
     #[test]
     fn the_texts_of_two_versions_differ() {
-        let of = |major, minor| {
+        let rules_of = |major, minor| {
             let mut limits = test_limits::limits(Api::OpenGl);
             limits.version = ApiVersion::new(major, minor);
             Rules::of(&limits)
         };
-        let (old, new) = (of(3, 3), of(4, 5));
+        let (old, new) = (rules_of(3, 3), rules_of(4, 5));
         assert_eq!(old.signed_clamp.value, SignedClamp::Unit);
         assert_eq!(new.signed_clamp.value, SignedClamp::Signed);
         assert_eq!(old.srgb_logic.value, SrgbLogic::Applies);

@@ -179,8 +179,8 @@ impl BiasUnit {
 
     /// Returns the least and the greatest step for an encoding.
     pub(crate) fn range(&self, encoding: ChannelEncoding) -> (f64, f64) {
-        let all = self.readings(encoding).iter().copied();
-        let hull = all.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let readings = self.readings(encoding).iter().copied();
+        let hull = readings.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
         self.assumed.or(hull).unwrap_or((1.0, 1.0))
     }
 }

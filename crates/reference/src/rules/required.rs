@@ -76,12 +76,12 @@ const DEPTH: [TextureFormat; 5] = [
 
 /// Returns all rows.
 pub fn rows() -> Vec<Required> {
-    let mut all = Vec::new();
-    vulkan(&mut all);
-    opengl(&mut all);
-    opengl_es(&mut all);
-    webgpu(&mut all);
-    all
+    let mut rows = Vec::new();
+    vulkan(&mut rows);
+    opengl(&mut rows);
+    opengl_es(&mut rows);
+    webgpu(&mut rows);
+    rows
 }
 
 /// Appends what an API requires from a version on, all from one section of its specification.
@@ -312,7 +312,7 @@ mod tests {
     use super::*;
     use crate::test_limits::limits;
 
-    fn of(api: Api, major: u8, minor: u8) -> Limits {
+    fn limits_of(api: Api, major: u8, minor: u8) -> Limits {
         Limits {
             api,
             version: ApiVersion::new(major, minor),
@@ -327,31 +327,32 @@ mod tests {
     #[test]
     fn a_format_is_required_from_its_version_on() {
         let short = [Requirement::Drawing(TextureFormat::B5g6r5Unorm)];
-        assert!(denied(&of(Api::OpenGl, 3, 3), &short).is_none());
-        let (needed, found) = denied(&of(Api::OpenGl, 4, 6), &short).expect("4.6 requires it");
+        assert!(denied(&limits_of(Api::OpenGl, 3, 3), &short).is_none());
+        let (needed, found) =
+            denied(&limits_of(Api::OpenGl, 4, 6), &short).expect("4.6 requires it");
         assert_eq!(needed, short[0]);
         assert!(found.citation.starts_with("OpenGL 4.5:"));
-        assert!(denied(&of(Api::OpenGlEs, 3, 0), &short).is_some());
+        assert!(denied(&limits_of(Api::OpenGlEs, 3, 0), &short).is_some());
         let float = [Requirement::Drawing(TextureFormat::Rgba16Float)];
-        assert!(denied(&of(Api::OpenGlEs, 3, 1), &float).is_none());
-        assert!(denied(&of(Api::OpenGlEs, 3, 2), &float).is_some());
-        assert!(denied(&of(Api::OpenGl, 3, 3), &float).is_some());
+        assert!(denied(&limits_of(Api::OpenGlEs, 3, 1), &float).is_none());
+        assert!(denied(&limits_of(Api::OpenGlEs, 3, 2), &float).is_some());
+        assert!(denied(&limits_of(Api::OpenGl, 3, 3), &float).is_some());
     }
 
     #[test]
     fn a_limit_is_required_up_to_its_least_value() {
         let of_size = |size| [Requirement::Size(size)];
-        let gl = of(Api::OpenGl, 3, 3);
+        let gl = limits_of(Api::OpenGl, 3, 3);
         assert!(denied(&gl, &of_size(1024)).is_some());
         assert!(denied(&gl, &of_size(1025)).is_none());
-        assert!(denied(&of(Api::WebGpu, 0, 0), &of_size(8192)).is_some());
+        assert!(denied(&limits_of(Api::WebGpu, 0, 0), &of_size(8192)).is_some());
     }
 
     #[test]
     fn what_is_there_or_excused_is_not_denied() {
         let needed = [Requirement::Drawing(TextureFormat::Rgba8Unorm)];
         assert!(denied(&limits(Api::Vulkan), &needed).is_none());
-        let mut excused = of(Api::Vulkan, 1, 3);
+        let mut excused = limits_of(Api::Vulkan, 1, 3);
         assert!(denied(&excused, &needed).is_some());
         excused.exempt.insert(needed[0]);
         assert!(denied(&excused, &needed).is_none());

@@ -220,9 +220,9 @@ proptest! {
         let state = BlendState { color: component, alpha: component };
         let results = short_blend(encoding, |v| short(bits, direction, v), src, dst);
         let codes = results.map(|v| encoding.position(v.clamp(0.0, 1.0)).map_or(0, |p| p.round() as i64));
-        let mut all = all_rules();
-        all.pop();
-        for rules in all {
+        let mut remaining = all_rules();
+        remaining.pop();
+        for rules in remaining {
             let intervals = judged(&rules, encoding, &(state, src, dst, [0.0; 4], [0.0; 4]));
             assert_inside(rules.name, codes, intervals)?;
         }

@@ -10,23 +10,23 @@ use std::collections::HashMap;
 /// Limits of every API, with two grids of sub-pixels and both ways of reading.
 fn all_limits() -> Vec<Limits> {
     let versions = [(1, 3), (4, 5), (3, 1), (0, 0)];
-    let mut all = Vec::new();
+    let mut result = Vec::new();
     for (api, (major, minor)) in APIS.into_iter().zip(versions) {
         for (bits, read) in [
             (8, ReadPath::Copy),
             (4, ReadPath::Copy),
             (8, ReadPath::Shader),
         ] {
-            let mut one = limits(api);
-            one.version = ApiVersion::new(major, minor);
-            one.sub_pixel_bits = bits;
-            for support in one.formats.values_mut() {
+            let mut variant = limits(api);
+            variant.version = ApiVersion::new(major, minor);
+            variant.sub_pixel_bits = bits;
+            for support in variant.formats.values_mut() {
                 support.read = read;
             }
-            all.push(one);
+            result.push(variant);
         }
     }
-    all
+    result
 }
 
 #[test]
@@ -46,21 +46,27 @@ fn rules_that_agree_on_what_was_asked_give_the_same_sets() {
         for limits in all_limits() {
             let given = |basis: &Limits, rules: &Rules| {
                 let mut known = known.borrow_mut();
-                let all = known.entry(basis.clone()).or_default();
-                all.get(rules, |rules| {
+                let sets = known.entry(basis.clone()).or_default();
+                sets.get(rules, |rules| {
                     computed.set(computed.get() + 1);
                     legal_set_of_texels(&case.scene, basis, rules, Texels::All)
                 })
             };
-            for one in judgements_by(&case.scene, &limits, Texels::All, &given) {
-                let own = |rules: &Rules| {
-                    legal_set_of_texels(&case.scene, &one.limits, rules, Texels::All)
+            for judgement in judgements_by(&case.scene, &limits, Texels::All, &given) {
+                let legal_by = |rules: &Rules| {
+                    legal_set_of_texels(&case.scene, &judgement.limits, rules, Texels::All)
                 };
-                let yardstick = Rules::yardstick(&one.limits);
-                assert_eq!(*one.legal, own(&one.rules), "{} {}", case.id, limits.api);
+                let yardstick = Rules::yardstick(&judgement.limits);
                 assert_eq!(
-                    *one.yardstick,
-                    own(&yardstick),
+                    *judgement.legal,
+                    legal_by(&judgement.rules),
+                    "{} {}",
+                    case.id,
+                    limits.api
+                );
+                assert_eq!(
+                    *judgement.yardstick,
+                    legal_by(&yardstick),
                     "{} {}",
                     case.id,
                     limits.api

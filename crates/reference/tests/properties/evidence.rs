@@ -38,24 +38,24 @@ fn signed_blending_is_clamped_as_the_version_says() {
                        "alpha":{"operation":"add","src_factor":"one","dst_factor":"one"}}}]}],
             "read":["c"]}"#,
     );
-    let at = |limits: &Limits, order: i64| allowed(&scene, limits, 0, &[order; 4]);
+    let allows = |limits: &Limits, order: i64| allowed(&scene, limits, 0, &[order; 4]);
     let old = version(Api::OpenGl, 3, 3);
-    assert_eq!(at(&old, 0), ALWAYS);
-    assert_eq!(at(&old, -127), DISPUTED);
+    assert_eq!(allows(&old, 0), ALWAYS);
+    assert_eq!(allows(&old, -127), DISPUTED);
     for new in [version(Api::OpenGl, 4, 5), version(Api::OpenGl, 4, 6)] {
-        assert_eq!(at(&new, -127), ALWAYS);
-        assert_eq!(at(&new, 0), DISPUTED, "17.3.7 clamps to [0,1]");
-        assert_eq!(at(&new, -128), NEVER);
-        assert_eq!(at(&new, -64), NEVER, "no reading has a value between");
+        assert_eq!(allows(&new, -127), ALWAYS);
+        assert_eq!(allows(&new, 0), DISPUTED, "17.3.7 clamps to [0,1]");
+        assert_eq!(allows(&new, -128), NEVER);
+        assert_eq!(allows(&new, -64), NEVER, "no reading has a value between");
     }
     let vulkan = version(Api::Vulkan, 1, 3);
-    assert_eq!(at(&vulkan, -127), ALWAYS);
-    assert_eq!(at(&vulkan, 0), NEVER);
+    assert_eq!(allows(&vulkan, -127), ALWAYS);
+    assert_eq!(allows(&vulkan, 0), NEVER);
     // A copy may give either code of -1.
     let webgpu = limits(Api::WebGpu);
-    assert_eq!(at(&webgpu, -127), ALWAYS);
-    assert_eq!(at(&webgpu, -128), ALWAYS);
-    assert_eq!(at(&webgpu, 0), NEVER);
+    assert_eq!(allows(&webgpu, -127), ALWAYS);
+    assert_eq!(allows(&webgpu, -128), ALWAYS);
+    assert_eq!(allows(&webgpu, 0), NEVER);
 }
 
 #[test]
@@ -65,15 +65,15 @@ fn logic_operations_apply_to_srgb_by_3_3_alone() {
             "passes":[{"color":["c"],"draws":[{"mesh":{"kind":"full"},"shader":"uniform_color","params":{"color":[1,1,1,1]},
               "logic":"xor"}]}],"read":["c"]}"#,
     );
-    let at = |limits: &Limits, order: i64| allowed(&scene, limits, 0, &[order; 4]);
+    let allows = |limits: &Limits, order: i64| allowed(&scene, limits, 0, &[order; 4]);
     let old = version(Api::OpenGl, 3, 3);
-    assert_eq!(at(&old, 0), ALWAYS);
-    assert_eq!(at(&old, 255), DISPUTED);
+    assert_eq!(allows(&old, 0), ALWAYS);
+    assert_eq!(allows(&old, 255), DISPUTED);
     // No reading permits a value between them.
-    assert_eq!(at(&old, 128), NEVER);
+    assert_eq!(allows(&old, 128), NEVER);
     let new = version(Api::OpenGl, 4, 6);
-    assert_eq!(at(&new, 255), ALWAYS);
-    assert_eq!(at(&new, 0), NEVER);
+    assert_eq!(allows(&new, 255), ALWAYS);
+    assert_eq!(allows(&new, 0), NEVER);
 }
 
 /// A draw with forced early tests on a stencil of 5. The sample mask excludes sample 1 of 4, or alpha is 0
@@ -190,7 +190,7 @@ fn alpha_to_one_is_sure_of_the_first_output_alone() {
 
 #[test]
 fn small_floats_of_opengl_keep_what_they_can_hold() {
-    let at = |value: f32, limits: &Limits, order: i64| {
+    let allows = |value: f32, limits: &Limits, order: i64| {
         let scene = scene(&format!(
             r#"{{"attachments":{{"c":{{"format":"rg11b10ufloat","size":[4,4],"clear":[0,0,0,0]}}}},
                 "passes":[{{"color":["c"],"draws":[{{"mesh":{{"kind":"full"}},"shader":"uniform_color",
@@ -202,21 +202,21 @@ fn small_floats_of_opengl_keep_what_they_can_hold() {
     let (largest, infinity) = ((31 << 6) - 1, 31 << 6);
     let vulkan = version(Api::Vulkan, 1, 3);
     for gl in [version(Api::OpenGl, 3, 3), version(Api::OpenGlEs, 3, 1)] {
-        assert_eq!(at(1e6, &gl, largest), ALWAYS);
-        assert_eq!(at(1e6, &gl, infinity), NEVER);
+        assert_eq!(allows(1e6, &gl, largest), ALWAYS);
+        assert_eq!(allows(1e6, &gl, infinity), NEVER);
         // 2^-20 is the least subnormal value.
-        assert_eq!(at(2_f32.powi(-20), &gl, 1), ALWAYS);
-        assert_eq!(at(2_f32.powi(-20), &gl, 0), NEVER);
+        assert_eq!(allows(2_f32.powi(-20), &gl, 1), ALWAYS);
+        assert_eq!(allows(2_f32.powi(-20), &gl, 0), NEVER);
         // 1 + 3/4 of a step: towards zero, or the nearest.
         let above = 1.0 + 0.75 / 64.0;
-        assert_eq!(at(above, &gl, 15 << 6), ALWAYS);
-        assert_eq!(at(above, &gl, (15 << 6) + 1), ALWAYS);
+        assert_eq!(allows(above, &gl, 15 << 6), ALWAYS);
+        assert_eq!(allows(above, &gl, (15 << 6) + 1), ALWAYS);
         // 1 + 1/4 of a step: both are 1.
         let near = 1.0 + 0.25 / 64.0;
-        assert_eq!(at(near, &gl, (15 << 6) + 1), NEVER);
-        assert_eq!(at(near, &vulkan, (15 << 6) + 1), ALWAYS);
+        assert_eq!(allows(near, &gl, (15 << 6) + 1), NEVER);
+        assert_eq!(allows(near, &vulkan, (15 << 6) + 1), ALWAYS);
     }
-    assert_eq!(at(1e6, &vulkan, infinity), ALWAYS);
+    assert_eq!(allows(1e6, &vulkan, infinity), ALWAYS);
 }
 
 #[test]
@@ -298,11 +298,11 @@ fn exporting(early: &str) -> Scene {
 #[test]
 fn the_reference_that_a_shader_writes_counts_in_the_bits_of_the_attachment() {
     for limits in [version(Api::Vulkan, 1, 3), version(Api::OpenGl, 3, 3)] {
-        for (early, due) in [("implicit", 44), ("forced", 9)] {
+        for (early, reference) in [("implicit", 44), ("forced", 9)] {
             let scene = exporting(early);
             for stored in [5, 9, 44, 255] {
                 let expected = match (early, stored) {
-                    _ if stored == due => ALWAYS,
+                    _ if stored == reference => ALWAYS,
                     // A shader that "should" run after the tests may run before them.
                     ("forced", 44) if limits.api == Api::Vulkan => DISPUTED,
                     _ => NEVER,
@@ -376,14 +376,17 @@ fn counted(early: &str, draws: &str) -> Scene {
 #[test]
 fn a_fragment_that_fails_its_late_tests_has_a_run_as_each_text_says() {
     let scene = counted("implicit", "COUNTED");
-    let one = (16, Some(16));
+    let exact = (16, Some(16));
     assert_eq!(runs(&scene, &version(Api::Vulkan, 1, 3)), [(16, None); 2]);
     assert_eq!(
         runs(&scene, &version(Api::OpenGlEs, 3, 1)),
-        [one, (0, Some(16))]
+        [exact, (0, Some(16))]
     );
-    assert_eq!(runs(&scene, &version(Api::OpenGl, 4, 5)), [one; 2]);
-    assert_eq!(runs(&scene, &version(Api::OpenGl, 4, 6)), [one, (0, None)]);
+    assert_eq!(runs(&scene, &version(Api::OpenGl, 4, 5)), [exact; 2]);
+    assert_eq!(
+        runs(&scene, &version(Api::OpenGl, 4, 6)),
+        [exact, (0, None)]
+    );
 }
 
 #[test]

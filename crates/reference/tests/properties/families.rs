@@ -158,6 +158,6 @@ fn hold(area: &str) {
 #[test]
 fn every_area_has_its_test() {
     let library = Library::built_in().expect("built-in files parse");
-    let all: BTreeSet<&str> = library.files().iter().map(area_of).collect();
-    assert_eq!(all, AREAS.iter().copied().collect());
+    let areas: BTreeSet<&str> = library.files().iter().map(area_of).collect();
+    assert_eq!(areas, AREAS.iter().copied().collect());
 }

@@ -37,10 +37,10 @@ fn floats_become_the_codes_of_the_conversion_rules() {
     ];
     for (encoding, value, low, high) in rows {
         for api in APIS {
-            let due = CodeInterval::new(low, high);
+            let expected = CodeInterval::new(low, high);
             assert_eq!(
                 stored(&Rules::of(&limits(api)), encoding, value),
-                due,
+                expected,
                 "{api} {encoding} {value}"
             );
         }
@@ -87,9 +87,9 @@ fn codes_become_the_fractions_that_they_stand_for() {
     }
 }
 
-/// Blends one colour over uploaded codes and compares the legal sets with the codes due: at most `most`
-/// codes per channel are legal, and by the yardstick that one alone.
-fn blended(blend: &str, src: &str, dst: &str, due: [i64; 4], most: u64) {
+/// Blends one colour over uploaded codes and compares the legal sets with the expected codes: at most `most`
+/// codes per channel are legal, and by the yardstick only the expected one.
+fn blended(blend: &str, src: &str, dst: &str, expected: [i64; 4], most: u64) {
     let scene = scene(&format!(
         r#"{{"attachments":{{"color":{{"format":"rgba8unorm","size":[1,1],"texels":{{"kind":"rows","values":[{dst}]}}}}}},
            "passes":[{{"color":["color"],"draws":[{{"mesh":{{"kind":"full"}},"shader":"uniform_color",
@@ -98,14 +98,14 @@ fn blended(blend: &str, src: &str, dst: &str, due: [i64; 4], most: u64) {
     for api in APIS {
         for judgement in judgements(&scene, &limits(api)) {
             let legal = judgement.legal.groups[0].sample(0, 0, 0);
-            assert!(legal.allows(&due), "{api} {blend}: {legal:?}");
+            assert!(legal.allows(&expected), "{api} {blend}: {legal:?}");
             for c in 0..4 {
                 let count = legal.count(c);
                 assert!(count <= most, "{api} {blend}, channel {c}: {count} codes");
             }
             let tight = judgement.yardstick.groups[0].sample(0, 0, 0);
             let exact = tight.worlds.len() == 1 && (0..4).all(|c| tight.count(c) == 1);
-            assert!(exact && tight.allows(&due), "{api} {blend}: {tight:?}");
+            assert!(exact && tight.allows(&expected), "{api} {blend}: {tight:?}");
         }
     }
 }
@@ -240,7 +240,7 @@ fn stencil_operations_are_integers_under_every_rule() {
         ("decrement-wrap", 0, 0, 0xff, 255),
         ("decrement-wrap", 0x10, 0, 0xf0, 0),
     ];
-    for (operation, stored, reference, mask, due) in rows {
+    for (operation, stored, reference, mask, expected) in rows {
         // Which of the three operations applies: the stencil test, then the depth test decides.
         for (key, function, depth) in [
             ("fail_op", "never", "always"),
@@ -257,7 +257,7 @@ fn stencil_operations_are_integers_under_every_rule() {
             let frame = draw(&scene);
             assert_eq!(
                 frame.images[1].codes,
-                [due],
+                [expected],
                 "{operation} of {stored} as {key}"
             );
             for rules in all_rules() {

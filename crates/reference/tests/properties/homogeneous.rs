@@ -80,20 +80,22 @@ fn inputs() -> impl Strategy<Value = Inputs> {
         prop_oneof![2 => Just(0.0_f32), 1 => select(vec![1.0_f32, -1.0])],
         select(vec![[0.0_f32, 1.0], [0.0, 1.0], [0.25, 0.75], [1.0, 0.0]]),
     )
-        .prop_map(|((topology, all), shader, samples, clamps, slope, depth)| {
-            let (vertices, uv) = all.into_iter().unzip();
-            Inputs {
-                topology,
-                vertices,
-                uv,
-                shader,
-                samples,
-                clamps,
-                slope,
-                // The rasterizer clamps a biased depth to the viewport's range, which not every API allows.
-                depth: if slope == 0.0 { depth } else { [0.0, 1.0] },
-            }
-        })
+        .prop_map(
+            |((topology, points), shader, samples, clamps, slope, depth)| {
+                let (vertices, uv) = points.into_iter().unzip();
+                Inputs {
+                    topology,
+                    vertices,
+                    uv,
+                    shader,
+                    samples,
+                    clamps,
+                    slope,
+                    // The rasterizer clamps a biased depth to the viewport's range, which not every API allows.
+                    depth: if slope == 0.0 { depth } else { [0.0, 1.0] },
+                }
+            },
+        )
 }
 
 fn scene_of(inputs: &Inputs) -> Scene {

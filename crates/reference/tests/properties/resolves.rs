@@ -29,8 +29,8 @@ fn vulkan_averages_within_a_code_for_each_halving() {
     // 63.75, rounded twice.
     assert_eq!((red, worlds), (CodeInterval::new(61, 66), 1));
     let half = hull(&quarter("rgba16float"), Api::Vulkan, 0).0;
-    let due = i64::from(0x3400_u16);
-    assert!(half.contains(due) && half.count() < 40, "{half:?}");
+    let expected = i64::from(0x3400_u16);
+    assert!(half.contains(expected) && half.count() < 40, "{half:?}");
     for api in [Api::OpenGl, Api::OpenGlEs, Api::WebGpu] {
         let (red, _) = hull(&quarter("rgba8unorm"), api, 0);
         assert_eq!(red, CodeInterval::new(0, 255), "{api}");

@@ -142,12 +142,12 @@ pub(crate) fn stencil() -> BoxedStrategy<String> {
         [op(), op(), op()],
         proptest::option::of((any::<u8>(), any::<u8>(), any::<u8>())),
     )
-        .prop_map(|(compare, [fail, depth_fail, pass], own)| {
-            let own = own.map_or(String::new(), |(r, w, v)| {
+        .prop_map(|(compare, [fail, depth_fail, pass], masks)| {
+            let keys = masks.map_or(String::new(), |(r, w, v)| {
                 format!(r#","read_mask":{r},"write_mask":{w},"reference":{v}"#)
             });
             format!(
-                r#"{{"compare":"{}","fail_op":"{fail}","depth_fail_op":"{depth_fail}","pass_op":"{pass}"{own}}}"#,
+                r#"{{"compare":"{}","fail_op":"{fail}","depth_fail_op":"{depth_fail}","pass_op":"{pass}"{keys}}}"#,
                 compare.name()
             )
         });

@@ -27,8 +27,8 @@ fn with_depths(scene: &Scene, code: impl Fn(usize, u32) -> u32) -> Frame {
     let depth = images.find(|i| i.aspect == Aspect::Depth).expect("a depth");
     for y in 0..8 {
         for x in 0..16 {
-            let at = &mut depth.codes[y * 16 + x];
-            *at = code(x / 2, *at);
+            let stored = &mut depth.codes[y * 16 + x];
+            *stored = code(x / 2, *stored);
         }
     }
     frame
@@ -71,17 +71,17 @@ fn another_step_is_legal_in_all_columns_alike_and_in_no_single_one() {
     let scene = linear();
     let larger = |column: usize, code: u32| code + CONSTANTS[column] / 2;
     // One and a half steps per unit, in the lower half too.
-    let mut whole = with_depths(&scene, larger);
-    let mut images = whole.images.iter_mut();
+    let mut stepped = with_depths(&scene, larger);
+    let mut images = stepped.images.iter_mut();
     let depth = images.find(|i| i.aspect == Aspect::Depth).expect("a depth");
     for code in &mut depth.codes[8 * 16..] {
         *code -= 1000;
     }
     for api in [Api::Vulkan, Api::OpenGl, Api::OpenGlEs] {
-        assert_eq!(wrong(&scene, api, &whole), (0, 0), "{api}");
+        assert_eq!(wrong(&scene, api, &stepped), (0, 0), "{api}");
     }
     for odd in 3..8 {
-        let one = with_depths(&scene, |column, code| {
+        let one_column = with_depths(&scene, |column, code| {
             if column == odd {
                 larger(column, code)
             } else {
@@ -89,7 +89,7 @@ fn another_step_is_legal_in_all_columns_alike_and_in_no_single_one() {
             }
         });
         for api in [Api::Vulkan, Api::OpenGl, Api::OpenGlEs] {
-            let (before, after) = wrong(&scene, api, &one);
+            let (before, after) = wrong(&scene, api, &one_column);
             assert_eq!(before, 0, "{api} column {odd}");
             assert!(after >= 16, "{api} column {odd}: {after}");
         }
@@ -124,11 +124,11 @@ fn half_a_step_of_floats_is_refused_and_webgpu_has_two_readings() {
         frame.images[0].codes.fill(bits);
         frame
     };
-    let due = frame.images[0].codes[0];
+    let expected = frame.images[0].codes[0];
     for api in [Api::Vulkan, Api::OpenGl, Api::OpenGlEs, Api::WebGpu] {
         assert_eq!(wrong(&scene, api, &frame).1, 0, "{api}");
         for constant in [5000, 7500, 9500, 10500, 20000] {
-            let other = with(due + constant - 10000);
+            let other = with(expected + constant - 10000);
             assert!(wrong(&scene, api, &other).1 > 0, "{api} {constant}");
         }
     }

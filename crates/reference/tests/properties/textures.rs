@@ -112,27 +112,27 @@ fn pairs(
     plain: &FragmentOutput<[f32; 1]>,
     judged: &FragmentOutput<Range>,
 ) -> Vec<(String, Range, [f32; 1])> {
-    let mut all = Vec::new();
+    let mut comparisons = Vec::new();
     for location in 0..3 {
         let (p, j) = (plain.at_location(location), judged.at_location(location));
         for c in 0..4 {
-            all.push((format!("location {location}, channel {c}"), j[c], p[c]));
+            comparisons.push((format!("location {location}, channel {c}"), j[c], p[c]));
         }
     }
     if let (Some(p), Some(j)) = (plain.depth, judged.depth) {
-        all.push(("depth".to_owned(), j, p));
+        comparisons.push(("depth".to_owned(), j, p));
     }
     if let (Some(p), Some(j)) = (&plain.reference, &judged.reference) {
-        all.push(("stencil reference".to_owned(), j.number, p.number));
+        comparisons.push(("stencil reference".to_owned(), j.number, p.number));
     }
     if let (Some(p), Some(j)) = (&plain.mask, &judged.mask) {
-        all.push(("sample mask".to_owned(), j.bits, p.bits));
+        comparisons.push(("sample mask".to_owned(), j.bits, p.bits));
     }
     if let (Some(p), Some(j)) = (&plain.kept, &judged.kept) {
-        all.push(("kept value".to_owned(), j.value, p.value));
-        all.push(("kept limit".to_owned(), j.limit, p.limit));
+        comparisons.push(("kept value".to_owned(), j.value, p.value));
+        comparisons.push(("kept limit".to_owned(), j.limit, p.limit));
     }
-    all
+    comparisons
 }
 
 proptest! {
@@ -258,9 +258,9 @@ fn three_flat_layers_peel_one_by_one() {
     let scene = peeled(4);
     let (frame, found) = legal(&scene);
     assert_eq!(found.texels.open, 0);
-    let due = [[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255], [0; 4]];
-    for (image, due) in frame.images.iter().zip(due) {
-        assert_eq!(image.sample(1, 2, 0), due, "{}", image.attachment);
+    let layers = [[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255], [0; 4]];
+    for (image, layer) in frame.images.iter().zip(layers) {
+        assert_eq!(image.sample(1, 2, 0), layer, "{}", image.attachment);
     }
     // A picture with two layers exchanged is wrong.
     let mut swapped = frame.clone();
@@ -312,8 +312,9 @@ fn two_layers_peel_from_both_sides() {
 #[test]
 fn a_weighted_composite_over_earlier_passes_is_legal() {
     let part = |src: &str, dst: &str| {
-        let one = format!(r#"{{"operation":"add","src_factor":"{src}","dst_factor":"{dst}"}}"#);
-        format!(r#"{{"blend":{{"color":{one},"alpha":{one}}}}}"#)
+        let component =
+            format!(r#"{{"operation":"add","src_factor":"{src}","dst_factor":"{dst}"}}"#);
+        format!(r#"{{"blend":{{"color":{component},"alpha":{component}}}}}"#)
     };
     let targets = format!("[{},{}]", part("one", "one"), part("zero", "one-minus-src"));
     let layers = [
@@ -389,12 +390,15 @@ fn a_sampler_on_what_was_drawn_asserts_nothing_false() {
 fn check_sampled(id: &str, scene: &Scene, most: u64) {
     let texels = Texels::AtMost(most);
     let limits = limits(etalon_frame::Api::Vulkan);
-    let all = judgements(scene, &limits);
+    let complete = judgements(scene, &limits);
     let some = judgements_of(scene, &limits, texels);
-    assert_eq!(all.len(), some.len());
-    for (all, some) in all.iter().zip(&some) {
+    assert_eq!(complete.len(), some.len());
+    for (complete, some) in complete.iter().zip(&some) {
         let mut looked_at = 0;
-        for (full, part) in [(&all.legal, &some.legal), (&all.yardstick, &some.yardstick)] {
+        for (full, part) in [
+            (&complete.legal, &some.legal),
+            (&complete.yardstick, &some.yardstick),
+        ] {
             looked_at = 0;
             assert_eq!(full.images, part.images, "{id}");
             for (full, part) in full.groups.iter().zip(&part.groups) {

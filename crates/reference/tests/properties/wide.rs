@@ -74,8 +74,8 @@ fn mesh() -> BoxedStrategy<(&'static str, String)> {
         .prop_map(|(topology, positions, values, indices)| {
             let indices = match indices {
                 // A list has no restart index.
-                Some(all) if topology.ends_with("strip") || topology.ends_with("fan") => {
-                    format!(r#","indices":[{}]"#, all.join(","))
+                Some(listed) if topology.ends_with("strip") || topology.ends_with("fan") => {
+                    format!(r#","indices":[{}]"#, listed.join(","))
                 }
                 _ => String::new(),
             };
@@ -197,7 +197,7 @@ fn colors(ground: Ground, dual_source: bool) -> BoxedStrategy<String> {
         })
         .boxed();
     let each = list(target, ground.targets..=ground.targets)
-        .prop_map(|all| format!(r#","targets":{all},"blend_constant":[0.2,0.4,0.6,0.8]"#));
+        .prop_map(|targets| format!(r#","targets":{targets},"blend_constant":[0.2,0.4,0.6,0.8]"#));
     prop_oneof![3 => each, 1 => logic].boxed()
 }
 
@@ -217,9 +217,9 @@ fn multisample() -> BoxedStrategy<String> {
         any::<bool>(),
         any::<bool>(),
     )
-        .prop_map(|(mask, coverage, one)| {
+        .prop_map(|(mask, coverage, to_one)| {
             format!(
-                r#","multisample":{{"mask":{mask},"alpha_to_coverage":{coverage},"alpha_to_one":{one}}}"#
+                r#","multisample":{{"mask":{mask},"alpha_to_coverage":{coverage},"alpha_to_one":{to_one}}}"#
             )
         })
         .boxed()

@@ -55,9 +55,9 @@ fn triangulate(
 }
 
 fn grid(step: f64, from: f64, n: usize) -> Vec<Vec<[f64; 2]>> {
-    let at = |i: usize| from + step * i as f64;
+    let coordinate = |i: usize| from + step * i as f64;
     (0..n)
-        .map(|j| (0..n).map(|i| [at(i), at(j)]).collect())
+        .map(|j| (0..n).map(|i| [coordinate(i), coordinate(j)]).collect())
         .collect()
 }
 
@@ -89,8 +89,8 @@ fn samples_on_edges_count_exactly_once_where_the_rules_say_so() {
                     let on_vertex = x % 2 == 0 && y % 2 == 0;
                     if api != Api::WebGpu {
                         // Left and top borders are covered, right and bottom ones are not.
-                        let due = vec![i64::from(inside)];
-                        assert_eq!(counts(tight), due, "{api} ({x}, {y})");
+                        let expected = vec![i64::from(inside)];
+                        assert_eq!(counts(tight), expected, "{api} ({x}, {y})");
                     }
                     let legal = counts(legal);
                     if !reached {
@@ -155,8 +155,8 @@ fn a_later_draw_does_not_close_an_open_sample() {
             &limits(Api::WebGpu),
             &Rules::of(&limits(Api::WebGpu)),
         );
-        let all = (0..SIZE * SIZE).map(|i| set.groups[0].sample(i % SIZE, i / SIZE, 0).is_open());
-        all.collect::<Vec<bool>>()
+        let open = (0..SIZE * SIZE).map(|i| set.groups[0].sample(i % SIZE, i / SIZE, 0).is_open());
+        open.collect::<Vec<bool>>()
     };
     let before = open(&scene);
     assert!(

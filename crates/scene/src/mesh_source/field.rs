@@ -76,16 +76,16 @@ impl Builder {
             return Err(format!("a primitive needs {needs:?} texels of its cell"));
         }
         let [columns, rows] = [self.size[0] / width, self.size[1] / height];
-        let all = u64::from(columns) * u64::from(rows);
-        let count = field.count.map_or(all, u64::from);
-        if count == 0 || count > all {
-            return Err(format!("{all} primitives fit into {:?}", self.size));
+        let capacity = u64::from(columns) * u64::from(rows);
+        let count = field.count.map_or(capacity, u64::from);
+        if count == 0 || count > capacity {
+            return Err(format!("{capacity} primitives fit into {:?}", self.size));
         }
         if values.is_empty() {
             return Err("`values` must not be empty".to_owned());
         }
         let corners = field.of.corners();
-        let at = DVec2::new(f64::from(x), f64::from(y));
+        let offset = DVec2::new(f64::from(x), f64::from(y));
         for i in 0..field.spare as usize {
             let [x, y] = [[-2.0, -2.0], [8.0, -2.0], [-2.0, 8.0]][i % 3];
             self.vertices.push(Vertex {
@@ -99,7 +99,7 @@ impl Builder {
             let row = i / u64::from(columns) * u64::from(height);
             let cell = DVec2::new(column as f64, row as f64);
             for corner in corners {
-                let position = self.clip(cell + at + DVec2::from_array(*corner), z);
+                let position = self.clip(cell + offset + DVec2::from_array(*corner), z);
                 self.vertices.push(Vertex {
                     position,
                     color: *value,
@@ -118,10 +118,10 @@ mod tests {
     #[test]
     fn a_triangle_covers_the_centre_of_its_texel_and_no_other() {
         let corners = FieldOf::Triangles.corners();
-        let distance = |at: [f64; 2]| -> f64 {
+        let distance = |point: [f64; 2]| -> f64 {
             let edge = |i: usize| {
                 let ([ax, ay], [bx, by]) = (corners[i], corners[(i + 1) % 3]);
-                let cross = (bx - ax) * (at[1] - ay) - (by - ay) * (at[0] - ax);
+                let cross = (bx - ax) * (point[1] - ay) - (by - ay) * (point[0] - ax);
                 // For a counter-clockwise triangle with y down, the edge function is negative inside.
                 -cross / (bx - ax).hypot(by - ay)
             };
@@ -142,37 +142,37 @@ mod tests {
 
     #[test]
     fn a_field_has_so_many_primitives_as_are_asked_for() {
-        let field = |of, count, spare| {
+        let field = |kind, count, spare| {
             let mut builder = Builder::new([16, 8]);
-            let (cell, at) = (None, [0; 2]);
+            let (cell, texel) = (None, [0; 2]);
             let field = Field {
-                of,
+                of: kind,
                 cell,
-                at,
+                at: texel,
                 count,
                 spare,
             };
             let indices = builder.field(&field, 0.0, &[[0.0; 4], [1.0; 4]])?;
             Ok::<_, String>((builder.vertices, indices))
         };
-        for (of, due) in [
+        for (kind, expected) in [
             (FieldOf::Triangles, 128 * 3),
             (FieldOf::Points, 128),
             (FieldOf::Lines, 16 * 2),
             (FieldOf::Outlines, 2 * 3),
         ] {
-            let (vertices, indices) = field(of, None, 0).expect("it fits");
-            assert_eq!((vertices.len(), indices.len()), (due, due));
+            let (vertices, indices) = field(kind, None, 0).expect("it fits");
+            assert_eq!((vertices.len(), indices.len()), (expected, expected));
         }
         let (vertices, indices) = field(FieldOf::Triangles, Some(5), 2).expect("it fits");
         assert_eq!((vertices.len(), indices.len()), (17, 15));
         assert_eq!((indices[0], indices[14]), (2, 16));
         assert_eq!([vertices[2].color, vertices[5].color], [[0.0; 4], [1.0; 4]]);
-        let sparse = |at| {
+        let sparse = |texel| {
             let field = Field {
                 of: FieldOf::Points,
                 cell: Some([8, 4]),
-                at,
+                at: texel,
                 count: None,
                 spare: 0,
             };

@@ -26,24 +26,24 @@ impl Builder {
     /// Adds the vertices of a strip with `count` primitives that cover texels of their own.
     pub(super) fn strip(
         &mut self,
-        of: StripOf,
+        kind: StripOf,
         count: u32,
         z: f32,
         value: [f32; 4],
     ) -> Result<(), String> {
         let [width, height] = self.size;
-        let [columns, rows] = match of {
+        let [columns, rows] = match kind {
             StripOf::Triangles => [width, height / 2 * 2],
             StripOf::Lines => [width / 8, height],
         };
-        let all = u64::from(columns) * u64::from(rows);
-        if count == 0 || u64::from(count) > all {
-            return Err(format!("{all} primitives fit into {:?}", self.size));
+        let capacity = u64::from(columns) * u64::from(rows);
+        if count == 0 || u64::from(count) > capacity {
+            return Err(format!("{capacity} primitives fit into {:?}", self.size));
         }
-        if of == StripOf::Lines && count > rows && rows.is_multiple_of(2) {
+        if kind == StripOf::Lines && count > rows && rows.is_multiple_of(2) {
             return Err("lines in several columns need an odd number of rows".to_owned());
         }
-        let points = match of {
+        let points = match kind {
             StripOf::Triangles => triangles(width, count),
             StripOf::Lines => lines(rows, count),
         };
@@ -160,7 +160,7 @@ mod tests {
 
     #[test]
     fn a_strip_that_does_not_fit_is_an_error() {
-        let strip = |of, size, count| Builder::new(size).strip(of, count, 0.0, [0.0; 4]);
+        let strip = |kind, size, count| Builder::new(size).strip(kind, count, 0.0, [0.0; 4]);
         assert!(strip(StripOf::Triangles, [4, 5], 16).is_ok());
         assert!(strip(StripOf::Triangles, [4, 5], 17).is_err());
         assert!(strip(StripOf::Triangles, [4, 5], 0).is_err());

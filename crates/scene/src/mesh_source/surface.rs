@@ -43,8 +43,8 @@ impl Builder {
                 });
             }
         }
-        let at = |column: u32, row: u32| row * (columns + 1) + column;
-        Ok(quads([columns, rows], at))
+        let vertex = |column: u32, row: u32| row * (columns + 1) + column;
+        Ok(quads([columns, rows], vertex))
     }
 
     /// Adds a torus and returns the indices of its triangles.
@@ -58,7 +58,7 @@ impl Builder {
             return Err("a torus has at least 3 segments each way".to_owned());
         }
         self.fits(around, tube)?;
-        let angle = |i: u32, of: u32| TAU * f64::from(i) / f64::from(of);
+        let angle = |i: u32, segments: u32| TAU * f64::from(i) / f64::from(segments);
         let [large, small] = RADII;
         for j in 0..tube {
             // Starts at the outside and goes over the far half first, so the first rows move away from the
@@ -77,8 +77,8 @@ impl Builder {
                 });
             }
         }
-        let at = |i: u32, j: u32| (j % tube) * around + i % around;
-        Ok(quads([around, tube], at))
+        let vertex = |i: u32, j: u32| (j % tube) * around + i % around;
+        Ok(quads([around, tube], vertex))
     }
 
     fn fits(&self, columns: u32, rows: u32) -> Result<(), String> {
@@ -90,14 +90,15 @@ impl Builder {
     }
 }
 
-/// Returns two triangles for each cell of a surface, cut from bottom left to top right; `at` gives the
+/// Returns two triangles for each cell of a surface, cut from bottom left to top right; `vertex` gives the
 /// vertices' indices. They are counter-clockwise if columns go right and rows go down.
-fn quads([columns, rows]: [u32; 2], at: impl Fn(u32, u32) -> u32) -> Vec<u32> {
+fn quads([columns, rows]: [u32; 2], vertex: impl Fn(u32, u32) -> u32) -> Vec<u32> {
     let mut indices = Vec::with_capacity(6 * columns as usize * rows as usize);
     for row in 0..rows {
         for column in 0..columns {
-            let (top_left, top_right) = (at(column, row), at(column + 1, row));
-            let (bottom_left, bottom_right) = (at(column, row + 1), at(column + 1, row + 1));
+            let (top_left, top_right) = (vertex(column, row), vertex(column + 1, row));
+            let (bottom_left, bottom_right) =
+                (vertex(column, row + 1), vertex(column + 1, row + 1));
             indices.extend([bottom_left, bottom_right, top_right]);
             indices.extend([bottom_left, top_right, top_left]);
         }

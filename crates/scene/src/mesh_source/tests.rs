@@ -87,8 +87,9 @@ fn more_columns_than_texels_are_refused() {
 }
 
 fn triangles(mesh: &Mesh) -> Vec<[usize; 3]> {
-    let all = mesh.primitives(PrimitiveTopology::TriangleList);
-    all.into_iter()
+    let primitives = mesh.primitives(PrimitiveTopology::TriangleList);
+    primitives
+        .into_iter()
         .map(|p| match p {
             PrimitiveVertices::Triangle(t) => t,
             other => panic!("{other:?} is not a triangle"),
@@ -119,9 +120,9 @@ fn a_grid_covers_every_centre_once_with_room() {
     // Cells of several texels, of one texel, and parts of a texel.
     for (cells, size) in [([4, 3], [16, 12]), ([8, 8], [8, 8]), ([24, 24], [8, 8])] {
         let mesh = grid(cells, size);
-        let all = triangles(&mesh);
-        assert_eq!(all.len() as u32, 2 * cells[0] * cells[1]);
-        assert!(all.iter().all(|t| area(&mesh, *t) > 0.0));
+        let triangles = triangles(&mesh);
+        assert_eq!(triangles.len() as u32, 2 * cells[0] * cells[1]);
+        assert!(triangles.iter().all(|t| area(&mesh, *t) > 0.0));
         let texels = |i: usize| {
             let [x, y, ..] = mesh.vertices[i].position.map(f64::from);
             DVec2::new(
@@ -130,21 +131,18 @@ fn a_grid_covers_every_centre_once_with_room() {
             )
         };
         // The first cells' diagonals pass through centres, which both triangles of the cell share.
-        let whole = cells[0] >= size[0];
+        let fine = cells[0] >= size[0];
         for y in 0..size[1] {
             for x in 0..size[0] {
                 let centre = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
                 let mut covered = 0;
-                for t in &all {
+                for t in &triangles {
                     let p = t.map(texels);
                     let sides = [(p[0], p[1]), (p[1], p[2]), (p[2], p[0])];
                     let distances = sides.map(|(a, b)| -(b - a).normalize().perp_dot(centre - a));
                     let least = distances.into_iter().fold(f64::MAX, f64::min);
                     covered += u32::from(least > 0.0);
-                    assert!(
-                        !whole || least.abs() > 0.08,
-                        "{cells:?} ({x}, {y}): {least}"
-                    );
+                    assert!(!fine || least.abs() > 0.08, "{cells:?} ({x}, {y}): {least}");
                 }
                 assert_eq!(covered, 1, "{cells:?} ({x}, {y})");
             }
@@ -159,10 +157,10 @@ fn a_torus_is_closed_and_faces_outwards() {
         value: Splat([1.0; 4]),
     };
     let mesh = source.expand([64, 64]).expect("valid");
-    let all = triangles(&mesh);
-    assert_eq!(all.len(), 2 * 16 * 12);
+    let triangles = triangles(&mesh);
+    assert_eq!(triangles.len(), 2 * 16 * 12);
     let mut edges: HashMap<(usize, usize), i32> = HashMap::new();
-    for [a, b, c] in &all {
+    for [a, b, c] in &triangles {
         for (from, to) in [(a, b), (b, c), (c, a)] {
             *edges.entry((*from, *to)).or_default() += 1;
         }
@@ -172,7 +170,7 @@ fn a_torus_is_closed_and_faces_outwards() {
         assert_eq!((*count, edges.get(&(*to, *from))), (1, Some(&1)));
     }
     // Triangles of the nearer half face the eye.
-    for t in all {
+    for t in triangles {
         let depth = t.map(|i| f64::from(mesh.vertices[i].position[2]));
         let nearer = depth.iter().sum::<f64>() / 3.0 < 0.5;
         assert_eq!(area(&mesh, t) > 0.0, nearer, "{t:?}");

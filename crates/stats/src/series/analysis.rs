@@ -69,17 +69,17 @@ impl Changes {
         before.map_or(0, |place| self.points[place].index)
     }
 
-    /// Returns the changes of a series that has grown. `all` contains the old runs and the new ones.
+    /// Returns the changes of a series that has grown. `runs` contains the old runs and the new ones.
     ///
     /// Runs before [`Changes::settled`] are not analysed again, so the cost grows with the runs since then
     /// and not with the history. Their changes stay as they are.
     ///
     /// # Errors
     /// As for [`change_points`].
-    pub fn append(&self, all: &[Point]) -> Result<Self, PointError> {
-        let start = self.settled().min(all.len());
-        check(&all[start..])?;
-        let mut tail = analyze(&all[start..]);
+    pub fn append(&self, runs: &[Point]) -> Result<Self, PointError> {
+        let start = self.settled().min(runs.len());
+        check(&runs[start..])?;
+        let mut tail = analyze(&runs[start..]);
         for point in &mut tail.points {
             point.index += start;
             point.between = point.between.map(|index| index + start);
@@ -99,7 +99,7 @@ impl Changes {
             points,
             drifts,
             noise: tail.noise,
-            runs: all.len(),
+            runs: runs.len(),
         })
     }
 }

@@ -59,14 +59,14 @@ impl Seen {
     }
 
     fn up_to(&self, rank: usize) -> (f64, f64) {
-        let mut all = (0.0, 0.0);
+        let mut sums = (0.0, 0.0);
         let mut node = rank;
         while node > 0 {
             let (count, sum) = self.0[node];
-            all = (all.0 + count, all.1 + sum);
+            sums = (sums.0 + count, sums.1 + sum);
             node &= node - 1;
         }
-        all
+        sums
     }
 }
 

@@ -8,7 +8,7 @@ mod simulated;
 
 use etalon_stats::{Conclusion, LEVEL};
 
-fn told(outcome: Conclusion) -> bool {
+fn is_different(outcome: Conclusion) -> bool {
     matches!(outcome, Conclusion::Faster | Conclusion::Slower)
 }
 

@@ -121,7 +121,7 @@ pub(crate) fn series(random: &mut Rand64, machine: Machine, size: f64) -> Series
     let free = RUNS as u64 - (STEPS as u64 + 1) * APART;
     let mut steps: Vec<u64> = (0..STEPS).map(|_| random.rand_range(0..free)).collect();
     steps.sort_unstable();
-    let place = |(i, at): (usize, &u64)| (*at + (i as u64 + 1) * APART) as usize;
+    let place = |(i, step): (usize, &u64)| (*step + (i as u64 + 1) * APART) as usize;
     let steps: Vec<usize> = steps.iter().enumerate().map(place).collect();
     let signs: Vec<f64> = steps
         .iter()
@@ -191,7 +191,7 @@ impl Score {
     pub(crate) fn precision(&self) -> f64 {
         match self.hits + self.wrong {
             0 => 1.0,
-            all => self.hits as f64 / all as f64,
+            found => self.hits as f64 / found as f64,
         }
     }
 }

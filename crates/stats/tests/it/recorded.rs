@@ -2,7 +2,7 @@
 //! During `drifting.csv` its clock slowed down in steps: the last rounds took a tenth longer than the
 //! first. `steady.csv` is from a calmer minute.
 
-use crate::{most, told};
+use crate::{is_different, most};
 use etalon_stats::{Conclusion, LEVEL, POWER, Samples, Why, compare, smallest_visible};
 use oorandom::Rand64;
 
@@ -26,9 +26,9 @@ fn recorded(text: &str) -> Vec<Round> {
             frames: frames.to_vec(),
         }
     };
-    let all: Vec<Round> = text.lines().map(round).collect();
-    assert!(all.len() >= 40, "{}", all.len());
-    all
+    let rounds: Vec<Round> = text.lines().map(round).collect();
+    assert!(rounds.len() >= 40, "{}", rounds.len());
+    rounds
 }
 
 /// The rounds as a bench whose frames took a factor longer.
@@ -50,18 +50,18 @@ fn drawn(rounds: &mut [Round], each: usize, random: &mut Rand64) -> (Vec<Round>,
 
 #[test]
 fn a_clock_that_slowed_down_is_seen_as_such() {
-    let all = recorded(DRIFTING);
-    let comparison = compare(&bench(&all[..30], 1.0), &bench(&all[30..], 1.0));
+    let rounds = recorded(DRIFTING);
+    let comparison = compare(&bench(&rounds[..30], 1.0), &bench(&rounds[30..], 1.0));
     assert_eq!(comparison.outcome, Conclusion::CannotTell(Why::Drift));
     assert!(comparison.ratio.low > 1.01, "{comparison:?}");
     assert!(comparison.ruled.unwrap().high < 1.04, "{comparison:?}");
     // The same for any two stretches of a dozen rounds.
     for first in (0..48).step_by(4) {
         for second in (0..48).step_by(4) {
-            let before = bench(&all[first..first + 12], 1.0);
-            let after = bench(&all[second..second + 12], 1.0);
+            let before = bench(&rounds[first..first + 12], 1.0);
+            let after = bench(&rounds[second..second + 12], 1.0);
             let outcome = compare(&before, &after).outcome;
-            assert!(!told(outcome), "{first} {second} {outcome:?}");
+            assert!(!is_different(outcome), "{first} {second} {outcome:?}");
         }
     }
 }
@@ -69,14 +69,14 @@ fn a_clock_that_slowed_down_is_seen_as_such() {
 #[test]
 fn the_same_work_is_not_called_different() {
     for (text, each) in [(DRIFTING, 12), (STEADY, 12), (STEADY, 20)] {
-        let mut all = recorded(text);
+        let mut rounds = recorded(text);
         let mut random = Rand64::new(1);
         let trials = 1_500;
         let (mut wrong, mut outside) = (0, 0);
         for _ in 0..trials {
-            let (before, after) = drawn(&mut all, each, &mut random);
+            let (before, after) = drawn(&mut rounds, each, &mut random);
             let comparison = compare(&bench(&before, 1.0), &bench(&after, 1.0));
-            wrong += u32::from(told(comparison.outcome));
+            wrong += u32::from(is_different(comparison.outcome));
             let ratio = comparison.ratio;
             outside += u32::from(ratio.low > 1.0 || ratio.high < 1.0);
         }
@@ -99,16 +99,16 @@ fn planted_changes_are_found_in_recorded_samples() {
             let slower = trial % 2 == 0;
             let factor = if slower { change } else { 1.0 / change };
             let (before, after) = (bench(&before, 1.0), bench(&after, factor));
-            let due = if slower {
+            let expected = if slower {
                 Conclusion::Slower
             } else {
                 Conclusion::Faster
             };
             let outcome = compare(&before, &after).outcome;
-            assert!(outcome == due || !told(outcome));
+            assert!(outcome == expected || !is_different(outcome));
             if change > smallest_visible(&before, &after).unwrap() {
                 above += 1;
-                found += u32::from(outcome == due);
+                found += u32::from(outcome == expected);
             }
         }
         println!("{change}: {found} of {above}");

@@ -133,7 +133,7 @@ fn a_step_that_the_ruler_shares_is_the_machine_s() {
     let with = |ruler_after: f64, noise: f64, random: &mut Rand64| -> Cause {
         let mut rulers = level(random, 40, 2.0, noise);
         rulers.extend(level(random, 40, 2.0 * ruler_after, noise));
-        let all: Vec<Point> = points(&times)
+        let points: Vec<Point> = points(&times)
             .into_iter()
             .zip(rulers)
             .map(|(p, ruler)| Point {
@@ -141,7 +141,7 @@ fn a_step_that_the_ruler_shares_is_the_machine_s() {
                 ..p
             })
             .collect();
-        let changes = change_points(&all).unwrap();
+        let changes = change_points(&points).unwrap();
         assert_eq!(indices(&changes), [40]);
         changes.points[0].cause
     };
@@ -158,7 +158,7 @@ fn a_step_that_the_ruler_shares_is_the_machine_s() {
 fn a_ruler_that_steps_alone_is_no_change() {
     let mut random = Rand64::new(8);
     let times = level(&mut random, 80, 1.0, 0.01);
-    let all: Vec<Point> = points(&times)
+    let points: Vec<Point> = points(&times)
         .into_iter()
         .enumerate()
         .map(|(i, p)| Point {
@@ -166,7 +166,7 @@ fn a_ruler_that_steps_alone_is_no_change() {
             ..p
         })
         .collect();
-    assert_eq!(change_points(&all).unwrap().points, []);
+    assert_eq!(change_points(&points).unwrap().points, []);
 }
 
 #[test]
@@ -218,8 +218,8 @@ fn any(seed: u128) -> Vec<f64> {
     let mut times = Vec::new();
     for _ in 0..random.rand_range(1..6) {
         let runs = random.rand_range(5..70) as usize;
-        let at = 1.0 + 0.3 * random.rand_float();
-        times.extend(level(&mut random, runs, at, noise));
+        let time = 1.0 + 0.3 * random.rand_float();
+        times.extend(level(&mut random, runs, time, noise));
     }
     times
 }
@@ -241,8 +241,8 @@ fn scale_and_direction_of_a_series_do_not_matter() {
         let backwards: Vec<f64> = times.iter().rev().copied().collect();
         let mut mirrored = indices(&found(&backwards));
         mirrored.reverse();
-        let due: Vec<usize> = mirrored.iter().map(|at| times.len() - at).collect();
-        assert_eq!(due, indices(&changes), "{seed}");
+        let expected: Vec<usize> = mirrored.iter().map(|index| times.len() - index).collect();
+        assert_eq!(expected, indices(&changes), "{seed}");
         for point in &changes.points {
             assert!(point.between[0] < point.index && point.index <= point.between[1]);
             assert!(
@@ -258,44 +258,47 @@ fn run_by_run_gives_the_same_as_all_at_once() {
     for seed in 0..12 {
         let mut random = Rand64::new(seed);
         let mut times = Vec::new();
-        for at in [1.0, 1.1, 1.05, 1.3, 1.2] {
-            times.extend(level(&mut random, 90, at, 0.01));
+        for time in [1.0, 1.1, 1.05, 1.3, 1.2] {
+            times.extend(level(&mut random, 90, time, 0.01));
         }
-        let all = points(&times);
-        let mut grown = change_points(&all[..100]).unwrap();
-        for runs in 101..=all.len() {
-            grown = grown.append(&all[..runs]).unwrap();
+        let points = points(&times);
+        let mut grown = change_points(&points[..100]).unwrap();
+        for runs in 101..=points.len() {
+            grown = grown.append(&points[..runs]).unwrap();
         }
-        let due = change_points(&all).unwrap();
-        assert_eq!(indices(&grown), indices(&due), "{seed}");
+        let expected = change_points(&points).unwrap();
+        assert_eq!(indices(&grown), indices(&expected), "{seed}");
         assert_eq!(grown.settled(), 270);
         // Earlier points are not read.
-        let mut other = all.clone();
+        let mut other = points.clone();
         other[..200].fill(Point {
             median: 9.0,
-            ..all[0]
+            ..points[0]
         });
-        assert_eq!(grown.append(&other).unwrap(), grown.append(&all).unwrap());
+        assert_eq!(
+            grown.append(&other).unwrap(),
+            grown.append(&points).unwrap()
+        );
     }
 }
 
 #[test]
 fn intervals_and_places_hold_what_was_planted() {
-    let (mut held, mut inside, mut all) = (0, 0, 0);
+    let (mut held, mut inside, mut total) = (0, 0, 0);
     for seed in 0..400 {
         let mut random = Rand64::new(seed);
         let mut times = level(&mut random, 50, 1.0, 0.01);
         times.extend(level(&mut random, 30, 1.015, 0.01));
         for point in found(&times).points {
-            all += 1;
+            total += 1;
             held += usize::from(point.ratio.low <= 1.015 && 1.015 <= point.ratio.high);
             inside += usize::from(point.between[0] < 50 && 50 <= point.between[1]);
         }
     }
-    println!("{all}: {held} intervals, {inside} places");
-    assert!(all > 350, "{all}");
-    assert!(held * 100 >= 98 * all, "{held} of {all}");
-    assert!(inside * 100 >= 96 * all, "{inside} of {all}");
+    println!("{total}: {held} intervals, {inside} places");
+    assert!(total > 350, "{total}");
+    assert!(held * 100 >= 98 * total, "{held} of {total}");
+    assert!(inside * 100 >= 96 * total, "{inside} of {total}");
 }
 
 #[test]
@@ -333,7 +336,7 @@ fn score(machine: Machine, size: f64) -> Score {
 #[test]
 fn planted_steps_are_found_and_little_else() {
     // Machine, size, floors of recall and precision.
-    for (at, size, recall, precision) in [
+    for (number, size, recall, precision) in [
         (0, 0.02, 0.95, 0.95),
         (0, 0.05, 0.99, 0.98),
         (0, 0.2, 0.99, 0.98),
@@ -349,10 +352,10 @@ fn planted_steps_are_found_and_little_else() {
         (8, 0.2, 0.92, 0.88),
         (9, 0.05, 0.75, 0.95),
     ] {
-        let machine = MACHINES[at];
+        let machine = MACHINES[number];
         let score = score(machine, size);
         println!(
-            "{at} {size}: {:.2} {:.2}",
+            "{number} {size}: {:.2} {:.2}",
             score.recall(),
             score.precision()
         );
@@ -372,9 +375,13 @@ fn planted_steps_are_found_and_little_else() {
 #[test]
 fn noise_alone_gives_no_alarm() {
     // 6,000 runs each; without a ruler, the paces (7) look like steps.
-    for (at, machine) in MACHINES.into_iter().enumerate().filter(|(at, _)| *at != 7) {
+    for (number, machine) in MACHINES
+        .into_iter()
+        .enumerate()
+        .filter(|(number, _)| *number != 7)
+    {
         let score = score(machine, 0.0);
-        println!("{at}: {} in {} runs", score.wrong, score.runs);
+        println!("{number}: {} in {} runs", score.wrong, score.runs);
         assert!(score.wrong <= 6, "{}: {score:?}", machine.name);
     }
 }
@@ -416,19 +423,19 @@ fn recorded_steps_are_found_and_little_else() {
     assert!(score.recall() >= 0.8, "{score:?}");
     assert!(score.precision() >= 0.8, "{score:?}");
     let middle = |from: usize, to: usize| {
-        let mut all: Vec<f64> = points[from..to].iter().map(|p| p.median).collect();
-        all.sort_unstable_by(f64::total_cmp);
-        quantile(&all, 0.5).unwrap()
+        let mut medians: Vec<f64> = points[from..to].iter().map(|p| p.median).collect();
+        medians.sort_unstable_by(f64::total_cmp);
+        quantile(&medians, 0.5).unwrap()
     };
     let first = changes
         .points
         .iter()
         .find(|p| p.index.abs_diff(40) <= 5)
         .unwrap();
-    let due = middle(40, 80) / middle(0, 40);
+    let expected = middle(40, 80) / middle(0, 40);
     assert!(
-        (first.ratio.estimate / due - 1.0).abs() < 0.02,
-        "{first:?} {due}"
+        (first.ratio.estimate / expected - 1.0).abs() < 0.02,
+        "{first:?} {expected}"
     );
 }
 

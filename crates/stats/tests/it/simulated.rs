@@ -1,6 +1,6 @@
 //! Simulated benches: planted changes are found, and the same thing twice is not called different.
 
-use crate::{most, told};
+use crate::{is_different, most};
 use etalon_stats::{
     CONFIDENCE, Conclusion, LEVEL, POWER, Samples, Why, compare, smallest_visible, summarize,
 };
@@ -69,29 +69,29 @@ fn chance(random: &mut Rand64, share: f64) -> bool {
 /// A bench of a frame that takes 3 ms times a factor when nothing disturbs it.
 fn bench(random: &mut Rand64, noise: Noise, rounds: usize, factor: f64) -> Samples {
     let pace = noise.pace * normal(random);
-    let mut all = Vec::new();
+    let mut samples = Vec::new();
     let mut rulers = Vec::new();
     for round in 0..rounds {
         let mut common = pace + noise.drift * round as f64 / rounds as f64;
         if chance(random, noise.disturbed) {
             common += 0.4 * random.rand_float();
         }
-        let own = common + noise.round * normal(random);
+        let shift = common + noise.round * normal(random);
         let mut deviation = noise.frame * normal(random);
         let mut frames = Vec::new();
         for _ in 0..FRAMES {
             // Half of a frame's deviation comes from the frame before it.
             deviation = 0.5 * deviation + 0.75_f64.sqrt() * noise.frame * normal(random);
-            let mut time = 0.003 * factor * (own + deviation).exp();
+            let mut time = 0.003 * factor * (shift + deviation).exp();
             if chance(random, noise.outliers) {
                 time *= 1.0 - (1.0 - random.rand_float()).ln();
             }
             frames.push(time);
         }
-        all.push(frames);
+        samples.push(frames);
         rulers.push(0.002 * (common + noise.ruler * normal(random)).exp());
     }
-    Samples::new(&all).unwrap().with_ruler(&rulers).unwrap()
+    Samples::new(&samples).unwrap().with_ruler(&rulers).unwrap()
 }
 
 #[test]
@@ -129,7 +129,7 @@ fn the_same_thing_twice_is_seldom_called_different() {
             let before = bench(&mut random, first, rounds.0, 1.0);
             let after = bench(&mut random, second, rounds.1, 1.0);
             let comparison = compare(&before, &after);
-            wrong += u32::from(told(comparison.outcome));
+            wrong += u32::from(is_different(comparison.outcome));
             let ratio = comparison.ratio;
             outside += u32::from(ratio.low > 1.0 || ratio.high < 1.0);
         }
@@ -172,7 +172,7 @@ fn planted_changes_above_the_smallest_visible_are_found() {
             } else {
                 1.0 / (1.0 + change)
             };
-            let due = if slower {
+            let expected = if slower {
                 Conclusion::Slower
             } else {
                 Conclusion::Faster
@@ -186,12 +186,15 @@ fn planted_changes_above_the_smallest_visible_are_found() {
                 let visible = smallest_visible(&before, &after).unwrap();
                 if 1.0 + change > visible {
                     above += 1;
-                    found += u32::from(outcome == due);
+                    found += u32::from(outcome == expected);
                 } else {
-                    below_found += u32::from(outcome == due);
+                    below_found += u32::from(outcome == expected);
                 }
                 // The direction is never wrong.
-                assert!(outcome == due || !told(outcome), "{noise:?} {factor}");
+                assert!(
+                    outcome == expected || !is_different(outcome),
+                    "{noise:?} {factor}"
+                );
             }
             println!(
                 "{change} {slower}: {found} of {above}, below {below_found} of {}",
@@ -247,8 +250,8 @@ fn a_machine_that_slows_down_as_a_whole_is_no_change() {
     let slow = |random: &mut Rand64, by: f64| {
         // The pace is the same for every round, so that only the ruler can tell.
         let noise = Noise { pace: 0.0, ..QUIET };
-        let one = bench(random, noise, 12, 1.0);
-        let medians: Vec<[f64; 1]> = one.medians().iter().map(|m| [m * by]).collect();
+        let samples = bench(random, noise, 12, 1.0);
+        let medians: Vec<[f64; 1]> = samples.medians().iter().map(|m| [m * by]).collect();
         let rulers: Vec<f64> = (0..12)
             .map(|_| 0.002 * by * (0.001 * normal(random)).exp())
             .collect();
@@ -309,10 +312,10 @@ fn medians_lie_in_their_intervals_as_often_as_is_said() {
         let trials = 1_000;
         let mut outside = 0;
         for _ in 0..trials {
-            let all: Vec<[f64; 1]> = (0..rounds)
+            let samples: Vec<[f64; 1]> = (0..rounds)
                 .map(|_| [0.003 * (noise.round * normal(&mut random)).exp()])
                 .collect();
-            let summary = summarize(&Samples::new(&all).unwrap());
+            let summary = summarize(&Samples::new(&samples).unwrap());
             let [low, high] = summary.interval.unwrap();
             assert!(low <= summary.median && summary.median <= high);
             outside += u32::from(!(low..=high).contains(&0.003));

@@ -165,7 +165,7 @@ fn half_planes_cover_what_the_formula_says() {
         for offset in [-0.6, -0.31, 0.0, 0.1, 0.45] {
             let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
             // All points of a 3 by 3 picture with (p - middle) . normal <= offset.
-            let at = |along: f64, across: f64| {
+            let corner = |along: f64, across: f64| {
                 [
                     1.5 + across * cos - along * sin,
                     1.5 + across * sin + along * cos,
@@ -173,10 +173,10 @@ fn half_planes_cover_what_the_formula_says() {
                 ]
             };
             let corners = vec![
-                at(-9.0, offset),
-                at(9.0, offset),
-                at(9.0, -9.0),
-                at(-9.0, -9.0),
+                corner(-9.0, offset),
+                corner(9.0, offset),
+                corner(9.0, -9.0),
+                corner(-9.0, -9.0),
             ];
             let paint = Paint::Flat([1.0; 4]);
             let surfaces = vec![Surface { corners, paint }];

@@ -36,18 +36,18 @@ fn plain(color: [f64; 3]) -> TruthPicture {
 fn a_picture_has_no_distance_from_itself() {
     let ramp = pane(|x, y| (x + 2.0 * y) / 40.0, Paint::Depth);
     let expected = truth(&scene(SIZE, Coverage::Area, vec![ramp]));
-    let at = |x: u32, y: u32| {
+    let value_at = |x: u32, y: u32| {
         let [r, g, b] = expected.rgb[(y * SIZE[0] + x) as usize];
         vec![r, g, b, 0.3]
     };
-    let found = distance(&expected, &image(TextureFormat::Rgba32Float, at)).unwrap();
+    let found = distance(&expected, &image(TextureFormat::Rgba32Float, value_at)).unwrap();
     assert!(found.rmse < 1e-7 && found.max < 1e-7, "{found:?}");
     assert_eq!(
         (found.flip, found.wrong, found.truth_error),
         (0.0, 0.0, 0.0)
     );
     // 8 bits: at most half a code, uniformly distributed.
-    let found = distance(&expected, &image(TextureFormat::Rgba8Unorm, at)).unwrap();
+    let found = distance(&expected, &image(TextureFormat::Rgba8Unorm, value_at)).unwrap();
     assert!(
         found.max <= 0.5 / 255.0 + 1e-12 && found.rmse > 0.0,
         "{found:?}"

@@ -21,13 +21,13 @@ fn the_top_left_rule_decides_at_centres() {
 #[test]
 fn a_fan_around_a_centre_covers_it_once() {
     for spokes in [3_u32, 8, 100, 700] {
-        let at = |i: u32| {
+        let rim = |i: u32| {
             let (sin, cos) = (f64::from(i) / f64::from(spokes) * std::f64::consts::TAU).sin_cos();
             [2.5 + 9.0 * cos, 2.5 + 9.0 * sin]
         };
         let surfaces = (0..spokes).map(|i| {
             triangle(
-                [[2.5, 2.5], at(i), at((i + 1) % spokes)],
+                [[2.5, 2.5], rim(i), rim((i + 1) % spokes)],
                 0.0,
                 [0.5, 1.0, 0.25, 0.5],
             )
@@ -52,16 +52,16 @@ fn too_many_pieces_are_sampled_and_the_error_is_said() {
         let angle = f64::from(i) / 200.0 * std::f64::consts::PI;
         let (sin, cos) = angle.sin_cos();
         let middle = [0.5 + 0.2 * sin, 0.5 + 0.2 * cos];
-        let at = |along: f64, across: f64| {
+        let corner = |along: f64, across: f64| {
             let x = middle[0] + along * cos - across * sin;
             [x, middle[1] + along * sin + across * cos, 0.0]
         };
         Surface {
             corners: vec![
-                at(-3.0, -0.01),
-                at(3.0, -0.01),
-                at(3.0, 0.01),
-                at(-3.0, 0.01),
+                corner(-3.0, -0.01),
+                corner(3.0, -0.01),
+                corner(3.0, 0.01),
+                corner(-3.0, 0.01),
             ],
             paint: Paint::Flat([1.0, 0.0, 0.0, 0.05]),
         }

@@ -282,7 +282,7 @@ fn a_part_of_a_picture_is_as_the_picture_of_that_part() {
         ],
         paint: Paint::Flat([0.9, 0.2, 0.1, 0.4]),
     };
-    let of = |width: u32, shift: f64| {
+    let rendered = |width: u32, shift: f64| {
         truth(&Truth {
             size: [width, 128],
             background: [0.1, 0.2, 0.3],
@@ -290,15 +290,15 @@ fn a_part_of_a_picture_is_as_the_picture_of_that_part() {
             surfaces: vec![ramp(shift), pane(shift)],
         })
     };
-    let whole = of(128, 0.0);
+    let full = rendered(128, 0.0);
     // Small enough for one part, and at another place in it.
-    let strip = of(8, 60.0);
+    let strip = rendered(8, 60.0);
     for (y, x) in (0..128).flat_map(|y| (0..8).map(move |x| (y, x))) {
-        let (one, other) = (whole.rgb[y * 128 + 60 + x], strip.rgb[y * 8 + x]);
+        let (expected, found) = (full.rgb[y * 128 + 60 + x], strip.rgb[y * 8 + x]);
         for c in 0..3 {
             assert!(
-                (one[c] - other[c]).abs() < 1e-12,
-                "{x},{y}: {one:?} {other:?}"
+                (expected[c] - found[c]).abs() < 1e-12,
+                "{x},{y}: {expected:?} {found:?}"
             );
         }
     }

@@ -56,10 +56,10 @@ unsafe extern "system" fn get_device_proc_addr(
     name: *const c_char,
 ) -> vk::PFN_vkVoidFunction {
     // SAFETY: the address was the driver's function of this type.
-    let own: vk::PFN_vkGetDeviceProcAddr =
+    let get_address: vk::PFN_vkGetDeviceProcAddr =
         unsafe { std::mem::transmute(driver("vkGetDeviceProcAddr")) };
     // SAFETY: the caller passed the arguments to a function of this type.
-    let address = unsafe { own(device, name) }?;
+    let address = unsafe { get_address(device, name) }?;
     // SAFETY: the caller's name is zero-terminated.
     let text = unsafe { CStr::from_ptr(name) }.to_str().ok()?;
     if let Some(shim) = before(text, address as usize) {

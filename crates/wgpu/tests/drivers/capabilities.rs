@@ -23,7 +23,7 @@ pub(crate) fn offers(backend: &dyn Backend) {
 }
 
 fn denies(backend: &dyn Backend) {
-    let denied = |target: Value, draw: Value, counters: Value, due: Requirement| {
+    let denied = |target: Value, draw: Value, counters: Value, expected: Requirement| {
         let drawn = json!({ "mesh": { "kind": "full" }, "shader": "uniform_color" });
         let scene = scene(json!({
             "attachments": { "color": with(json!({ "format": "rgba8unorm" }), target.clone()),
@@ -33,7 +33,7 @@ fn denies(backend: &dyn Backend) {
             "counters": counters,
         }));
         let error = backend.prepare(&scene).err();
-        assert_eq!(error, Some(BackendError::NotSupported(due)));
+        assert_eq!(error, Some(BackendError::NotSupported(expected)));
     };
     let none = || json!({});
     let feature = Requirement::Feature;

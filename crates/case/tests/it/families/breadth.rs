@@ -21,8 +21,8 @@ pub(super) fn all_cases(prefix: &str) -> Vec<Case> {
 #[test]
 fn every_selftest_is_judged_as_something_else() {
     // A relation fails because of what is drawn, whatever scene is judged.
-    let told = |case: &Case| case.relation.is_none();
-    for case in all_cases("selftest/").into_iter().filter(told) {
+    let has_no_relation = |case: &Case| case.relation.is_none();
+    for case in all_cases("selftest/").into_iter().filter(has_no_relation) {
         assert!(&case.scene != case.judged_scene(), "{}", case.id);
     }
 }
@@ -40,13 +40,13 @@ fn families_over_formats_leave_none_out() {
         ("blend/order-formats/", 12),
         ("selftest/format-clear/", 12),
     ];
-    for (family, due) in families {
+    for (family, expected) in families {
         let mut formats = BTreeSet::new();
         for case in all_cases(family) {
             let target = case.scene.passes[0].color[0];
             formats.insert(case.scene.attachments[target].format);
         }
-        assert_eq!(formats.len(), due, "{family}");
+        assert_eq!(formats.len(), expected, "{family}");
     }
 }
 
@@ -63,12 +63,12 @@ fn multisample_cases_read_every_sample_of_every_count() {
         seen.entry(family.to_owned()).or_default().insert(most);
     }
     for (family, counts) in seen {
-        let due: &[u32] = match family.as_str() {
+        let expected: &[u32] = match family.as_str() {
             "formats" | "input-mask-tests" => &[4, 8],
             "input-mask" => &[4, 8, 16],
             _ => &[2, 4, 8, 16],
         };
-        assert!(counts.iter().eq(due), "{family}: {counts:?}");
+        assert!(counts.iter().eq(expected), "{family}: {counts:?}");
     }
 }
 
@@ -114,8 +114,8 @@ fn every_logic_operation_is_told_from_every_other() {
             for (i, code) in color.iter().enumerate() {
                 pairs.insert((source[i], code & 1));
             }
-            let due = [0, 1.0_f32.to_bits()].map(|s| [(s, 0), (s, 1)]);
-            assert!(pairs.iter().eq(due.iter().flatten()), "{}", case.id);
+            let expected = [0, 1.0_f32.to_bits()].map(|s| [(s, 0), (s, 1)]);
+            assert!(pairs.iter().eq(expected.iter().flatten()), "{}", case.id);
         }
     }
 }
@@ -149,12 +149,12 @@ fn advanced_blends_meet_premultiplied_colours_of_every_kind() {
                 assert!(color.iter().all(|v| *v <= alpha), "{}: {color:?}", case.id);
                 alphas.insert((alpha * 100.0) as u32);
             }
-            let due: &[u32] = if encodings.len() == 4 {
+            let expected: &[u32] = if encodings.len() == 4 {
                 &[0, 100]
             } else {
                 &[100]
             };
-            assert!(due.iter().all(|a| alphas.contains(a)), "{}", case.id);
+            assert!(expected.iter().all(|a| alphas.contains(a)), "{}", case.id);
         }
         let samples = case.scene.attachments[0].samples;
         assert!(uploads > 0 || samples > 1, "{}", case.id);
@@ -224,8 +224,10 @@ fn no_primitive_hides_which_vertex_provokes() {
             let colors = |vertex| {
                 let mut draw = draw.clone();
                 draw.provoking = Some(vertex);
-                let all = draw.provoking_vertices().into_iter();
-                all.map(|i| draw.mesh.vertices[i].color).collect::<Vec<_>>()
+                let provoking = draw.provoking_vertices().into_iter();
+                provoking
+                    .map(|i| draw.mesh.vertices[i].color)
+                    .collect::<Vec<_>>()
             };
             let (first, last) = (
                 colors(ProvokingVertex::First),
@@ -268,18 +270,21 @@ fn clipping_meets_every_kind_of_w() {
     }
     use PrimitiveTopology::{LineList, PointList, TriangleList};
     for topology in [PointList, LineList, TriangleList] {
-        let own = || vertices().filter(|(t, _)| *t == topology);
+        let of_topology = || vertices().filter(|(t, _)| *t == topology);
         assert!(
-            own().any(|(_, [_, _, z, w])| w > 0.0 && z < 0.0),
+            of_topology().any(|(_, [_, _, z, w])| w > 0.0 && z < 0.0),
             "{topology}: near"
         );
         assert!(
-            own().any(|(_, [_, _, z, w])| w > 0.0 && z > w),
+            of_topology().any(|(_, [_, _, z, w])| w > 0.0 && z > w),
             "{topology}: far"
         );
-        assert!(own().any(|(_, [.., w])| w < 0.0), "{topology}: behind");
         assert!(
-            own().any(|(_, [x, _, _, w])| w > 0.0 && x.abs() > w),
+            of_topology().any(|(_, [.., w])| w < 0.0),
+            "{topology}: behind"
+        );
+        assert!(
+            of_topology().any(|(_, [x, _, _, w])| w > 0.0 && x.abs() > w),
             "{topology}: side"
         );
     }

@@ -165,9 +165,9 @@ fn vertices_lie_beside_each_side_of_the_viewport_and_inside() {
             };
             places.clone().any(beyond)
         };
-        let all = [0, 1].map(|axis| side(axis, true) && side(axis, false));
+        let both_sides = [0, 1].map(|axis| side(axis, true) && side(axis, false));
         let inside = |p: [f32; 4]| p[0].abs() < p[3] && p[1].abs() < p[3];
-        let both = all == [true; 2] && places.clone().filter(|p| inside(*p)).count() == 4;
+        let both = both_sides == [true; 2] && places.clone().filter(|p| inside(*p)).count() == 4;
         assert!(both, "{}", case.id);
     }
 }

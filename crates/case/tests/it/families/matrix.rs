@@ -47,11 +47,11 @@ fn the_matrix_has_its_cells_and_the_quick_profile_some_of_each_group() {
     assert!(quick.len() <= 70, "{}", quick.len());
     assert!(quick.keys().all(|c| c.contains("size=512x512")));
     assert!(quick.values().all(|cases| cases.len() == 2));
-    for due in [
+    for cell in [
         "perf/matrix/fill/blend=none/format=rgba8unorm/samples=1/size=512x512",
         "perf/matrix/clear/format=rgba8unorm/size=512x512",
     ] {
-        assert!(quick.contains_key(due), "{due}");
+        assert!(quick.contains_key(cell), "{cell}");
     }
 }
 
@@ -60,19 +60,27 @@ fn the_cases_of_a_cell_differ_in_the_work_that_it_measures_alone() {
     for (cell, cases) in cells(Profile::Quick) {
         let (less, more) = (cases[0].scene.work(), cases[1].scene.work());
         let size = cases[0].scene.attachments[0].size;
-        let all = u64::from(size[0]) * u64::from(size[1]);
+        let texels = u64::from(size[0]) * u64::from(size[1]);
         let same = |f: fn(Work) -> u64| f(less) == f(more);
         let of_passes = match group(&cell) {
             "clear" | "clear-samples" | "clear-depth" | "clear-depth-stencil" => {
-                assert_eq!([less.cleared, more.cleared], [4 * all, 12 * all], "{cell}");
+                assert_eq!(
+                    [less.cleared, more.cleared],
+                    [4 * texels, 12 * texels],
+                    "{cell}"
+                );
                 same(|w| w.resolved) && same(|w| w.read)
             }
             "resolve" => {
-                assert_eq!([less.resolved, more.resolved], [2 * all, 8 * all], "{cell}");
+                assert_eq!(
+                    [less.resolved, more.resolved],
+                    [2 * texels, 8 * texels],
+                    "{cell}"
+                );
                 same(|w| w.cleared) && same(|w| w.read)
             }
             "read-back" => {
-                assert_eq!([less.read, more.read], [all, 3 * all], "{cell}");
+                assert_eq!([less.read, more.read], [texels, 3 * texels], "{cell}");
                 same(|w| w.triangles) && same(|w| w.texels)
             }
             "cull" => {
@@ -91,7 +99,11 @@ fn the_cases_of_a_cell_differ_in_the_work_that_it_measures_alone() {
                 true
             }
             _ => {
-                assert_eq!([less.texels, more.texels], [4 * all, 12 * all], "{cell}");
+                assert_eq!(
+                    [less.texels, more.texels],
+                    [4 * texels, 12 * texels],
+                    "{cell}"
+                );
                 same(|w| w.cleared) && same(|w| w.resolved) && same(|w| w.read)
             }
         };

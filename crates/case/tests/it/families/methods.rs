@@ -59,18 +59,18 @@ fn the_quick_profile_draws_whole_scenes() {
             let (method, setting) = rest.split_once('/').unwrap_or((rest, ""));
             (method.to_owned(), format!("{before}/{setting}"))
         };
-        let of = |profile| -> BTreeSet<(String, String)> {
+        let combinations = |profile| -> BTreeSet<(String, String)> {
             file.cases(profile).map(|c| split(c.id())).collect()
         };
-        let (some, all) = (of(Profile::Quick), of(Profile::Full));
-        let methods: BTreeSet<&String> = all.iter().map(|(method, _)| method).collect();
+        let (some, full) = (combinations(Profile::Quick), combinations(Profile::Full));
+        let methods: BTreeSet<&String> = full.iter().map(|(method, _)| method).collect();
         let settings: BTreeSet<&String> = some.iter().map(|(_, setting)| setting).collect();
         for (method, setting) in methods
             .iter()
             .flat_map(|m| settings.iter().map(move |s| (m, s)))
         {
-            let due = ((*method).clone(), (*setting).clone());
-            assert!(some.contains(&due), "{}: {due:?}", file.name());
+            let pair = ((*method).clone(), (*setting).clone());
+            assert!(some.contains(&pair), "{}: {pair:?}", file.name());
         }
         quick += some.len();
     }
@@ -120,7 +120,7 @@ fn ids_begin_with_the_method_and_files_name_a_parameter() {
         assert_eq!(format!("method={}", built.name), method);
         seen.insert(question.to_owned());
     }
-    let due = [
+    let expected = [
         "accumulation",
         "culling",
         "depth-precision",
@@ -128,7 +128,7 @@ fn ids_begin_with_the_method_and_files_name_a_parameter() {
         "stencil-effects",
         "visibility-cost",
     ];
-    assert!(due.iter().all(|q| seen.contains(*q)), "{seen:?}");
+    assert!(expected.iter().all(|q| seen.contains(*q)), "{seen:?}");
 }
 
 #[test]
@@ -150,8 +150,8 @@ fn every_method_is_explained_and_every_claim_names_methods_that_there_are() {
         let found = lessons(question).iter().filter(|l| l.method == method);
         assert_eq!(found.count(), 1, "{question}/{method}");
     }
-    let told: BTreeSet<&String> = methods.iter().map(|(q, _)| q).collect();
-    for lesson in told.iter().flat_map(|q| lessons(q)) {
+    let questions: BTreeSet<&String> = methods.iter().map(|(q, _)| q).collect();
+    for lesson in questions.iter().flat_map(|q| lessons(q)) {
         assert!(
             methods.iter().any(|(_, m)| m == lesson.method),
             "{}",

@@ -180,7 +180,7 @@ pub(crate) fn simulate(scene: &Scene, observe: &mut dyn FnMut(Event<'_>)) -> Vec
                     if !(inside(p[0], p[1]) && inside(p[1], p[2]) && inside(p[2], p[0])) {
                         continue;
                     }
-                    let at = (y * attachment.size[0] + x) as usize;
+                    let texel = (y * attachment.size[0] + x) as usize;
                     let mut z = f64::from(vertex.position[2]);
                     let source = match draw.shader {
                         Shader::FlatColor => vertex.color.map(f64::from),
@@ -190,22 +190,22 @@ pub(crate) fn simulate(scene: &Scene, observe: &mut dyn FnMut(Event<'_>)) -> Vec
                         }
                         Shader::FrontFacing if front => draw.params.color.map(f64::from),
                         Shader::FrontFacing => draw.params.back_color.map(f64::from),
-                        Shader::TexelColor => frame[draw.textures[0]].color[at],
+                        Shader::TexelColor => frame[draw.textures[0]].color[texel],
                         Shader::UniformColor => draw.params.color.map(f64::from),
                         other => panic!("the plain simulation lacks {other:?}"),
                     };
                     let path = match pass.depth_stencil {
                         None => Path::Pass,
                         Some(index) => {
-                            depth_stencil(draw, front, z, at, &mut frame[index], observe)
+                            depth_stencil(draw, front, z, texel, &mut frame[index], observe)
                         }
                     };
                     if path == Path::Pass {
-                        let stored = frame[target].color[at];
+                        let stored = frame[target].color[texel];
                         let blended = store(blend(draw, source, stored), attachment.format);
                         for (channel, value) in blended.into_iter().enumerate() {
                             if draw.targets[0].write_mask >> channel & 1 == 1 {
-                                frame[target].color[at][channel] = value;
+                                frame[target].color[texel][channel] = value;
                             }
                         }
                     }
@@ -220,17 +220,17 @@ pub(crate) fn depth_stencil(
     draw: &Draw,
     front: bool,
     z: f64,
-    at: usize,
+    texel: usize,
     stored: &mut Plain,
     observe: &mut dyn FnMut(Event<'_>),
 ) -> Path {
     let face = draw.stencil.map(|s| if front { s.front } else { s.back });
-    let stencil = stored.stencil.get(at).copied().unwrap_or(0);
+    let stencil = stored.stencil.get(texel).copied().unwrap_or(0);
     let stencil_passes =
         face.is_none_or(|f| compare(f.compare, f.reference & f.read_mask, stencil & f.read_mask));
     let depth_passes = draw
         .depth
-        .is_none_or(|d| compare(d.compare, z, stored.depth[at]));
+        .is_none_or(|d| compare(d.compare, z, stored.depth[texel]));
     let path = match (stencil_passes, depth_passes) {
         (false, _) => Path::Fail,
         (true, false) => Path::DepthFail,
@@ -242,10 +242,10 @@ pub(crate) fn depth_stencil(
             Path::DepthFail => f.depth_fail_op,
             Path::Pass => f.pass_op,
         };
-        stored.stencil[at] = operate(op, stencil, f.reference, f.write_mask);
+        stored.stencil[texel] = operate(op, stencil, f.reference, f.write_mask);
     }
     if path == Path::Pass && draw.depth.is_some_and(|d| d.write) {
-        stored.depth[at] = z;
+        stored.depth[texel] = z;
     }
     observe(Event {
         draw,

@@ -12,7 +12,7 @@ use std::fmt::Debug;
 
 /// The states of a draw by name. Disabled states have no parts; vertices are not a state.
 pub(super) fn states(draw: &Draw) -> BTreeMap<String, String> {
-    let mut all = States::default();
+    let mut states = States::default();
     let Draw {
         mesh: Mesh {
             vertices: _,
@@ -57,47 +57,47 @@ pub(super) fn states(draw: &Draw) -> BTreeMap<String, String> {
         blend_constant,
         fetch,
     } = draw;
-    all.put("indices", indices);
-    all.put("topology", topology);
-    all.put("tessellation", tessellation);
-    all.put("provoking", provoking);
-    all.put("shader", shader);
-    all.put("params.color", color);
-    all.put("params.back_color", back_color);
-    all.put("early_tests", early_tests);
-    all.put("textures", textures);
+    states.put("indices", indices);
+    states.put("topology", topology);
+    states.put("tessellation", tessellation);
+    states.put("provoking", provoking);
+    states.put("shader", shader);
+    states.put("params.color", color);
+    states.put("params.back_color", back_color);
+    states.put("early_tests", early_tests);
+    states.put("textures", textures);
     if let Some(Sampler {
         filter,
         address: [across, down],
     }) = sampler
     {
-        all.put("sampler.filter", filter);
-        all.put("sampler.address.across", across);
-        all.put("sampler.address.down", down);
+        states.put("sampler.filter", filter);
+        states.put("sampler.address.across", across);
+        states.put("sampler.address.down", down);
     }
-    all.put("counters", counters);
-    all.put("cull", cull);
-    all.put("front_face", front_face);
-    all.put("polygon_mode", polygon_mode);
-    all.put("rasterizer_discard", rasterizer_discard);
-    all.put("viewport.rect", rect);
-    all.put("viewport.depth", range);
-    all.put("scissor", scissor);
-    all.put("clip_distances", clip_distances);
-    all.put("depth_bias.constant", constant);
-    all.put("depth_bias.slope", slope);
-    all.put("depth_bias.clamp", clamp);
-    all.put("depth_clamp", depth_clamp);
-    all.put("depth_bounds", depth_bounds);
-    all.put("depth", &depth.is_some());
+    states.put("counters", counters);
+    states.put("cull", cull);
+    states.put("front_face", front_face);
+    states.put("polygon_mode", polygon_mode);
+    states.put("rasterizer_discard", rasterizer_discard);
+    states.put("viewport.rect", rect);
+    states.put("viewport.depth", range);
+    states.put("scissor", scissor);
+    states.put("clip_distances", clip_distances);
+    states.put("depth_bias.constant", constant);
+    states.put("depth_bias.slope", slope);
+    states.put("depth_bias.clamp", clamp);
+    states.put("depth_clamp", depth_clamp);
+    states.put("depth_bounds", depth_bounds);
+    states.put("depth", &depth.is_some());
     if let Some(DepthState { compare, write }) = depth {
-        all.put("depth.compare", compare);
-        all.put("depth.write", write);
+        states.put("depth.compare", compare);
+        states.put("depth.write", write);
     }
-    all.put("stencil", &stencil.is_some());
+    states.put("stencil", &stencil.is_some());
     if let Some(StencilState { front, back }) = stencil {
-        all.face("front", front);
-        all.face("back", back);
+        states.face("front", front);
+        states.face("back", back);
     }
     for (i, target) in targets.iter().enumerate() {
         let ColorTarget {
@@ -105,27 +105,27 @@ pub(super) fn states(draw: &Draw) -> BTreeMap<String, String> {
             advanced,
             write_mask,
         } = target;
-        all.put(&format!("targets.{i}.advanced"), advanced);
-        all.put(&format!("targets.{i}.write_mask"), write_mask);
-        all.put(&format!("targets.{i}.blend"), &blend.is_some());
+        states.put(&format!("targets.{i}.advanced"), advanced);
+        states.put(&format!("targets.{i}.write_mask"), write_mask);
+        states.put(&format!("targets.{i}.blend"), &blend.is_some());
         if let Some(BlendState { color, alpha }) = blend {
-            all.component(&format!("targets.{i}.blend.color"), color);
-            all.component(&format!("targets.{i}.blend.alpha"), alpha);
+            states.component(&format!("targets.{i}.blend.color"), color);
+            states.component(&format!("targets.{i}.blend.alpha"), alpha);
         }
     }
-    all.put("logic", logic);
-    all.put("multisample.mask", mask);
-    all.put("multisample.alpha_to_coverage", alpha_to_coverage);
-    all.put("multisample.alpha_to_one", alpha_to_one);
-    all.put("multisample.min_sample_shading", min_sample_shading);
-    all.put("multisample.sample_coverage", &sample_coverage.is_some());
+    states.put("logic", logic);
+    states.put("multisample.mask", mask);
+    states.put("multisample.alpha_to_coverage", alpha_to_coverage);
+    states.put("multisample.alpha_to_one", alpha_to_one);
+    states.put("multisample.min_sample_shading", min_sample_shading);
+    states.put("multisample.sample_coverage", &sample_coverage.is_some());
     if let Some(SampleCoverage { value, invert }) = sample_coverage {
-        all.put("multisample.sample_coverage.value", value);
-        all.put("multisample.sample_coverage.invert", invert);
+        states.put("multisample.sample_coverage.value", value);
+        states.put("multisample.sample_coverage.invert", invert);
     }
-    all.put("blend_constant", blend_constant);
-    all.put("fetch", fetch);
-    all.0
+    states.put("blend_constant", blend_constant);
+    states.put("fetch", fetch);
+    states.0
 }
 
 /// The names of all states of a draw with one target.
