@@ -55,7 +55,7 @@ impl Grades {
         self.band(Forbidden::any)
     }
 
-    /// Returns the band of a sample that is outside the set by all evidence.
+    /// Returns the band of a sample that all evidence places outside the set.
     pub(crate) fn sample(&self, at: (u32, u32, u32)) -> Band {
         self.band(|forbidden| forbidden.samples.contains(&at))
     }

@@ -139,7 +139,7 @@ impl WorkerProcess {
         self.request(requests(slot, scene, readings));
     }
 
-    /// Receives the frames of a slot that were requested at the time `asked`.
+    /// Receives the frames of a slot that were requested at `asked`.
     pub(crate) fn receive_frames(
         &mut self,
         slot: u32,

@@ -9,7 +9,7 @@ state_enum! {
     Time: array {
         /// The time of a frame until the device was done.
         Wall = "wall",
-        /// The time of a frame until the last call that submits work returned.
+        /// The time from the start of a frame until its last submitting call returns.
         Cpu = "cpu",
         /// The time of a frame between GPU timestamps.
         Gpu = "gpu",
