@@ -5,7 +5,7 @@ use super::pairs::Folder;
 use super::pixels;
 use crate::words::{channel_of, headline};
 use etalon_frame::{Accuracy, WrongTexel};
-use etalon_record::{Record, Verdict};
+use etalon_record::{MAX_WRONG_TEXELS, Record, Verdict};
 use serde::Serialize;
 use serde_json::json;
 use std::collections::{BTreeMap, HashMap};
@@ -179,11 +179,13 @@ fn details(before: &Record, after: &Record) -> Vec<Detail> {
     found.0
 }
 
-/// Adds the differences of the listed wrong texels.
+/// Adds the differences of the listed wrong texels. A record with an example lists one.
 fn wrong(found: &mut Details, before: &Record, after: &Record) {
+    let whole = before.example.is_none() && after.example.is_none();
+    let most = if whole { MAX_WRONG_TEXELS } else { 1 };
     let [b, a] = [before, after].map(|r| {
         let place = |t: &WrongTexel| (t.y, t.x, t.sample);
-        let texels = r.wrong.iter().map(|t| (place(t), codes(t)));
+        let texels = r.wrong.iter().take(most).map(|t| (place(t), codes(t)));
         texels.collect::<BTreeMap<_, _>>()
     });
     let gone = b.keys().filter(|place| !a.contains_key(place)).count();
