@@ -179,11 +179,19 @@ fn details(before: &Record, after: &Record) -> Vec<Detail> {
     found.0
 }
 
-/// Adds the differences of the listed wrong texels. A record with an example lists one.
+/// Adds the differences of the listed wrong texels. If a known failure's list was cut, as many texels are compared
+/// as both records list.
 fn wrong(found: &mut Details, before: &Record, after: &Record) {
-    let whole = before.example.is_none() && after.example.is_none();
-    let most = if whole { MAX_WRONG_TEXELS } else { 1 };
-    let [b, a] = [before, after].map(|r| {
+    let both = [before, after];
+    let is_cut = |r: &&Record| {
+        r.excuse().is_some() && (r.wrong.len() as u64) < r.texels.wrong + r.texels.imprecise
+    };
+    let most = if both.iter().any(is_cut) {
+        before.wrong.len().min(after.wrong.len())
+    } else {
+        MAX_WRONG_TEXELS
+    };
+    let [b, a] = both.map(|r| {
         let place = |t: &WrongTexel| (t.y, t.x, t.sample);
         let texels = r.wrong.iter().take(most).map(|t| (place(t), codes(t)));
         texels.collect::<BTreeMap<_, _>>()
