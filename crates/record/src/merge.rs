@@ -110,7 +110,12 @@ impl Merge {
                 None => (record, folder.to_owned()),
                 Some(other) if other.0.verdict == record.verdict => {
                     self.merged.twice += 1;
-                    other
+                    // The record in full is kept.
+                    if other.0.example.is_some() && record.example.is_none() {
+                        (record, folder.to_owned())
+                    } else {
+                        other
+                    }
                 }
                 Some(other) => {
                     let names = (record.adapter.clone(), record.case.clone());

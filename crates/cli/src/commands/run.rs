@@ -114,8 +114,9 @@ pub(crate) struct Arguments {
     /// expected. For your own cases
     #[arg(long, conflicts_with = "history")]
     pub(crate) known_by_look: bool,
-    /// Failures whose complete frames are kept
-    #[arg(long, value_enum, default_value = "all")]
+    /// Failures whose complete frames are kept. Unless it is `all`, known failures keep their stories and wrong
+    /// texels once per finding and adapter; other records name that case
+    #[arg(long, value_enum, default_value = "examples")]
     pub(crate) keep_frames: KeepFrames,
     /// Enable validation layers and GL debug output; a case that causes messages is an error
     #[arg(long)]
@@ -130,6 +131,8 @@ pub(crate) struct Arguments {
 pub(crate) enum KeepFrames {
     /// All of them
     All,
+    /// Unexpected ones, and one per finding and adapter
+    Examples,
     /// Only unexpected ones
     New,
     /// None
@@ -354,6 +357,7 @@ fn options(arguments: &Arguments) -> Options {
         recheck: arguments.recheck.0,
         frames: match arguments.keep_frames {
             KeepFrames::All => KeptFrames::All,
+            KeepFrames::Examples => KeptFrames::Examples,
             KeepFrames::New => KeptFrames::New,
             KeepFrames::None => KeptFrames::None,
         },

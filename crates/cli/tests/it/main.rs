@@ -24,6 +24,7 @@ mod help;
 mod history;
 mod history_export;
 mod house;
+mod known_failures;
 mod known_look;
 mod launchers;
 mod methods;

@@ -77,7 +77,9 @@ fn every_selftest_fails_for_a_stated_reason() {
     let out = folder();
     let adapters = ["cpu", "vulkan:lavapipe", "gl:softpipe"];
     for adapter in adapters {
-        run(out.path(), &["selftest/*", "--adapter", adapter]).code(0);
+        let whole_records = ["--keep-frames", "all"];
+        let drawn = ["selftest/*", "--adapter", adapter];
+        run(out.path(), &[&drawn[..], &whole_records].concat()).code(0);
         let run = whole(out.path());
         assert_eq!(run.records.len(), count(&["selftest"]));
         for record in &run.records {

@@ -172,6 +172,7 @@ prop_compose! {
                 object: rest.chars().take(20).collect(), code: improves.map(|v| v.name().to_owned()),
             }),
             look: said.first().cloned(),
+            example: said.last().cloned(),
             validation: said.clone(),
             after: said.clone(),
             blocked_by: said,
@@ -392,6 +393,7 @@ fn runs_of_every_older_format_are_read_and_not_gone_on_with() {
         (1, include_str!("../../../report/tests/data/methods.jsonl")),
         (2, include_str!("../data/format-2.jsonl")),
         (3, include_str!("../data/format-3.jsonl")),
+        (4, include_str!("../data/format-4.jsonl")),
     ];
     assert_eq!(samples.len() as u32, FORMAT - 1, "a sample of each");
     for (format, text) in samples {
@@ -406,10 +408,12 @@ fn runs_of_every_older_format_are_read_and_not_gone_on_with() {
             assert_eq!(adapter.limits.version == unknown, format < 3);
         }
         for story in run.records.iter().filter_map(|r| r.story.as_ref()) {
-            assert!(story.events.is_empty() && !story.told.is_empty());
+            assert_eq!(story.told.is_empty(), format > 3);
+            assert_eq!(story.events.is_empty(), format < 4);
         }
         let stories = run.records.iter().filter(|r| r.story.is_some()).count();
-        assert!(format < 3 || stories > 0, "a story as sentences");
+        assert!(format < 3 || stories > 0, "a story");
+        assert!(run.records.iter().all(|r| r.example.is_none()));
         assert!(run.records.iter().all(|r| r.blocked_by.is_empty()));
         // Records of this format must not follow a header of another.
         let mut now = run.header.clone();
@@ -418,6 +422,25 @@ fn runs_of_every_older_format_are_read_and_not_gone_on_with() {
         let said = refused.to_string();
         assert!(said.contains(&format!("format is {format}")), "{said}");
     }
+}
+
+#[test]
+fn numbers_that_say_nothing_new_are_left_out() {
+    let mut record = Record::new("a/b", "cpu", Verdict::Pass);
+    record.texels.total = 16;
+    record.assertions = vec![Assertion {
+        aspect: Aspect::Color,
+        channels: 64,
+        asserted: 64,
+        exact: 60,
+        codes: 68,
+        yardstick_exact: 64,
+        yardstick_codes: 64,
+        yardstick_asserted: 64,
+    }];
+    let expected = r#"{"case":"a/b","adapter":"cpu","verdict":"pass","texels":{"total":16},"assertions":[{"aspect":"color","channels":64,"exact":60,"codes":68}]}"#;
+    assert_eq!(serde_json::to_string(&record).unwrap(), expected);
+    assert_eq!(serde_json::from_str::<Record>(expected).unwrap(), record);
 }
 
 #[test]

@@ -18,9 +18,11 @@ use etalon_record::{Expected, FrameFile, MAX_VALIDATION, Record, RecordError, Se
 use etalon_truth::TruthPicture;
 use std::time::{Duration, Instant};
 
-/// The number of frame files and stories of imprecise cases that are kept per adapter and case file;
-/// failures keep all.
+/// The number of frame files and stories of imprecise cases that are kept per adapter and case file with
+/// `KeptFrames::All`; otherwise one is.
 const IMPRECISE_FRAMES: u32 = 3;
+/// The number of wrong samples that the record of an imprecise case or a known failure lists next to a frame file.
+const SHOWN_WRONG: usize = 8;
 /// The factor by which a case that is measured may take longer than other cases.
 const MEASURING: u32 = 4;
 /// The maximum number of bytes of one validation message that a record keeps.
@@ -32,6 +34,16 @@ pub(super) struct Observation {
     pub(super) frame: Option<FrameFile>,
     /// The frames themselves; empty if drawing failed.
     pub(super) frames: Vec<Frame>,
+}
+
+/// How much the record of a failure shows.
+enum Shown {
+    /// Everything: the failure is new, or all known ones are kept.
+    Whole,
+    /// What stands for all cases with the same known failure.
+    Example,
+    /// The first wrong sample; the record of this case shows the rest.
+    By(String),
 }
 
 /// One adapter's part of a run.
@@ -161,10 +173,8 @@ impl<'s> AdapterRun<'s, '_> {
         let record = &mut observed.record;
         record.due_fail = is_due_to_fail(case, &self.queue.adapter.limits);
         let lost = record.process.is_some();
-        record.seconds = Seconds {
-            draw: if lost { drawing.since } else { drawing.working }.as_secs_f64(),
-            judge: judging.as_secs_f64(),
-        };
+        let drawing_time = if lost { drawing.since } else { drawing.working };
+        record.seconds = Seconds::new(drawing_time, judging);
         note_validation(record, drawing.messages);
         observed
     }
@@ -189,17 +199,22 @@ impl<'s> AdapterRun<'s, '_> {
                 message => format!("{message}; {note}"),
             };
         }
-        let kept = observed.frame.take().filter(|_| self.keeps_frame(record));
-        if record.due_fail && record.verdict.is_violation() {
-            // The frame file shows the rest of an expected failure.
-            record.wrong.truncate(4);
-        }
-        if record.verdict == Verdict::Imprecise {
-            // There can be hundreds of legal deviations, and one texel shows what kind they are.
-            record.wrong.truncate(if kept.is_some() { 16 } else { 1 });
-            if kept.is_none() {
-                record.story = None;
+        let shown = self.shown(record);
+        let frame = observed.frame.take();
+        let kept = frame.filter(|_| self.keeps_frame(record, &shown));
+        match shown {
+            _ if record.verdict == Verdict::Imprecise => {
+                // There can be hundreds of legal deviations, and one texel shows what kind they are.
+                let most = if kept.is_some() { SHOWN_WRONG } else { 1 };
+                record.wrong.truncate(most);
+                if kept.is_none() {
+                    record.story = None;
+                }
             }
+            Shown::Whole if record.excuse().is_none() => {}
+            // The frame file, if it is kept, shows the rest.
+            Shown::Whole | Shown::Example => record.wrong.truncate(SHOWN_WRONG),
+            Shown::By(case) => record.refer_to(case),
         }
         if let Some(file) = kept {
             record.frame = Some(self.shared.frames.write_frame(&file)?);
@@ -241,9 +256,25 @@ impl<'s> AdapterRun<'s, '_> {
         Ok(())
     }
 
-    fn keeps_frame(&self, record: &Record) -> bool {
-        match self.shared.options.frames {
+    /// Returns how much the record of a failure shows.
+    fn shown(&self, record: &Record) -> Shown {
+        if self.shared.options.frames == KeptFrames::All || !record.verdict.is_bad() {
+            return Shown::Whole;
+        }
+        let settled = self.settled(record.clone());
+        let Some(reason) = settled.excuse() else {
+            return Shown::Whole;
+        };
+        let example = self.queue.example(reason, &record.case);
+        example.map_or(Shown::Example, Shown::By)
+    }
+
+    fn keeps_frame(&self, record: &Record, shown: &Shown) -> bool {
+        let frames = self.shared.options.frames;
+        match frames {
             KeptFrames::All => {}
+            KeptFrames::Examples if matches!(shown, Shown::By(_)) => return false,
+            KeptFrames::Examples => {}
             KeptFrames::New if self.settled(record.clone()).unexpected() => {}
             KeptFrames::New | KeptFrames::None => return false,
         }
@@ -256,7 +287,11 @@ impl<'s> AdapterRun<'s, '_> {
             .entry(record.case_file().to_owned())
             .or_default();
         *kept += 1;
-        *kept <= IMPRECISE_FRAMES
+        let most = match frames {
+            KeptFrames::All => IMPRECISE_FRAMES,
+            _ => 1,
+        };
+        *kept <= most
     }
 
     /// Writes a record. An error ends the run.

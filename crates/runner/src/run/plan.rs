@@ -51,12 +51,15 @@ pub struct Rechecks {
     pub left: u64,
 }
 
-/// The failures whose complete frames a run folder keeps.
+/// The failures whose complete frames a run folder keeps. The record of a known failure without a frame refers
+/// to an example; with `All`, every record has its story and its wrong texels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum KeptFrames {
     /// Every failure.
     #[default]
     All,
+    /// Failures that are not expected, and one example of each known failure on each adapter.
+    Examples,
     /// Failures that are not expected.
     New,
     /// No failure.

@@ -18,7 +18,7 @@ use std::path::Path;
 /// The maximum number of wrong texels in a table.
 const TEXELS: usize = 6;
 /// The maximum number of bytes that all pictures of a page take together.
-const PICTURE_BYTES: usize = 3 << 20;
+const PICTURE_BYTES: usize = 2 << 20;
 
 /// The room that pictures take.
 #[derive(Default)]

@@ -47,7 +47,8 @@ impl Plan {
                         lines.push((kind, *rank, index));
                     }
                     let most = if kind == 2 { IMPRECISE_BODIES } else { LINES };
-                    if *rank < most {
+                    // The page of a record with an example links to that case.
+                    if *rank < most && grid.record(index).example.is_none() {
                         whole.push((kind, *rank, index));
                     }
                     *rank += 1;
@@ -101,7 +102,7 @@ fn listed(grid: &Grid<'_>, file: &CaseFile<'_>, column: usize) -> Vec<usize> {
         r.unexpected() || r.verdict.is_bad() || r.verdict == Verdict::Imprecise
     };
     let mut result: Vec<usize> = file.on(column).filter(worth).collect();
-    result.sort_by_key(|i| kind(grid.record(*i)));
+    result.sort_by_key(|i| (kind(grid.record(*i)), grid.record(*i).example.is_some()));
     result
 }
 
