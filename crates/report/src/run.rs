@@ -10,4 +10,4 @@ mod write;
 
 pub use dead::dead_lines;
 pub use table::table;
-pub use write::{RUN_FILES, RUN_FOLDERS, RunReports, write, write_run_with_news};
+pub use write::{OtherFormats, RUN_FILES, RUN_FOLDERS, RunReports, write, write_run_with_news};

@@ -10,7 +10,7 @@ use crate::output::{print_json, say, summarize, table_options};
 use crate::{provenance, report_files};
 use clap::Args;
 use etalon_record::{FolderKind, MISSING_FILE, Merge, Merged, Run};
-use etalon_report::News;
+use etalon_report::{News, OtherFormats};
 use serde_json::json;
 use std::collections::HashSet;
 use std::fs;
@@ -102,8 +102,8 @@ fn print(
 ) -> Result<(), Failure> {
     let out = &arguments.out;
     let shown = shown(run, news);
-    let written =
-        etalon_report::write_run_with_news(out, &shown, news).map_err(Failure::incomplete)?;
+    let written = etalon_report::write_run_with_news(out, &shown, news, OtherFormats::default())
+        .map_err(Failure::incomplete)?;
     if arguments.format == Format::Json {
         let pair = |(adapter, case): &(String, String)| json!({"adapter": adapter, "case": case});
         return print_json(&json!({

@@ -25,7 +25,7 @@ use etalon_record::{
     AdapterRecord, Dead, DeadKind, Expectations, FolderKind, Header, Run, Settings, Shard, Verdict,
     selection_digest,
 };
-use etalon_report::News;
+use etalon_report::{News, OtherFormats};
 use etalon_runner::{Event, KeptFrames, Launch, Options, Plan, Rechecks, RunError, RunSummary};
 use indicatif::ProgressBar;
 use serde_json::json;
@@ -404,8 +404,13 @@ impl<'a> Results<'a> {
         etalon_report::write_catalogue(folder, &catalogue).map_err(Failure::incomplete)?;
         let news = arguments.news.news(&run)?;
         let shown = shown(&run, news.as_ref());
-        let written = etalon_report::write_run_with_news(folder, &shown, news.as_ref())
-            .map_err(Failure::incomplete)?;
+        let written = etalon_report::write_run_with_news(
+            folder,
+            &shown,
+            news.as_ref(),
+            OtherFormats::default(),
+        )
+        .map_err(Failure::incomplete)?;
         drop(shown);
         Ok(Self {
             arguments,

@@ -8,7 +8,7 @@ use etalon_frame::{Api, Aspect};
 use etalon_record::{
     Assertion, LossKind, ProcessEnd, Record, RunWriter, Verdict, selection_digest,
 };
-use etalon_report::{RunReports, write};
+use etalon_report::{OtherFormats, RunReports, write, write_run_with_news};
 use pulldown_cmark::{Event, Parser};
 use serde_json::Value;
 use std::fs;
@@ -96,7 +96,27 @@ fn text(path: &Path) -> String {
 }
 
 fn ctrf(written: &RunReports) -> Value {
-    serde_json::from_slice(&fs::read(&written.ctrf).unwrap()).unwrap()
+    serde_json::from_slice(&fs::read(written.ctrf.as_ref().unwrap()).unwrap()).unwrap()
+}
+
+#[test]
+fn files_for_other_systems_are_written_on_request_and_kept_up_to_date() {
+    let folder = tempfile::tempdir().unwrap();
+    every_verdict(folder.path());
+    let run = Run::read(folder.path()).unwrap();
+    let written = |formats| {
+        let written = write_run_with_news(folder.path(), &run, None, formats).unwrap();
+        (written.ctrf.is_some(), !written.results.is_empty())
+    };
+    assert_eq!(written(OtherFormats::default()), (false, false));
+    assert!(!folder.path().join("ctrf.json").exists());
+    let ctrf = OtherFormats {
+        ctrf: true,
+        deqp: false,
+    };
+    assert_eq!(written(ctrf), (true, false));
+    assert_eq!(written(OtherFormats::default()), (true, false));
+    assert_eq!(written(OtherFormats::ALL), (true, true));
 }
 
 #[test]
