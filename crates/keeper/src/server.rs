@@ -98,7 +98,7 @@ impl Server {
             Some("`server` names no command")
         } else if !words.any(|word| word.contains(SOCKET)) {
             Some("`server` needs a word with `{socket}`, the path at which it listens")
-        } else if !self.socket.is_absolute() {
+        } else if !self.socket.has_root() {
             Some("the `socket` of a `server` is a path from the root")
         } else {
             None
