@@ -54,5 +54,9 @@ fn main() -> io::Result<()> {
         }
     }
     println!("cargo:rustc-env=ETALON_VERSION={version}");
+    // The program needs no libraries of its compiler on the machine where it runs.
+    if env::var("TARGET").is_ok_and(|target| target.ends_with("windows-gnu")) {
+        println!("cargo:rustc-link-arg-bins=-static");
+    }
     Ok(())
 }

@@ -9,7 +9,7 @@ use std::process::Command;
 
 /// The folder of each crate, the crates of the workspace that it may use, and the graphics APIs. Development dependencies
 /// are not restricted.
-const TABLE: [(&str, &[&str], &[&str]); 29] = [
+const TABLE: [(&str, &[&str], &[&str]); 30] = [
     ("frame", &[], &[]),
     ("stats", &[], &[]),
     ("scene", &["frame"], &[]),
@@ -32,7 +32,8 @@ const TABLE: [(&str, &[&str], &[&str]); 29] = [
         &["glow", "khronos-egl", "naga"],
     ),
     ("webgpu", &["backend", "frame", "scene"], &[]),
-    ("keeper", &[], &[]),
+    ("process", &[], &[]),
+    ("keeper", &["process"], &[]),
     (
         "browser",
         &["backend", "frame", "keeper", "scene", "webgpu"],
@@ -58,8 +59,8 @@ const TABLE: [(&str, &[&str], &[&str]); 29] = [
     (
         "runner",
         &[
-            "backend", "case", "diagnose", "explore", "frame", "judge", "mutants", "record",
-            "scene", "stats", "truth",
+            "backend", "case", "diagnose", "explore", "frame", "judge", "mutants", "process",
+            "record", "scene", "stats", "truth",
         ],
         &[],
     ),
@@ -99,6 +100,7 @@ const TABLE: [(&str, &[&str], &[&str]); 29] = [
             "keeper",
             "mutants",
             "pipeline",
+            "process",
             "record",
             "reference",
             "report",
