@@ -1,5 +1,6 @@
 //! The error of every report.
 
+#[cfg(feature = "history")]
 use etalon_history::HistoryError;
 use etalon_record::RecordError;
 use std::io;
@@ -65,6 +66,7 @@ pub enum ReportError {
         folder: PathBuf,
     },
     /// A history could not be read.
+    #[cfg(feature = "history")]
     #[error(transparent)]
     History(#[from] HistoryError),
     /// A history has no run with these labels.

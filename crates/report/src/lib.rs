@@ -18,6 +18,7 @@ mod diff;
 mod error;
 mod export;
 mod files;
+#[cfg(feature = "history")]
 mod history;
 mod hunt;
 mod lists;
@@ -45,6 +46,7 @@ pub use command::quoted;
 pub use diff::benches::{BenchDiff, BenchFacts, TimeChange, Untimed, diff, diff_table, write_diff};
 pub use diff::runs;
 pub use error::ReportError;
+#[cfg(feature = "history")]
 pub use history::{HISTORY_PAGE_FILE, write_history};
 pub use hunt::{HUNT_PAGE, WrittenHunt, hunt_table, write_hunt};
 pub use matrix::matrix_table;

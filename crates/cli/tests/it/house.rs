@@ -9,7 +9,7 @@ use std::process::Command;
 
 /// The folder of each crate, the crates of the workspace that it may use, and the graphics APIs. Development dependencies
 /// are not restricted.
-const TABLE: [(&str, &[&str], &[&str]); 29] = [
+const TABLE: [(&str, &[&str], &[&str]); 31] = [
     ("frame", &[], &[]),
     ("stats", &[], &[]),
     ("scene", &["frame"], &[]),
@@ -54,6 +54,7 @@ const TABLE: [(&str, &[&str], &[&str]); 29] = [
         &["case", "frame", "record", "reference", "scene"],
         &[],
     ),
+    ("findings", &["record"], &[]),
     ("diagnose", &["frame", "record"], &[]),
     (
         "runner",
@@ -64,6 +65,14 @@ const TABLE: [(&str, &[&str], &[&str]); 29] = [
         &[],
     ),
     ("bundle", &["backend", "frame", "webgpu"], &[]),
+    (
+        "page",
+        &[
+            "backend", "case", "diagnose", "findings", "frame", "judge", "record", "report",
+            "webgpu",
+        ],
+        &[],
+    ),
     ("explore", &["case", "frame", "scene"], &[]),
     ("history", &["frame", "record", "stats"], &[]),
     ("dashboards", &["record"], &[]),
@@ -92,6 +101,7 @@ const TABLE: [(&str, &[&str], &[&str]); 29] = [
             "diagnose",
             "explore",
             "export",
+            "findings",
             "frame",
             "gl",
             "history",

@@ -1,0 +1,50 @@
+//! What a record keeps of a drawing: its validation messages, and fewer wrong texels if a frame file shows the rest.
+
+use etalon_record::{MAX_VALIDATION, Record, Verdict};
+
+/// The number of frame files and stories of imprecise cases that are kept per adapter and case file;
+/// failures keep all.
+pub const IMPRECISE_FRAMES: u32 = 3;
+/// The maximum number of bytes of one validation message that a record keeps.
+const MESSAGE_BYTES: usize = 1000;
+
+/// Shortens a record. `has_frame` is true if its frame is kept in a file.
+pub fn shorten(record: &mut Record, has_frame: bool) {
+    if record.due_fail && record.verdict.is_violation() {
+        // The frame file shows the rest of an expected failure.
+        record.wrong.truncate(4);
+    }
+    if record.verdict == Verdict::Imprecise {
+        // There can be hundreds of legal deviations, and one texel shows what kind they are.
+        record.wrong.truncate(if has_frame { 16 } else { 1 });
+        if !has_frame {
+            record.story = None;
+        }
+    }
+}
+
+/// Records the messages of validation. Calls that break the API's rules are an error of the suite: their
+/// result says nothing about the driver.
+pub fn note_validation(record: &mut Record, messages: Vec<String>) {
+    let Some(first) = messages.first() else {
+        return;
+    };
+    if record.verdict.is_judged() || record.verdict == Verdict::Measured {
+        record.message = format!(
+            "validation, {} messages (the picture would be {}): {first}",
+            messages.len(),
+            record.verdict
+        );
+        record.verdict = Verdict::InternalError;
+    }
+    let short = |mut text: String| {
+        let end = text.floor_char_boundary(MESSAGE_BYTES);
+        text.truncate(end);
+        text
+    };
+    record.validation = messages
+        .into_iter()
+        .take(MAX_VALIDATION)
+        .map(short)
+        .collect();
+}
