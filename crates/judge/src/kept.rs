@@ -1,4 +1,5 @@
-//! What a record keeps of a drawing: its validation messages, and fewer wrong texels if a frame file shows the rest.
+//! What a record keeps of its drawings: validation messages, verdicts that differ, and fewer wrong texels if a frame
+//! file shows the rest.
 
 use etalon_record::{MAX_VALIDATION, Record, Verdict};
 
@@ -47,4 +48,17 @@ pub fn note_validation(record: &mut Record, messages: Vec<String>) {
         .take(MAX_VALIDATION)
         .map(short)
         .collect();
+}
+
+/// Makes the record of the worst of several drawings `Flaky`. `place` says what was new for each of them.
+pub fn mark_flaky(worst: &mut Record, first: Verdict, repeats: Vec<Verdict>, place: &str) {
+    let mut verdicts = vec![first.name()];
+    verdicts.extend(repeats.iter().map(|v| v.name()));
+    let note = format!("{}, each {place}", verdicts.join(", then "));
+    worst.verdict = Verdict::Flaky;
+    worst.repeats = repeats;
+    worst.message = match worst.message.as_str() {
+        "" => note,
+        message => format!("{note}; {message}"),
+    };
 }

@@ -19,7 +19,7 @@ mod texel;
 mod undrawn;
 
 pub use judge::{Judge, Judged, is_due_to_fail};
-pub use kept::{IMPRECISE_FRAMES, note_validation, shorten};
+pub use kept::{IMPRECISE_FRAMES, mark_flaky, note_validation, shorten};
 pub use relation::changed_picture;
 pub use requirement::note_requirement;
 pub use round_trips::{Blocked, RoundTrips, round_trips};

@@ -52,7 +52,10 @@ pub use hunt::{HUNT_PAGE, WrittenHunt, hunt_table, write_hunt};
 pub use matrix::matrix_table;
 pub use news::{News, NewsEntry, Since, news_table};
 pub use picture::{Ringed, ringed_pictures};
-pub use run::{RUN_FILES, RUN_FOLDERS, RunReports, dead_lines, table, write, write_run_with_news};
+pub use run::{
+    RUN_FILES, RUN_FOLDERS, RecordLine, RunReports, dead_lines, record_html, table, write,
+    write_run_with_news,
+};
 pub use site::{SITE_FILE, write_site};
 pub use staged::WrittenFolder;
 pub use terminal::TableOptions;
