@@ -38,6 +38,7 @@ mod progress;
 mod provenance;
 mod reducing;
 mod report_files;
+mod saved_run;
 mod scene_text;
 mod shard;
 mod worker;
