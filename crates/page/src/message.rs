@@ -105,6 +105,8 @@ pub(crate) struct Outcome {
     pub(crate) unexpected: bool,
     /// True if the verdict is bad.
     pub(crate) bad: bool,
+    /// True if the case is a selftest that must fail.
+    pub(crate) due: bool,
     /// The reason why the verdict is expected.
     pub(crate) expected: Option<String>,
     #[serde(flatten)]

@@ -47,6 +47,7 @@ pub(crate) fn outcome(
         verdict: whole.verdict,
         unexpected: whole.unexpected(),
         bad: whole.verdict.is_bad(),
+        due: whole.due_fail,
         expected: whole.expected.as_ref().map(|e| e.reason.clone()),
         line: RecordLine::new(&whole),
         length,

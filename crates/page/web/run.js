@@ -12,7 +12,7 @@ const ATTEMPTS = 2;
 /** The number of lanes that fail in a row before the run stops. */
 const FAILURES = 4;
 /** The milliseconds between writes to the store. */
-const WRITING = 500;
+const WRITING = 200;
 
 /** Returns the current time as runs record it. */
 const now = () => new Date().toISOString().replace(/\.\d+Z$/, "Z");
@@ -334,6 +334,7 @@ class Run extends EventTarget {
       verdict: record.verdict,
       unexpected: true,
       bad: true,
+      due: false,
       expected: null,
       symbol: "!",
       word: "internal error",
