@@ -36,6 +36,7 @@ mod output;
 mod processors;
 mod progress;
 mod provenance;
+mod recorded_frame;
 mod reducing;
 mod report_files;
 mod saved_run;

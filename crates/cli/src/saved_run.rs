@@ -33,7 +33,8 @@ pub(crate) fn folder(path: &Path) -> Result<PathBuf, Failure> {
     let Some(folder) = name.map(PathBuf::from).filter(|_| path.is_file()) else {
         return Ok(path.to_owned());
     };
-    let failed = |error: io::Error| Failure::usage(format!("cannot unpack {}: {error}", path.display()));
+    let failed =
+        |error: io::Error| Failure::usage(format!("cannot unpack {}: {error}", path.display()));
     let mut beside = folder.as_os_str().to_owned();
     beside.push(format!(".{}", std::process::id()));
     let beside = PathBuf::from(beside);
@@ -79,7 +80,9 @@ fn unpack(path: &Path, to: &Path) -> io::Result<()> {
     for entry in archive.entries()? {
         let mut entry = entry?;
         let name = entry.path()?.into_owned();
-        let plain = name.components().all(|part| matches!(part, Component::Normal(_)));
+        let plain = name
+            .components()
+            .all(|part| matches!(part, Component::Normal(_)));
         if !plain || !entry.header().entry_type().is_file() {
             return Err(io::Error::other(format!(
                 "{} is not a file of a run",
@@ -134,7 +137,12 @@ mod tests {
         assert_eq!(folder(&path).unwrap(), unpacked);
         assert!(unpacked.join("index.html").is_file());
         fs::write(unpacked.join(RUN_FILE), LINE.replace('4', "3")).unwrap();
-        assert!(folder(&path).unwrap_err().message.contains("holds something else"));
+        assert!(
+            folder(&path)
+                .unwrap_err()
+                .message
+                .contains("holds something else")
+        );
         assert_eq!(fs::read_dir(above.path()).unwrap().count(), 2);
         assert_eq!(folder(above.path()).unwrap(), above.path());
     }

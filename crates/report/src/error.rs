@@ -30,7 +30,7 @@ pub enum ReportError {
         source: io::Error,
     },
     /// A folder for a site has no page.
-    #[error("{0} holds no page; `etalon report {0}` writes the pages of a run or bench", path.display())]
+    #[error("{0} holds no page; `etalon report {0}` writes the pages of a run or bench, `ci/page {0}` the suite as a page", path.display())]
     NoPage {
         /// The folder.
         path: PathBuf,

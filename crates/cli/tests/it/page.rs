@@ -24,7 +24,10 @@ const COMPLETE: &str = "document.body.dataset.state === 'complete'";
 /// Builds the page, and serves it.
 fn site() -> Server {
     let folder = root().join("target/page-site");
-    let built = Command::new(root().join("ci/page")).arg(&folder).output().unwrap();
+    let built = Command::new(root().join("ci/page"))
+        .arg(&folder)
+        .output()
+        .unwrap();
     let errors = String::from_utf8_lossy(&built.stderr);
     assert!(built.status.success(), "ci/page: {errors}");
     Server::start(&folder)
@@ -37,7 +40,8 @@ fn address(server: &Server, fragment: &str) -> String {
 
 /// Writes the file of the page's run.
 fn save(browser: &Driven, folder: &Path) -> PathBuf {
-    let bytes = "run.file().then(file => file.arrayBuffer()).then(file => [...new Uint8Array(file)])";
+    let bytes =
+        "run.file().then(file => file.arrayBuffer()).then(file => [...new Uint8Array(file)])";
     let bytes: Vec<u8> = serde_json::from_value(browser.eval(bytes)).unwrap();
     let path = folder.join("page.tar.gz");
     fs::write(&path, bytes).unwrap();
@@ -47,7 +51,10 @@ fn save(browser: &Driven, folder: &Path) -> PathBuf {
 /// Runs a command to its end.
 fn run(arguments: &[&str], codes: &[i32]) -> String {
     let mut command = etalon(arguments);
-    let output = command.timeout(Duration::from_secs(QUICK)).output().unwrap();
+    let output = command
+        .timeout(Duration::from_secs(QUICK))
+        .output()
+        .unwrap();
     let code = output.status.code().unwrap();
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(codes.contains(&code), "{arguments:?}: {code}\n{errors}");
@@ -71,7 +78,15 @@ fn compare_with_relay(saved: &Path, adapter: &str, globs: &[&str]) {
     let relay_text = relay.to_str().unwrap();
     let begun = Instant::now();
     // One job draws in the order of the cases, which decides the imprecise frames that are kept.
-    let mut arguments = vec!["run", "--adapter", adapter, "--jobs", "1", "--out", relay_text];
+    let mut arguments = vec![
+        "run",
+        "--adapter",
+        adapter,
+        "--jobs",
+        "1",
+        "--out",
+        relay_text,
+    ];
     arguments.extend(globs);
     run(&arguments, &[0]);
     println!("{adapter}, relay: {:.1?}", begun.elapsed());
@@ -86,19 +101,29 @@ fn compare_with_relay(saved: &Path, adapter: &str, globs: &[&str]) {
     for (case, record) in &page {
         assert_eq!(record, &relay[case], "{case}");
         if let Some(frame) = &record.frame {
-            let frames = [&folder, &above.join("relay")].map(|f| Run::read_frame(f, frame).unwrap());
+            let frames =
+                [&folder, &above.join("relay")].map(|f| Run::read_frame(f, frame).unwrap());
             assert_eq!(frames[0], frames[1], "{case}");
         }
     }
     run(&["diff", saved_text, relay_text], &[0]);
     let database = above.join("history.db");
     let added = run(
-        &["history", "add", saved_text, "--db", database.to_str().unwrap()],
+        &[
+            "history",
+            "add",
+            saved_text,
+            "--db",
+            database.to_str().unwrap(),
+        ],
         &[0],
     );
     assert!(added.contains(&format!("{} record", page.len())), "{added}");
     let merged = above.join("merged");
-    run(&["merge", saved_text, "--out", merged.to_str().unwrap()], &[0]);
+    run(
+        &["merge", saved_text, "--out", merged.to_str().unwrap()],
+        &[0],
+    );
     assert_eq!(records(&merged), page);
 }
 
@@ -116,13 +141,25 @@ fn quick_in_a_page_of_chromium_is_a_run_of_the_browser() {
     let done = browser.eval("run.done").as_u64().unwrap();
     let started = browser.eval("JSON.parse(run.opened.header).started");
     browser.eval("location.reload()");
-    browser.wait(30, "typeof run === 'object' && run?.running && run.done > 300");
+    browser.wait(
+        30,
+        "typeof run === 'object' && run?.running && run.done > 300",
+    );
     let kept = browser.eval("run.done").as_u64().unwrap();
-    assert!(kept + 100 > done.min(600), "{kept} of {done} records are left");
+    assert!(
+        kept + 100 > done.min(600),
+        "{kept} of {done} records are left"
+    );
     browser.wait(QUICK, COMPLETE);
     println!("webgpu:chromium, page: {:.1?}", begun.elapsed());
-    assert_eq!(browser.eval("JSON.parse(run.opened.header).started"), started);
-    assert_eq!(browser.eval("document.getElementById('bad').childElementCount"), 0);
+    assert_eq!(
+        browser.eval("JSON.parse(run.opened.header).started"),
+        started
+    );
+    assert_eq!(
+        browser.eval("document.getElementById('bad').childElementCount"),
+        0
+    );
     let known = browser.eval("document.getElementById('known').childElementCount");
     assert!(known.as_u64().unwrap() > 10, "{known}");
     let saved = save(&browser, folder.path());
@@ -131,7 +168,10 @@ fn quick_in_a_page_of_chromium_is_a_run_of_the_browser() {
     // The page asks for its own files and for nothing else.
     let requested = server.requested.lock().unwrap();
     for name in requested.iter().filter(|name| *name != "favicon.ico") {
-        assert!(root().join("target/page-site").join(name).is_file(), "{name}");
+        assert!(
+            root().join("target/page-site").join(name).is_file(),
+            "{name}"
+        );
     }
 }
 
@@ -155,12 +195,18 @@ fn a_page_of_a_browser_shows_planted_faults() {
     let server = site();
     let browser = Driven::start("webgpu:chromium");
     browser.narrow();
-    browser.go(&address(&server, "run=capabilities/round-trip blend/factors&fault=read-fault=off-by-one"));
+    browser.go(&address(
+        &server,
+        "run=capabilities/round-trip blend/factors&fault=read-fault=off-by-one",
+    ));
     browser.wait(60, COMPLETE);
     let verdicts = browser.eval("[...run.records.values()].map(record => record.outcome.verdict)");
     let verdicts: Vec<Verdict> = serde_json::from_value(verdicts).unwrap();
     let count = |verdict| verdicts.iter().filter(|v| **v == verdict).count();
-    assert!(count(Verdict::Fail) >= 5 && count(Verdict::Blocked) >= 5, "{verdicts:?}");
+    assert!(
+        count(Verdict::Fail) >= 5 && count(Verdict::Blocked) >= 5,
+        "{verdicts:?}"
+    );
     assert_eq!(count(Verdict::Pass), 0, "{verdicts:?}");
     let wide = "document.documentElement.scrollWidth > innerWidth";
     assert_eq!(browser.eval(wide), false);
@@ -168,11 +214,17 @@ fn a_page_of_a_browser_shows_planted_faults() {
     browser.wait(20, "document.querySelectorAll('#view img').length >= 3");
     let text = browser.eval("document.getElementById('view').innerText");
     let text = text.as_str().unwrap();
-    assert!(text.contains("must be") && text.contains("Wrong texels"), "{text}");
+    assert!(
+        text.contains("must be") && text.contains("Wrong texels"),
+        "{text}"
+    );
     assert_eq!(browser.eval(wide), false);
     assert_eq!(browser.eval("document.activeElement.id"), "view-title");
     browser.eval("history.back()");
     browser.wait(10, "document.getElementById('view').hidden");
     browser.go(&address(&server, "run=nothing/*"));
-    browser.wait(20, "document.getElementById('problem').innerText.includes('no case matches')");
+    browser.wait(
+        20,
+        "document.getElementById('problem').innerText.includes('no case matches')",
+    );
 }

@@ -166,7 +166,8 @@ impl Driven {
 
     /// Returns the value of an expression, whose promise is awaited; an error while the page changes.
     fn try_eval(&self, script: &str) -> Result<Value, String> {
-        let script = format!("Promise.resolve({script}).then(value => JSON.stringify(value) ?? \"null\")");
+        let script =
+            format!("Promise.resolve({script}).then(value => JSON.stringify(value) ?? \"null\")");
         let text = match self.protocol {
             Protocol::DevTools => {
                 let params =
@@ -188,7 +189,8 @@ impl Driven {
 
     /// Returns the value of an expression.
     pub(super) fn eval(&self, script: &str) -> Value {
-        self.try_eval(script).unwrap_or_else(|e| panic!("{script}: {e}"))
+        self.try_eval(script)
+            .unwrap_or_else(|e| panic!("{script}: {e}"))
     }
 
     /// Waits until an expression is true.
