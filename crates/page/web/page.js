@@ -85,7 +85,8 @@ function route() {
   }
   showRun();
   const selection = named();
-  if (selection !== null && !(run?.running && same(run.selection, selection))) {
+  // Going back from a case to its run draws nothing.
+  if (selection !== null && !(run !== null && same(run.selection, selection))) {
     return begin(selection);
   }
 }
@@ -134,9 +135,13 @@ async function main() {
 
 $("choice").addEventListener("submit", (event) => {
   event.preventDefault();
-  if (module !== null) {
-    begin({ globs: words($("globs").value), profile: $("profile").value, fault: "" });
+  if (module === null) {
+    return;
   }
+  const selection = { globs: words($("globs").value), profile: $("profile").value, fault: "" };
+  const profile = selection.profile === "full" ? "&profile=full" : "";
+  history.replaceState(null, "", `#run=${encoded(selection.globs.join(" "))}${profile}`);
+  begin(selection);
 });
 $("stop").addEventListener("click", async () => {
   await run?.stop();

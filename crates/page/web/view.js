@@ -41,6 +41,7 @@ class View {
   #rows = new Map();
   #listed = { bad: 0, known: 0 };
   #due = false;
+  #spoken = "";
 
   constructor(run) {
     this.#run = run;
@@ -138,6 +139,7 @@ class View {
     $("bar").max = opened.cases.length;
     $("bar").value = run.done;
     $("state").textContent = this.#state();
+    this.#speak();
     for (const { cells, counts } of this.#rows.values()) {
       const done = counts.done === counts.all ? String(counts.all) : `${counts.done} of ${counts.all}`;
       const texts = [done, ...COLUMNS.map((key) => String(counts[key] || ""))];
@@ -156,6 +158,17 @@ class View {
     $("known-list").hidden = known === 0;
     $("known-title").textContent = `${counted(known, "bad verdict")} of known bugs`;
     document.body.dataset.state = run.running ? "running" : run.complete ? "complete" : "stopped";
+  }
+
+  /** Tells a screen reader each tenth of a run, and its end. */
+  #speak() {
+    const run = this.#run;
+    const tenth = Math.floor((10 * run.done) / run.opened.cases.length);
+    const spoken = `${run.running} ${tenth}`;
+    if (this.#spoken !== spoken) {
+      this.#spoken = spoken;
+      $("spoken").textContent = this.#state();
+    }
   }
 
   #state() {

@@ -191,6 +191,27 @@ fn quick_in_a_page_of_firefox_is_a_run_of_the_browser() {
 }
 
 #[test]
+fn a_page_of_a_browser_survives_a_lost_device() {
+    let server = site();
+    let browser = Driven::start("webgpu:chromium");
+    browser.go(&address(&server, "run=sequence/* stencil/*"));
+    browser.wait(60, "run?.done > 100");
+    browser.kill_gpu();
+    browser.wait(120, COMPLETE);
+    let bad = "[...run.records.values()].map(record => record.outcome).filter(outcome => outcome.unexpected)";
+    let bad = browser.eval(&format!(
+        "{bad}.map(outcome => [outcome.verdict, outcome.headline])"
+    ));
+    let bad: Vec<(Verdict, String)> = serde_json::from_value(bad).unwrap();
+    // A lane loses at most the case that it draws, which is right on a fresh device.
+    assert!(bad.len() <= 8, "{bad:?}");
+    for (verdict, why) in bad {
+        assert_eq!(verdict, Verdict::Flaky, "{why}");
+        assert!(why.contains("device-lost, then pass"), "{why}");
+    }
+}
+
+#[test]
 fn a_page_of_a_browser_shows_planted_faults() {
     let server = site();
     let browser = Driven::start("webgpu:chromium");

@@ -164,6 +164,29 @@ impl Driven {
         self.call("Emulation.setEmulatedMedia", &json!({ "features": dark }));
     }
 
+    /// Kills the processes of the browser that draw, which loses all devices.
+    pub(super) fn kill_gpu(&self) {
+        let processes = fs::read_dir("/proc").unwrap().flatten();
+        let numbers = processes.filter_map(|entry| entry.file_name().to_str()?.parse().ok());
+        let draws = |number: &i32| {
+            let line = fs::read(format!("/proc/{number}/cmdline")).unwrap_or_default();
+            let stat = fs::read_to_string(format!("/proc/{number}/stat")).unwrap_or_default();
+            // After the name in parentheses: state, parent, process group.
+            let group = stat
+                .rsplit(") ")
+                .next()
+                .and_then(|rest| rest.split(' ').nth(2));
+            String::from_utf8_lossy(&line).contains("--type=gpu-process")
+                && group == Some(&self.process.id().to_string())
+        };
+        let killed = numbers
+            .filter(draws)
+            .filter_map(rustix::process::Pid::from_raw);
+        let killed =
+            killed.map(|pid| rustix::process::kill_process(pid, rustix::process::Signal::KILL));
+        assert!(killed.count() > 0, "no process draws");
+    }
+
     /// Returns the value of an expression, whose promise is awaited; an error while the page changes.
     fn try_eval(&self, script: &str) -> Result<Value, String> {
         let script =
