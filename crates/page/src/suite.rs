@@ -68,7 +68,7 @@ impl Suite {
     }
 }
 
-/// Returns the frame in a compressed file; `None` if there is none.
+/// Returns the frame in a compressed file; `None` if the record keeps no frame.
 fn frame_of(file: &[u8]) -> Option<FrameFile> {
     let mut text = Vec::new();
     let read = GzDecoder::new(file).take(MAX_FRAME).read_to_end(&mut text);
