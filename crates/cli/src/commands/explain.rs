@@ -5,6 +5,7 @@ use crate::cases::{find, library};
 use crate::failure::{Failure, UNEXPECTED};
 use crate::flags::AdapterFileArguments;
 use crate::output::print;
+use crate::recorded_frame::recorded_frame;
 use clap::Args;
 use etalon_backend::Backend;
 use etalon_case::Case;
@@ -33,6 +34,10 @@ pub(crate) struct Arguments {
     /// Draw the case on this adapter and judge the texel
     #[arg(long, value_name = "NAME")]
     pub(crate) adapter: Option<String>,
+    /// Draw nothing, and judge the texel in the frame that this run keeps: a run folder, or a run that the page saved
+    /// (`*.tar.gz`). --adapter chooses one of several adapters
+    #[arg(long, value_name = "RUN")]
+    pub(crate) run: Option<PathBuf>,
     /// Also compare the texel with the yardstick, the band of good quality within the legal values
     #[arg(long)]
     pub(crate) yardstick: bool,
@@ -48,9 +53,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let case = found.build().map_err(Failure::usage)?;
     let scene = case.judged_scene();
     refuse_outside(scene, arguments)?;
-    let (limits, frames) = match &arguments.adapter {
-        None => (CpuBackend::new("cpu").limits().clone(), Vec::new()),
-        Some(name) => draw(name, arguments.file.adapter_file.as_deref(), &case)?,
+    let (limits, frames) = match (&arguments.run, &arguments.adapter) {
+        (Some(run), adapter) => {
+            let (limits, frame) = recorded_frame(run, adapter.as_deref(), &case)?;
+            (limits, vec![frame])
+        }
+        (None, None) => (CpuBackend::new("cpu").limits().clone(), Vec::new()),
+        (None, Some(name)) => draw(name, arguments.file.adapter_file.as_deref(), &case)?,
     };
     let asked = Asked {
         case: &case,

@@ -4,6 +4,7 @@ use crate::expectations;
 use crate::failure::{Failure, IMPROVED, INCOMPLETE, UNEXPECTED};
 use crate::news::{NewsArguments, shown};
 use crate::output::{say, summarize, table_options};
+use crate::saved_run::folders;
 use clap::Args;
 use etalon_record::{Bench, Expectation, FolderKind, Record, Run};
 use etalon_report::{OtherFormats, TableOptions};
@@ -11,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Run and bench folders
+    /// Run and bench folders, and runs that the page saved (`*.tar.gz`)
     #[arg(value_name = "DIR", required = true)]
     pub(crate) folders: Vec<PathBuf>,
     #[command(flatten)]
@@ -39,7 +40,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     arguments.news.check()?;
     let options = table_options();
     let mut codes = Vec::new();
-    for folder in &arguments.folders {
+    for folder in &folders(&arguments.folders)? {
         codes.push(match FolderKind::of(folder) {
             Some(FolderKind::Bench) => bench(folder, options)?,
             // A folder that is neither a run nor a bench is reported as a missing run.

@@ -7,7 +7,7 @@ use crate::adapters::{
 use crate::blessing::{bless, to_bless};
 use crate::cases::{all_ids, chosen, leave_measured, left_out, library, round_trips};
 use crate::catalogue::catalogue;
-use crate::expectations::{ExpectArguments, counting, is_built_in};
+use crate::expectations::{ExpectArguments, counting};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::flags::{AdapterFileArguments, CaseArguments, Format, parse_timeout};
 use crate::interruption::{how_to_resume, listen};
@@ -20,6 +20,7 @@ use crate::progress::progress;
 use crate::{provenance, report_files, shard};
 use clap::{Args, ValueEnum};
 use etalon_case::Case;
+use etalon_findings::is_built_in;
 use etalon_history::FrameTimes;
 use etalon_record::{
     AdapterRecord, Dead, DeadKind, Expectations, FolderKind, Header, Run, Settings, Shard, Verdict,

@@ -9,7 +9,7 @@ use std::process::Command;
 
 /// The folder of each crate, the crates of the workspace that it may use, and the graphics APIs. Development dependencies
 /// are not restricted.
-const TABLE: [(&str, &[&str], &[&str]); 30] = [
+const TABLE: [(&str, &[&str], &[&str]); 32] = [
     ("frame", &[], &[]),
     ("stats", &[], &[]),
     ("scene", &["frame"], &[]),
@@ -55,6 +55,7 @@ const TABLE: [(&str, &[&str], &[&str]); 30] = [
         &["case", "frame", "record", "reference", "scene"],
         &[],
     ),
+    ("findings", &["record"], &[]),
     ("diagnose", &["frame", "record"], &[]),
     (
         "runner",
@@ -65,6 +66,14 @@ const TABLE: [(&str, &[&str], &[&str]); 30] = [
         &[],
     ),
     ("bundle", &["backend", "frame", "webgpu"], &[]),
+    (
+        "page",
+        &[
+            "backend", "case", "diagnose", "findings", "frame", "judge", "record", "report",
+            "webgpu",
+        ],
+        &[],
+    ),
     ("explore", &["case", "frame", "scene"], &[]),
     ("history", &["frame", "record", "stats"], &[]),
     ("dashboards", &["record"], &[]),
@@ -93,6 +102,7 @@ const TABLE: [(&str, &[&str], &[&str]); 30] = [
             "diagnose",
             "explore",
             "export",
+            "findings",
             "frame",
             "gl",
             "history",

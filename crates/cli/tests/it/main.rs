@@ -31,6 +31,7 @@ mod methods;
 mod mutants;
 mod news;
 mod odd_inputs;
+mod page;
 mod parts;
 mod pipes;
 mod plain_words;

@@ -4,10 +4,10 @@
 
 use assert_cmd::Command;
 use etalon_backend::Backend;
-use etalon_case::{Case, Library, Profile};
+use etalon_case::{Case, Library, Profile, select};
 use etalon_mutants::{MutantBackend, mutants};
 use etalon_record::{Catch, Hunt, MutantInfo};
-use etalon_runner::{HuntPlan, hunt, select};
+use etalon_runner::{HuntPlan, hunt};
 
 /// Caught and legal mutants, in scenes, steps and frames, and two with state that persists.
 const FEW: [&str; 10] = [

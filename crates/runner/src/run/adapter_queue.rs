@@ -1,12 +1,12 @@
 //! The queue of one adapter's cases, and the state that its workers share.
 
 use super::plan::Rechecks;
-use super::round_trips::RoundTrips;
 use crate::launch::{Launch, START_TIMEOUT};
 use crate::supervisor::FailedStarts;
 use crate::sync::lock;
 use crate::worker::Worker;
 use etalon_diagnose::Symptom;
+use etalon_judge::RoundTrips;
 use etalon_record::AdapterRecord;
 use std::collections::{BTreeSet, HashMap, VecDeque};
 use std::path::PathBuf;

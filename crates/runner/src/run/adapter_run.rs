@@ -13,37 +13,21 @@ use crate::process::Wait;
 use crate::sync::lock;
 use etalon_case::Case;
 use etalon_frame::Frame;
-use etalon_judge::{Judged, is_due_to_fail, note_requirement};
-use etalon_record::{Expected, FrameFile, MAX_VALIDATION, Record, RecordError, Seconds, Verdict};
+use etalon_judge::{
+    IMPRECISE_FRAMES, Judged, Shown, is_due_to_fail, note_validation, settled, shorten, undrawn,
+};
+use etalon_record::{FrameFile, Record, RecordError, Seconds, Verdict};
 use etalon_truth::TruthPicture;
 use std::time::{Duration, Instant};
 
-/// The number of frame files and stories of imprecise cases that are kept per adapter and case file with
-/// `KeptFrames::All`; otherwise one is.
-const IMPRECISE_FRAMES: u32 = 3;
-/// The number of wrong samples that the record of an imprecise case or a known failure lists next to a frame file.
-const SHOWN_WRONG: usize = 8;
 /// The factor by which a case that is measured may take longer than other cases.
 const MEASURING: u32 = 4;
-/// The maximum number of bytes of one validation message that a record keeps.
-const MESSAGE_BYTES: usize = 1000;
-
 /// A judged drawing that has not been written yet.
 pub(super) struct Observation {
     pub(super) record: Record,
     pub(super) frame: Option<FrameFile>,
     /// The frames themselves; empty if drawing failed.
     pub(super) frames: Vec<Frame>,
-}
-
-/// How much the record of a failure shows.
-enum Shown {
-    /// Everything: the failure is new, or all known ones are kept.
-    Whole,
-    /// What stands for all cases with the same known failure.
-    Example,
-    /// The first wrong sample; the record of this case shows the rest.
-    By(String),
 }
 
 /// One adapter's part of a run.
@@ -95,44 +79,14 @@ impl<'s> AdapterRun<'s, '_> {
 
     /// Returns the record of a case that is not drawn on this adapter; `None` if it must be drawn.
     pub(super) fn undrawn(&self, number: usize) -> Option<Record> {
-        let case = self.case(number);
-        let adapter = &self.queue.adapter;
-        let mut record = if let Some(entry) = self.shared.expectations.skips(adapter, &case.id) {
-            let mut record = Record::new(&case.id, &adapter.name, Verdict::Skipped);
-            record.expected = Some(Expected {
-                reason: entry.reason.clone(),
-            });
-            record.message = format!("not drawn: {}", entry.reason);
-            record
-        } else if let Some(missing) = adapter.limits.missing(&case.requirements()) {
-            let mut record = Record::new(&case.id, &adapter.name, Verdict::NotSupported);
-            record.message = missing.to_string();
-            if case.is_requirement() {
-                note_requirement(&mut record, case, &adapter.limits);
-            }
-            record
-        } else {
-            let round_trips = self.queue.round_trips()?;
-            let blocked = round_trips.blocks(case)?;
-            let mut record = Record::new(&case.id, &adapter.name, Verdict::Blocked);
-            record.message = blocked.message;
-            record.blocked_by = blocked.by;
-            record.expected = blocked.expected.map(|reason| Expected { reason });
-            record
-        };
-        record.due_fail = is_due_to_fail(case, &self.queue.adapter.limits);
-        Some(record)
+        let Shared { expectations, .. } = self.shared;
+        let trips = self.queue.round_trips();
+        undrawn(self.case(number), &self.queue.adapter, expectations, trips)
     }
 
-    /// Returns a record with what the expectations say about it. A case that is not drawn for an expected
-    /// reason is expected itself.
-    pub(super) fn settled(&self, mut record: Record) -> Record {
-        if record.verdict != Verdict::Skipped {
-            let inherited = record.expected.take();
-            record.expect(self.shared.expectations, &self.queue.adapter);
-            record.expected = record.expected.take().or(inherited);
-        }
-        record
+    /// Returns a record with what the expectations say about it.
+    pub(super) fn settled(&self, record: Record) -> Record {
+        settled(record, self.shared.expectations, &self.queue.adapter)
     }
 
     /// Judges a drawing. `report` makes the report if drawing failed.
@@ -189,33 +143,13 @@ impl<'s> AdapterRun<'s, '_> {
             return Ok(());
         }
         let record = &mut observed.record;
-        if let Some(note) = self
-            .queue
-            .round_trips()
-            .and_then(|r| r.note(self.case(number)))
-        {
-            record.message = match record.message.as_str() {
-                "" => note,
-                message => format!("{message}; {note}"),
-            };
+        if let Some(trips) = self.queue.round_trips() {
+            trips.annotate(self.case(number), record);
         }
         let shown = self.shown(record);
         let frame = observed.frame.take();
         let kept = frame.filter(|_| self.keeps_frame(record, &shown));
-        match shown {
-            _ if record.verdict == Verdict::Imprecise => {
-                // There can be hundreds of legal deviations, and one texel shows what kind they are.
-                let most = if kept.is_some() { SHOWN_WRONG } else { 1 };
-                record.wrong.truncate(most);
-                if kept.is_none() {
-                    record.story = None;
-                }
-            }
-            Shown::Whole if record.excuse().is_none() => {}
-            // The frame file, if it is kept, shows the rest.
-            Shown::Whole | Shown::Example => record.wrong.truncate(SHOWN_WRONG),
-            Shown::By(case) => record.refer_to(case),
-        }
+        shorten(record, shown, kept.is_some());
         if let Some(file) = kept {
             record.frame = Some(self.shared.frames.write_frame(&file)?);
         }
@@ -309,30 +243,4 @@ impl<'s> AdapterRun<'s, '_> {
             });
         }
     }
-}
-
-/// Records the messages of validation. Calls that break the API's rules are an error of the suite: their
-/// result says nothing about the driver.
-fn note_validation(record: &mut Record, messages: Vec<String>) {
-    let Some(first) = messages.first() else {
-        return;
-    };
-    if record.verdict.is_judged() || record.verdict == Verdict::Measured {
-        record.message = format!(
-            "validation, {} messages (the picture would be {}): {first}",
-            messages.len(),
-            record.verdict
-        );
-        record.verdict = Verdict::InternalError;
-    }
-    let short = |mut text: String| {
-        let end = text.floor_char_boundary(MESSAGE_BYTES);
-        text.truncate(end);
-        text
-    };
-    record.validation = messages
-        .into_iter()
-        .take(MAX_VALIDATION)
-        .map(short)
-        .collect();
 }

@@ -15,7 +15,7 @@ pub struct Plan<'a> {
     /// The cases, each once, in drawing order.
     pub cases: &'a [Case],
     /// The round trips that are drawn first on every adapter, and recorded if they are among the cases:
-    /// [`round_trips`](crate::round_trips) of the selection before sharding.
+    /// [`round_trips`](etalon_judge::round_trips) of the selection before sharding.
     pub round_trips: &'a [Case],
     /// All ids selected before sharding, if they must be written to the folder.
     pub selection: Option<&'a [String]>,

@@ -280,7 +280,7 @@ fn run(launch: Launch) -> (Vec<Record>, RunSummary) {
 fn run_with(launch: Launch, jobs: usize, libraries: &[&Library]) -> (Vec<Record>, RunSummary) {
     let folder = tempfile::tempdir().unwrap();
     let cases = cases(&folder.path().join("cases"), CASES);
-    let round_trips = etalon_runner::round_trips(libraries, &cases).unwrap();
+    let round_trips = etalon_judge::round_trips(libraries, &cases).unwrap();
     assert_eq!(
         round_trips.len(),
         libraries.len(),
