@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::saved_run::folder;
 use etalon_case::Case;
-use etalon_frame::{Frame, Image, Limits, ReadPath};
+use etalon_frame::{Aspect, Frame, Image, Limits, ReadPath};
 use etalon_record::{FrameImage, Record, Run};
 use std::path::Path;
 
@@ -52,14 +52,18 @@ pub(crate) fn recorded_frame(
     if !file.images.iter().all(FrameImage::is_whole) {
         return Err(refuse("the kept frame is damaged"));
     }
-    let read = |attachment: &str| {
+    let read = |attachment: &str, aspect: Aspect| {
+        // Stencil is exact on every path, so its images declare a copy.
+        if aspect == Aspect::Stencil {
+            return ReadPath::Copy;
+        }
         let mut attachments = case.scene.attachments.iter();
         let found = attachments.find(|a| a.name == attachment);
         let support = found.and_then(|a| limits.formats.get(&a.format));
         support.map_or(ReadPath::Copy, |support| support.read)
     };
     let images = file.images.into_iter().map(|image| Image {
-        read: read(&image.attachment),
+        read: read(&image.attachment, image.aspect),
         attachment: image.attachment,
         aspect: image.aspect,
         size: image.size,
