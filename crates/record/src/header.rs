@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// The format of run folders that this crate writes. It also reads earlier ones: format 4 states every number
-/// and tells known failures in full; format 3 has stories as
+/// and keeps known failures in full; format 3 has stories as
 /// sentences; format 2 lacks the verdicts `required-by-cts`, `disputed` and `blocked`, and its limits lack
 /// version and properties.
 pub const FORMAT: u32 = 5;

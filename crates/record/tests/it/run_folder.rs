@@ -207,7 +207,7 @@ proptest! {
 
     #[test]
     fn a_run_cut_anywhere_keeps_its_whole_records(
-        records in prop::collection::vec(record(), 1..5), at in any::<prop::sample::Index>()
+        records in prop::collection::vec(record(), 1..5), cut_index in any::<prop::sample::Index>()
     ) {
         let folder = tempfile::tempdir().unwrap();
         let mut writer = RunWriter::create(folder.path(), &header()).unwrap();
@@ -215,7 +215,7 @@ proptest! {
         let path = folder.path().join("run.jsonl");
         let bytes = fs::read(&path).unwrap();
         let first = bytes.iter().position(|b| *b == b'\n').unwrap() + 1;
-        let end = first + at.index(bytes.len() - first);
+        let end = first + cut_index.index(bytes.len() - first);
         fs::write(&path, &bytes[..end]).unwrap();
         let run = Run::read(folder.path()).unwrap();
         let newlines = bytes[first..end].iter().filter(|b| **b == b'\n').count();
@@ -229,7 +229,7 @@ proptest! {
     #[test]
     fn a_run_cut_anywhere_goes_on_and_ends_as_if_nothing_had_happened(
         records in prop::collection::vec(record(), 1..5),
-        at in any::<prop::sample::Index>(),
+        cut_index in any::<prop::sample::Index>(),
         zeros in 0_usize..3,
     ) {
         let folder = tempfile::tempdir().unwrap();
@@ -237,17 +237,17 @@ proptest! {
         records.iter().for_each(|r| writer.append(r).unwrap());
         drop(writer);
         let path = folder.path().join("run.jsonl");
-        let due = fs::read(&path).unwrap();
-        let first = due.iter().position(|b| *b == b'\n').unwrap() + 1;
-        let end = first + at.index(due.len() - first);
+        let complete = fs::read(&path).unwrap();
+        let first = complete.iter().position(|b| *b == b'\n').unwrap() + 1;
+        let end = first + cut_index.index(complete.len() - first);
         // Some file systems leave zeros in place of what a power cut took.
-        let mut cut = due[..end].to_vec();
+        let mut cut = complete[..end].to_vec();
         cut.extend(vec![0; zeros]);
         fs::write(&path, cut).unwrap();
         let (mut writer, run) = RunWriter::resume(folder.path(), &header()).unwrap();
         prop_assert!(!run.truncated);
         records[run.records.len()..].iter().for_each(|r| writer.append(r).unwrap());
-        prop_assert_eq!(fs::read(&path).unwrap(), due);
+        prop_assert_eq!(fs::read(&path).unwrap(), complete);
     }
 }
 
