@@ -16,7 +16,7 @@ const MESSAGE_BYTES: usize = 1000;
 pub enum Shown {
     /// Everything: the failure is new, or all known ones are kept.
     Whole,
-    /// What stands for all cases with the same known failure.
+    /// An example of all cases with the same known failure.
     Example,
     /// The first wrong sample; the record of this case shows the rest.
     By(String),
@@ -27,7 +27,9 @@ pub fn shorten(record: &mut Record, shown: Shown, has_frame: bool) {
     match shown {
         _ if record.verdict == Verdict::Imprecise => {
             // There can be hundreds of legal deviations, and one texel shows what kind they are.
-            record.wrong.truncate(if has_frame { SHOWN_WRONG } else { 1 });
+            record
+                .wrong
+                .truncate(if has_frame { SHOWN_WRONG } else { 1 });
             if !has_frame {
                 record.story = None;
             }
