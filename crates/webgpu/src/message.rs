@@ -1,4 +1,4 @@
-//! The messages between a page and what sends it lists.
+//! The messages between a page and the program that sends it lists.
 //!
 //! The page sends a greeting as JSON. All later messages are binary: the length of a header as four
 //! little-endian bytes, the header as JSON, and bytes.
