@@ -1,10 +1,10 @@
-// Opens a device, and describes it as adapters of runs are described (crates/webgpu/src/message.rs).
+// Opens a device, and describes it like the adapter of a run (crates/webgpu/src/message.rs).
 "use strict";
 
 /** The version of the messages. */
 const PROTOCOL = 1;
 
-/** The feature of devices with everything that WebGPU guarantees, which older browsers have without naming it. */
+/** The feature of devices that have all of core WebGPU. Older browsers offer core WebGPU without this feature. */
 const CORE = "core-features-and-limits";
 
 /** The features that are requested if the adapter has them. */
