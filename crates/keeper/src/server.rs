@@ -177,8 +177,8 @@ impl Link {
 
 /// Opens the file of a lock that all users share.
 fn lock_file(path: &Path) -> io::Result<File> {
-    // A lock needs no right to write. In a folder of temporary files, Linux refuses to open another user's file
-    // with the option to create it.
+    // A lock does not need write permission. In a shared temporary folder, Linux refuses to open another user's
+    // file with the option to create it.
     match File::open(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => {}
         opened => return opened,
