@@ -84,7 +84,7 @@ pub fn private_output() -> io::Result<File> {
     Ok(File::from(private))
 }
 
-/// Replaces this process by another program; returns only if that fails.
+/// Replaces this process with another program; returns only if that fails.
 pub fn replace(command: &mut Command) -> io::Error {
     command.exec()
 }

@@ -38,7 +38,7 @@ impl Group {
         let assigned =
             unsafe { AssignProcessToJobObject(job.as_raw_handle(), child.as_raw_handle()) };
         if let Err(error) = checked(assigned) {
-            // The process may have ended already.
+            // The process might have ended already.
             let _ = child.kill();
             let _ = child.wait();
             return Err(error);
