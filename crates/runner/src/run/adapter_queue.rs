@@ -223,8 +223,8 @@ impl AdapterQueue {
         fits
     }
 
-    /// Returns the case whose record shows an expected failure in full; `None` if this case is that one. The
-    /// first case of each reason is.
+    /// Returns the case whose record shows an expected failure in full; `None` if this case does:
+    /// the first case of each reason.
     pub(super) fn example(&self, reason: &str, case: &str) -> Option<String> {
         let mut state = self.state();
         if let Some(example) = state.examples.get(reason) {
