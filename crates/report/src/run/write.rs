@@ -58,7 +58,7 @@ impl RunReports {
 pub struct OtherFormats {
     /// `ctrf.json`, in the Common Test Report Format.
     pub ctrf: bool,
-    /// `results/<adapter>.csv`, in deqp-runner's form.
+    /// `results/<adapter>.csv`, in deqp-runner's format.
     pub deqp: bool,
 }
 
@@ -69,7 +69,7 @@ impl OtherFormats {
         deqp: true,
     };
 
-    /// These formats and those that the folder already has, so that no file in it is older than the others.
+    /// These formats and any that the folder already has, so that no file in it is older than the others.
     fn with_those_of(self, folder: &Path) -> Self {
         Self {
             ctrf: self.ctrf || folder.join(CTRF).exists(),

@@ -30,8 +30,8 @@ pub(crate) fn process_end(end: &ProcessEnd) -> String {
     text
 }
 
-/// Returns an exit status as its system writes it: the exceptions of Windows are negative, and known by their
-/// hexadecimal digits.
+/// Returns an exit status as its system writes it: Windows exceptions are negative, and known by their
+/// hexadecimal codes.
 fn exit_status(exit: i32) -> String {
     if exit < 0 {
         format!("0x{exit:08X}")

@@ -31,8 +31,8 @@ fn adapters() -> Vec<(String, Api)> {
 /// 4 cases that it draws right, 5 that it cannot draw, in each of three areas.
 pub(crate) fn write_twenty(folder: &Path) {
     let names = adapters();
-    let of = names.iter().map(|(name, api)| adapter(name, *api));
-    let mut writer = RunWriter::create(folder, &header(3 * 14, of.collect())).unwrap();
+    let adapters = names.iter().map(|(name, api)| adapter(name, *api));
+    let mut writer = RunWriter::create(folder, &header(3 * 14, adapters.collect())).unwrap();
     for (name, _) in &names {
         for area in ["blend", "depth", "multisample"] {
             for number in 0..14 {
@@ -57,8 +57,8 @@ pub(crate) fn write_twenty(folder: &Path) {
 /// The tables of a class, as XML.
 fn tables(html: &str, class: &str) -> Vec<String> {
     let start = format!("<table class=\"{class}");
-    let tables = html.match_indices(&start).map(|(at, _)| {
-        let (table, _) = html[at..].split_once("</table>").unwrap();
+    let tables = html.match_indices(&start).map(|(offset, _)| {
+        let (table, _) = html[offset..].split_once("</table>").unwrap();
         format!("{}</table>", table.replace("<wbr>", ""))
     });
     tables.collect()

@@ -8,7 +8,7 @@ use std::path::{Component, Path, PathBuf};
 
 /// The files below a folder, by path below it.
 fn files(folder: &Path) -> BTreeSet<PathBuf> {
-    let mut all = BTreeSet::new();
+    let mut files = BTreeSet::new();
     let mut coming = vec![folder.to_owned()];
     while let Some(next) = coming.pop() {
         for entry in fs::read_dir(next).unwrap() {
@@ -16,11 +16,11 @@ fn files(folder: &Path) -> BTreeSet<PathBuf> {
             if path.is_dir() {
                 coming.push(path);
             } else {
-                all.insert(path.strip_prefix(folder).unwrap().to_owned());
+                files.insert(path.strip_prefix(folder).unwrap().to_owned());
             }
         }
     }
-    all
+    files
 }
 
 /// The values of an attribute.

@@ -179,8 +179,8 @@ fn details(before: &Record, after: &Record) -> Vec<Detail> {
     found.0
 }
 
-/// Adds the differences of the listed wrong texels. If a known failure's list was cut, as many texels are compared
-/// as both records list.
+/// Adds the differences of the listed wrong texels. If a known failure's list was cut, only as many
+/// texels are compared as both records list.
 fn wrong(found: &mut Details, before: &Record, after: &Record) {
     let both = [before, after];
     let is_cut = |r: &&Record| {
