@@ -35,7 +35,7 @@ pub(crate) struct Opening {
     /// The start of the run, RFC 3339 in UTC.
     pub(crate) started: String,
     pub(crate) command: Vec<String>,
-    /// The round trips that the cases depend on, by the answer to the first opening.
+    /// The round trips that the cases depend on, from the answer to the first opening.
     #[serde(default)]
     pub(crate) trips: Option<Vec<String>>,
 }
@@ -91,7 +91,7 @@ pub(crate) struct Drawn {
 pub(crate) struct Judging {
     /// The record, unless the case must be drawn again.
     pub(crate) outcome: Option<Outcome>,
-    /// True if nothing else must be drawn on this device. If there is no outcome, the case is drawn again on a fresh
+    /// True if this device must not draw anything else. If there is no outcome, the case is drawn again on a fresh
     /// one.
     pub(crate) renew: bool,
 }
@@ -111,7 +111,7 @@ pub(crate) struct Outcome {
     pub(crate) expected: Option<String>,
     #[serde(flatten)]
     pub(crate) line: RecordLine,
-    /// The length of the record's line, which begins the bytes.
+    /// The length of the record's line, which comes first in the bytes.
     pub(crate) length: usize,
     /// The length of the line if the frame is not kept, which comes next; 0 if the frame must be kept.
     pub(crate) short: usize,

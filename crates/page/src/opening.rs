@@ -11,7 +11,7 @@ use etalon_webgpu::adapter;
 use std::collections::{BTreeSet, HashMap};
 use std::sync::OnceLock;
 
-/// Seconds that a case may take.
+/// The time limit of a case, in seconds.
 const TIMEOUT: f64 = 60.0;
 
 /// The number of cases that are built before a run begins.
@@ -36,12 +36,12 @@ pub(crate) fn open(opening: Opening) -> Result<(Session, Opened), String> {
     };
     let matching = |profile| select(library, profile, &opening.globs).map_err(|e| e.to_string());
     let selected = matching(profile)?.cases;
-    let all = selected.len();
+    let count = selected.len();
     let selected: Vec<CaseRef<'static>> = selected
         .into_iter()
         .filter(|case| !case.is_measured())
         .collect();
-    let measured = all - selected.len();
+    let measured = count - selected.len();
     let ids: Vec<String> = selected.iter().map(CaseRef::id).collect();
     if ids.is_empty() {
         let full = matching(Profile::Full)?.cases;
@@ -126,8 +126,8 @@ fn library() -> Result<&'static Library, String> {
     Ok(LIBRARY.get_or_init(|| built_in))
 }
 
-/// Returns the ids of the round trips that cases depend on. For many cases, those are all: building the cases to find out
-/// takes longer than drawing round trips that no case needs.
+/// Returns the ids of the round trips that cases depend on. For many cases it returns all of them: building
+/// the cases to find out takes longer than drawing round trips that no case needs.
 fn trips_of(library: &Library, selected: &[CaseRef<'_>]) -> Result<Vec<String>, String> {
     if selected.len() > MANY {
         let ids = library.cases(Profile::Full).map(|case| case.id());
@@ -143,8 +143,8 @@ fn trips_of(library: &Library, selected: &[CaseRef<'_>]) -> Result<Vec<String>, 
 fn left_out(ids: &[String], full: impl Iterator<Item = String>) -> u64 {
     let area = |id: &str| id.split('/').next().unwrap_or_default().to_owned();
     let areas: BTreeSet<String> = ids.iter().map(|id| area(id)).collect();
-    let all = full.filter(|id| areas.contains(&area(id))).count();
-    all.saturating_sub(ids.len()) as u64
+    let in_areas = full.filter(|id| areas.contains(&area(id))).count();
+    in_areas.saturating_sub(ids.len()) as u64
 }
 
 /// Returns the adapter's name: the browser in one word, such as `webgpu:chromium`, and the planted fault if there is

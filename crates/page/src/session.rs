@@ -260,7 +260,7 @@ fn failed(case: &Case, adapter: &str, error: &BackendError) -> Record {
     record
 }
 
-/// Returns true if nothing else must be drawn on a device after an error.
+/// Returns true if a device must not draw anything else after an error.
 fn ends_device(error: &BackendError) -> bool {
     matches!(
         error,

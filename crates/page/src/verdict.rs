@@ -9,7 +9,7 @@ use etalon_report::RecordLine;
 pub(crate) struct Observation {
     pub(crate) record: Record,
     pub(crate) frame: Option<FrameFile>,
-    /// True if nothing else must be drawn on the device.
+    /// True if the device must not draw anything else.
     pub(crate) ends_device: bool,
 }
 
@@ -29,10 +29,10 @@ pub(crate) fn outcome(
         None => None,
     };
     let line = |record: &Record| record_line(record).map_err(|error| error.to_string());
-    let mut whole = record.clone();
-    shorten(&mut whole, Shown::Whole, file.is_some());
-    whole.frame = file.as_ref().map(|(path, _)| path.clone());
-    let mut bytes = line(&whole)?;
+    let mut complete = record.clone();
+    shorten(&mut complete, Shown::Whole, file.is_some());
+    complete.frame = file.as_ref().map(|(path, _)| path.clone());
+    let mut bytes = line(&complete)?;
     let length = bytes.len();
     if record.verdict == Verdict::Imprecise && file.is_some() {
         let mut short = record;
@@ -44,12 +44,12 @@ pub(crate) fn outcome(
     bytes.extend(packed.unwrap_or_default());
     let outcome = Outcome {
         number,
-        verdict: whole.verdict,
-        unexpected: whole.unexpected(),
-        bad: whole.verdict.is_bad(),
-        due: whole.due_fail,
-        expected: whole.expected.as_ref().map(|e| e.reason.clone()),
-        line: RecordLine::new(&whole),
+        verdict: complete.verdict,
+        unexpected: complete.unexpected(),
+        bad: complete.verdict.is_bad(),
+        due: complete.due_fail,
+        expected: complete.expected.as_ref().map(|e| e.reason.clone()),
+        line: RecordLine::new(&complete),
         length,
         short,
         frame,

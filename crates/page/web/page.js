@@ -10,7 +10,7 @@ let store = null;
 let module = null;
 let run = null;
 
-/** The suite on this thread, which only shows records. */
+/** The instance of the suite on this thread; it only shows records. */
 let shown = null;
 const suite = () => (shown ??= Suite.of(module));
 
@@ -94,7 +94,7 @@ function route() {
 /** Returns the module, or throws the reason why there is none. */
 async function load() {
   if (location.protocol === "file:") {
-    throw new Error("browsers load no WebAssembly and start no workers from files; serve the folder, for example with `python3 -m http.server`, and open http://localhost:8000");
+    throw new Error("browsers refuse WebAssembly and workers from file: addresses; serve the folder, for example with `python3 -m http.server`, and open http://localhost:8000");
   }
   const response = await fetch("etalon.wasm");
   if (!response.ok) {
@@ -105,7 +105,7 @@ async function load() {
 
 async function main() {
   if (navigator.gpu === undefined) {
-    const why = isSecureContext ? "this browser has no WebGPU, or it is switched off" : "WebGPU needs a secure context: https, or an address of this machine (http://localhost)";
+    const why = isSecureContext ? "this browser has no WebGPU, or it is disabled" : "WebGPU needs a secure context: https, or an address of this machine (http://localhost)";
     showProblem(why);
   }
   try {

@@ -1,9 +1,9 @@
 // A run: lanes draw and judge its cases, round trips first, and the page keeps the records.
 "use strict";
 
-/** The largest number of lanes. Each has a worker, a device and a core. */
+/** The maximum number of lanes. Each occupies a worker, a device and a core. */
 const LANES = 8;
-/** The number of cases that a lane has ahead. */
+/** The number of cases that are sent to a lane in advance. */
 const AHEAD = 2;
 /** The number of neighbouring cases that a lane takes at a time, since they share pipelines. */
 const CHUNK = 16;
@@ -17,7 +17,7 @@ const WRITING = 200;
 /** Returns the current time as runs record it. */
 const now = () => new Date().toISOString().replace(/\.\d+Z$/, "Z");
 
-/** Returns the machine, as far as a browser tells. */
+/** Returns what the browser reveals about the machine. */
 async function machine() {
   const data = navigator.userAgentData;
   let cpu = "";
@@ -25,7 +25,7 @@ async function machine() {
     const { architecture, bitness } = await data.getHighEntropyValues(["architecture", "bitness"]);
     cpu = [architecture, bitness && `${bitness}-bit`].filter(Boolean).join(" ");
   } catch {
-    // Not every browser tells.
+    // Not every browser reveals this.
   }
   return { os: data?.platform || navigator.platform || "unknown", cpu, cores: navigator.hardwareConcurrency ?? 1 };
 }
@@ -87,7 +87,7 @@ class Lane {
   }
 }
 
-/** A run. `changed` events tell that something happened. */
+/** A run. Dispatches `changed` whenever something happens. */
 class Run extends EventTarget {
   selection;
   opened = null;
@@ -120,7 +120,7 @@ class Run extends EventTarget {
     this.selection = selection;
   }
 
-  /** Returns a run that the store has. It goes on when it is started. */
+  /** Returns the run of the store. `start` continues it. */
   static of(store, module, { run, records }) {
     const found = new Run(store, module, run.selection);
     found.opened = run.opened;
@@ -167,7 +167,7 @@ class Run extends EventTarget {
     await this.stop();
   }
 
-  /** Stops drawing. What is drawn stays. */
+  /** Stops drawing. Keeps the records. */
   async stop() {
     this.#lanes.splice(0).forEach((lane) => lane.end());
     this.running = false;
@@ -283,7 +283,7 @@ class Run extends EventTarget {
     this.#changed(number);
   }
 
-  /** Replaces a lane that failed. Its cases are drawn by others; the one that failed is tried again once. */
+  /** Replaces a lane that failed. Other lanes draw its cases; the case that failed is tried once more. */
   async #replace(lane, number, error) {
     lane.end();
     this.#lanes.splice(this.#lanes.indexOf(lane), 1);

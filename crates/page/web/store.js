@@ -1,4 +1,4 @@
-// The run that this browser keeps, so that it goes on after a reload: one header, and a record per case.
+// The run that this browser keeps, so that it continues after a reload: one header, and a record per case.
 "use strict";
 
 /** A database with one run. Without storage, as in private windows of some browsers, nothing is kept. */

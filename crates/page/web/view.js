@@ -19,7 +19,7 @@ const counted = (n, noun) => `${n.toLocaleString("en")} ${noun}${n === 1 ? "" : 
 /** Keeps ids readable in URLs. */
 const encoded = (text) => encodeURIComponent(text).replace(/%(2F|3A|3D|2C|2A)/g, decodeURIComponent);
 
-/** The most verdicts in a list. */
+/** The maximum number of verdicts in a list. */
 const LISTED = 500;
 
 /** The columns of the table of areas after the name and the number of records. */
@@ -153,14 +153,14 @@ class View {
     const { bad, known } = this.#listed;
     $("bad-title").textContent = bad === 0 ? "Bad verdicts" : counted(bad, "bad verdict");
     $("none").hidden = bad > 0;
-    const right = known === 0 ? "None: this device draws all these cases as the specification says." : "None but those of known bugs.";
+    const right = known === 0 ? "None: this device draws all these cases as the specification says." : "None except those of known bugs.";
     $("none").textContent = run.complete ? right : "None so far.";
     $("known-list").hidden = known === 0;
     $("known-title").textContent = `${counted(known, "bad verdict")} of known bugs`;
     document.body.dataset.state = run.running ? "running" : run.complete ? "complete" : "stopped";
   }
 
-  /** Tells a screen reader each tenth of a run, and its end. */
+  /** Announces each tenth of a run, and its end, to screen readers. */
   #speak() {
     const run = this.#run;
     const tenth = Math.floor((10 * run.done) / run.opened.cases.length);
@@ -175,7 +175,7 @@ class View {
     const run = this.#run;
     const { cases, measured } = run.opened;
     const progress = `${run.done.toLocaleString("en")} of ${counted(cases.length, "case")}`;
-    const others = measured > 0 ? ` ${counted(measured, "case")} that only measure are left out.` : "";
+    const others = measured > 0 ? ` ${counted(measured, "case")} that only measure time or quality are left out.` : "";
     if (run.complete) {
       return `Done: ${progress}.${others}`;
     }
@@ -198,7 +198,7 @@ const REMEDIES = [
 function showProblem(problem) {
   const isWebGpu = /WebGPU|adapter|device/.test(problem);
   const remedies = isWebGpu ? [make("ul", {}, ...REMEDIES.map((text) => make("li", {}, text)))] : [];
-  $("problem").replaceChildren(make("p", {}, make("b", {}, "This page cannot go on: "), `${problem}.`), ...remedies);
+  $("problem").replaceChildren(make("p", {}, make("b", {}, "This page cannot continue: "), `${problem}.`), ...remedies);
   $("problem").hidden = false;
 }
 
@@ -224,7 +224,7 @@ async function showCase(run, suite, id) {
     // A run of the page has one adapter.
     body.querySelectorAll(".all").forEach((link) => link.remove());
     const link = make("a", { href: `#run=${encoded(id)}&profile=full` }, "Draw this case alone");
-    content.append(make("p", {}, make("code", {}, run.opened.adapter), " ", chip), body, make("p", { class: "again" }, link, ", also by this link on another device."));
+    content.append(make("p", {}, make("code", {}, run.opened.adapter), " ", chip), body, make("p", { class: "again" }, link, ". The link works on any device."));
   }
   view.replaceChildren(back, title, content);
   view.hidden = false;
