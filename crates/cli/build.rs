@@ -1,5 +1,5 @@
-//! Records the version, with the commit if the sources lie in their repository. Source archives have no commit, not
-//! even inside the repository of something else.
+//! Records the version, with the commit if the sources lie in their repository. A source archive has no commit, even
+//! inside the repository of another project.
 
 use std::env;
 use std::path::Path;
@@ -30,7 +30,7 @@ fn main() {
         }
     }
     println!("cargo:rustc-env=ETALON_VERSION={version}");
-    // The program needs no libraries of its compiler on the machine where it runs.
+    // The compiler's libraries need not be present where the program runs.
     if env::var("TARGET").is_ok_and(|target| target.ends_with("windows-gnu")) {
         println!("cargo:rustc-link-arg-bins=-static");
     }

@@ -104,9 +104,9 @@ pub(crate) fn leave_measured<T>(
     if !arguments.globs.is_empty() || cases.iter().all(&is_measured) {
         return 0;
     }
-    let all = cases.len();
+    let count = cases.len();
     cases.retain(|case| !is_measured(case));
-    all - cases.len()
+    count - cases.len()
 }
 
 /// Returns the selection, or an error if it is empty.

@@ -1,4 +1,4 @@
-//! Frames that a run keeps of cases that it did not find entirely right.
+//! The frames that a run keeps, of cases that were not entirely right.
 
 use crate::failure::Failure;
 use crate::saved_run::folder;

@@ -15,7 +15,7 @@ const EXTENSION: &str = ".tar.gz";
 /// The maximum number of bytes of an unpacked run.
 const MAX_BYTES: u64 = 8 << 30;
 
-/// Returns the run folders of a command: of a saved run, the folder that it is unpacked to, and any other path
+/// Returns the run folders of a command: for a saved run, the folder that it is unpacked to; any other path
 /// unchanged.
 ///
 /// # Errors

@@ -154,8 +154,8 @@ pub(crate) fn releases_of(
         f.display().to_string()
     });
     let described = |entry: &Description| Some((entry.name.clone(), entry.release()?));
-    let all: Vec<(String, Release)> = entries.iter().filter_map(described).collect();
-    let mut releases: Vec<(String, Release)> = all
+    let described_releases: Vec<(String, Release)> = entries.iter().filter_map(described).collect();
+    let mut releases: Vec<(String, Release)> = described_releases
         .iter()
         .filter(|(_, r)| r.line == line)
         .cloned()
@@ -168,7 +168,10 @@ pub(crate) fn releases_of(
         )));
     }
     if releases.len() < 2 {
-        let lines: BTreeSet<&str> = all.iter().map(|(_, r)| r.line.as_str()).collect();
+        let lines: BTreeSet<&str> = described_releases
+            .iter()
+            .map(|(_, r)| r.line.as_str())
+            .collect();
         let known = match lines.len() {
             0 => "none; --adapters takes a file whose entries have `line` and `version`".to_owned(),
             _ => lines.into_iter().collect::<Vec<_>>().join(", "),

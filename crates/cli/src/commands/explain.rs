@@ -35,7 +35,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "NAME")]
     pub(crate) adapter: Option<String>,
     /// Draw nothing, and judge the texel in the frame that this run keeps: a run folder, or a run that the page saved
-    /// (`*.tar.gz`). --adapter chooses one of several adapters
+    /// (`*.tar.gz`). If it has several adapters, choose one with --adapter
     #[arg(long, value_name = "RUN")]
     pub(crate) run: Option<PathBuf>,
     /// Also compare the texel with the yardstick, the band of good quality within the legal values
@@ -265,16 +265,16 @@ impl Asked<'_> {
         for (size, samples) in shapes {
             let from = texels.len();
             for sample in (0..samples).filter(|s| self.sample.is_none_or(|asked| asked == *s)) {
-                let at = Sample {
+                let position = Sample {
                     size,
                     samples,
                     x,
                     y,
                     sample,
                 };
-                let band = band(&at);
+                let band = band(&position);
                 let frame = self.frames.get(index);
-                let story = story_of_sample(self.case, index, by, at, (frame, band));
+                let story = story_of_sample(self.case, index, by, position, (frame, band));
                 match texels[from..]
                     .iter_mut()
                     .find(|other| other.is_alike(&story))

@@ -20,7 +20,7 @@ pub(crate) struct Arguments {
     /// Also write `ctrf.json`, in the Common Test Report Format
     #[arg(long)]
     pub(crate) ctrf: bool,
-    /// Also write `results/<adapter>.csv`, in deqp-runner's form
+    /// Also write `results/<adapter>.csv`, in deqp-runner's format
     #[arg(long)]
     pub(crate) deqp: bool,
 }

@@ -115,8 +115,8 @@ pub(crate) struct Arguments {
     /// expected. For your own cases
     #[arg(long, conflicts_with = "history")]
     pub(crate) known_by_look: bool,
-    /// Failures whose complete frames are kept. Unless it is `all`, known failures keep their stories and wrong
-    /// texels once per finding and adapter; other records name that case
+    /// Failures whose complete frames are kept. Except with `all`, one case per finding and adapter keeps the story
+    /// and the wrong texels of a known failure; other records name that case
     #[arg(long, value_enum, default_value = "examples")]
     pub(crate) keep_frames: KeepFrames,
     /// Enable validation layers and GL debug output; a case that causes messages is an error

@@ -21,7 +21,7 @@ pub(crate) struct Arguments {
     /// Also print how the adapter `cpu` draws the case: the kernels of each draw, or why it has no kernels
     #[arg(long)]
     pub(crate) kernels: bool,
-    /// Also print the address that draws the case in the page (`ci/page`) that is hosted here
+    /// Also print the link that draws the case in the page that `ci/page` built, hosted at this URL
     #[arg(long, value_name = "URL")]
     pub(crate) page: Option<String>,
     /// Read case files from this folder instead of the built-in ones

@@ -21,8 +21,8 @@ fn root() -> PathBuf {
 
 /// The findings by the names of their files.
 fn findings() -> Vec<(String, Finding)> {
-    let all = Expectations::read(&root().join("ci/findings")).unwrap();
-    let each = all.all().iter().map(|known| {
+    let expectations = Expectations::read(&root().join("ci/findings")).unwrap();
+    let each = expectations.all().iter().map(|known| {
         let Source::Finding(finding) = &known.source else {
             panic!("{}: no finding", known.place());
         };
@@ -40,9 +40,9 @@ fn is_numbered(name: &str) -> bool {
 
 #[test]
 fn every_finding_has_a_clause_and_a_second_reader() {
-    let all = findings();
-    assert!(all.len() > 20);
-    for (name, finding) in &all {
+    let findings = findings();
+    assert!(findings.len() > 20);
+    for (name, finding) in &findings {
         assert_ne!(
             finding.grade,
             Grade::Unread,
@@ -59,7 +59,7 @@ fn every_finding_has_a_clause_and_a_second_reader() {
         );
         if is_numbered(name) {
             let (first, _) = name.rsplit_once('-').unwrap();
-            assert!(all.iter().any(|(other, _)| other == first), "{name}");
+            assert!(findings.iter().any(|(other, _)| other == first), "{name}");
         }
     }
 }

@@ -36,9 +36,9 @@ fn run(out: &Path, more: &[&str]) -> Vec<Record> {
 
 /// Returns the only record in full, and the others.
 fn split(records: &[Record]) -> (&Record, Vec<&Record>) {
-    let (whole, others): (Vec<_>, Vec<_>) = records.iter().partition(|r| r.example.is_none());
-    assert_eq!(whole.len(), 1);
-    (whole[0], others)
+    let (examples, others): (Vec<_>, Vec<_>) = records.iter().partition(|r| r.example.is_none());
+    assert_eq!(examples.len(), 1);
+    (examples[0], others)
 }
 
 #[test]
@@ -46,11 +46,11 @@ fn one_record_of_a_finding_is_kept_in_full_and_the_others_name_it() {
     let work = tempfile::tempdir().unwrap();
     let out = work.path().join("run");
     let records = run(&out, &[]);
-    let (whole, others) = split(&records);
-    assert!(whole.story.is_some() && whole.wrong.len() > 1);
-    Run::read_frame(&out, whole.frame.as_ref().unwrap()).unwrap();
+    let (example, others) = split(&records);
+    assert!(example.story.is_some() && example.wrong.len() > 1);
+    Run::read_frame(&out, example.frame.as_ref().unwrap()).unwrap();
     for other in others {
-        assert_eq!(other.example.as_ref(), Some(&whole.case));
+        assert_eq!(other.example.as_ref(), Some(&example.case));
         assert_eq!(other.wrong.len(), 1);
         assert!(other.story.is_none() && other.frame.is_none());
     }
@@ -75,8 +75,8 @@ fn all_frames_and_stories_are_kept_on_request() {
         assert!(record.wrong.len() as u64 >= record.texels.wrong.min(64));
     }
     for records in [new, none] {
-        let (whole, _) = split(&records);
-        assert!(whole.story.is_some());
+        let (example, _) = split(&records);
+        assert!(example.story.is_some());
         assert!(records.iter().all(|r| r.frame.is_none()));
     }
 }
@@ -96,12 +96,12 @@ fn a_resumed_run_goes_on_with_the_same_example() {
     assert_eq!(left.len(), 8);
     fs::write(&path, left.join("\n") + "\n").unwrap();
     let records = run(&out, &["--resume"]);
-    let (whole, others) = split(&records);
-    assert!(whole.story.is_some() && whole.frame.is_some());
+    let (example, others) = split(&records);
+    assert!(example.story.is_some() && example.frame.is_some());
     assert!(
         others
             .iter()
-            .all(|r| r.example.as_ref() == Some(&whole.case))
+            .all(|r| r.example.as_ref() == Some(&example.case))
     );
 }
 
@@ -127,9 +127,9 @@ fn shards_each_keep_an_example_and_merge() {
     command.arg(&out).args(&parts).assert().success();
     let records = Run::read(&out).unwrap().records;
     for record in &records {
-        let whole = record.example.as_ref().unwrap_or(&record.case);
-        let whole = records.iter().find(|r| r.case == *whole).unwrap();
-        Run::read_frame(&out, whole.frame.as_ref().unwrap()).unwrap();
+        let case = record.example.as_ref().unwrap_or(&record.case);
+        let example = records.iter().find(|r| r.case == *case).unwrap();
+        Run::read_frame(&out, example.frame.as_ref().unwrap()).unwrap();
     }
 }
 

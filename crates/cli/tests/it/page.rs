@@ -1,5 +1,5 @@
-//! The suite in a page (`ci/page`), in Chromium and Firefox: whole runs, stops and reloads, planted faults, and the file
-//! of a run, which commands read and which has the records that a run through the relay has.
+//! The suite in a page (`ci/page`), in Chromium and Firefox: whole runs, stops and reloads, planted faults, and the
+//! saved file, which commands read. Its records equal those of a run through the relay.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 mod driven;

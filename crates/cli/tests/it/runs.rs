@@ -167,8 +167,8 @@ fn every_adapter_that_is_found_draws_a_bit_of_everything() {
         .iter()
         .map(|a| a["name"].as_str().unwrap().to_owned())
         .collect();
-    for due in DUE {
-        assert!(found.contains(due), "{due} is not here, only {found:?}");
+    for name in DUE {
+        assert!(found.contains(name), "{name} is not here, only {found:?}");
     }
     let globs = [
         "depth/clear*",
@@ -536,8 +536,8 @@ fn a_machine_without_drivers_still_has_the_cpu() {
         .stderr(contains("unavailable: gl:softpipe: ").and(contains("apt-get install")));
     let run = whole(out);
     assert_eq!(run.records.len(), count(&["depth/clear"]));
-    for due in DUE.iter().filter(|name| **name != "cpu") {
-        let absent = run.header.absent.iter().find(|a| a.name == *due).unwrap();
+    for name in DUE.iter().filter(|name| **name != "cpu") {
+        let absent = run.header.absent.iter().find(|a| a.name == *name).unwrap();
         assert!(
             !absent.reason.is_empty() && !absent.remedy.is_empty(),
             "{absent:?}"

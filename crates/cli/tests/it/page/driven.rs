@@ -156,7 +156,7 @@ impl Driven {
         };
     }
 
-    /// Sets the width of the window, in a dark style.
+    /// Sets the width of the window, and dark mode.
     pub(super) fn narrow(&self) {
         let size = json!({ "width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": true });
         self.call("Emulation.setDeviceMetricsOverride", &size);
