@@ -21,9 +21,9 @@ const QUICK: u64 = 240;
 /// True once a run has all its records.
 const COMPLETE: &str = "document.body.dataset.state === 'complete'";
 
-/// Builds the page, and serves it.
-fn site() -> Server {
-    let folder = root().join("target/page-site");
+/// Builds the page into the folder `site` of a folder, so that no other test replaces its files, and serves it.
+fn site(above: &Path) -> Server {
+    let folder = above.join("site");
     let built = Command::new(root().join("ci/page"))
         .arg(&folder)
         .output()
@@ -84,6 +84,8 @@ fn compare_with_relay(saved: &Path, adapter: &str, globs: &[&str]) {
         adapter,
         "--jobs",
         "1",
+        "--keep-frames",
+        "all",
         "--out",
         relay_text,
     ];
@@ -129,7 +131,8 @@ fn compare_with_relay(saved: &Path, adapter: &str, globs: &[&str]) {
 
 #[test]
 fn quick_in_a_page_of_chromium_is_a_run_of_the_browser() {
-    let (server, folder) = (site(), tempfile::tempdir().unwrap());
+    let folder = tempfile::tempdir().unwrap();
+    let server = site(folder.path());
     let browser = Driven::start("webgpu:chromium");
     let begun = Instant::now();
     browser.go(&address(&server, "run="));
@@ -168,16 +171,14 @@ fn quick_in_a_page_of_chromium_is_a_run_of_the_browser() {
     // The page asks for its own files and for nothing else.
     let requested = server.requested.lock().unwrap();
     for name in requested.iter().filter(|name| *name != "favicon.ico") {
-        assert!(
-            root().join("target/page-site").join(name).is_file(),
-            "{name}"
-        );
+        assert!(folder.path().join("site").join(name).is_file(), "{name}");
     }
 }
 
 #[test]
 fn quick_in_a_page_of_firefox_is_a_run_of_the_browser() {
-    let (server, folder) = (site(), tempfile::tempdir().unwrap());
+    let folder = tempfile::tempdir().unwrap();
+    let server = site(folder.path());
     let browser = Driven::start("webgpu:firefox");
     let begun = Instant::now();
     browser.go(&address(&server, "run="));
@@ -192,7 +193,8 @@ fn quick_in_a_page_of_firefox_is_a_run_of_the_browser() {
 
 #[test]
 fn a_page_of_a_browser_survives_a_lost_device() {
-    let server = site();
+    let folder = tempfile::tempdir().unwrap();
+    let server = site(folder.path());
     let browser = Driven::start("webgpu:chromium");
     browser.go(&address(&server, "run=sequence/* stencil/*"));
     browser.wait(60, "run?.done > 100");
@@ -213,7 +215,8 @@ fn a_page_of_a_browser_survives_a_lost_device() {
 
 #[test]
 fn a_page_of_a_browser_shows_planted_faults() {
-    let server = site();
+    let folder = tempfile::tempdir().unwrap();
+    let server = site(folder.path());
     let browser = Driven::start("webgpu:chromium");
     browser.narrow();
     browser.go(&address(
