@@ -1,10 +1,9 @@
-//! Records the version, with the commit if the sources lie in their repository, and lists the findings under
-//! `ci/findings`, so that they are compiled in. Source archives have no commit, not even inside the repository of
-//! something else.
+//! Records the version, with the commit if the sources lie in their repository. A source archive has no commit, even
+//! inside the repository of another project.
 
-use std::path::{Path, PathBuf};
+use std::env;
+use std::path::Path;
 use std::process::Command;
-use std::{env, fs, io};
 
 /// The output of git in this folder.
 fn git(arguments: &[&str]) -> Option<String> {
@@ -13,31 +12,8 @@ fn git(arguments: &[&str]) -> Option<String> {
     output.status.success().then(|| text.trim().to_owned())
 }
 
-/// Writes the findings as pairs of a path for messages and a text.
-fn findings() -> io::Result<()> {
-    let manifest = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
-    let folder = manifest.join("../../ci/findings").canonicalize()?;
-    println!("cargo:rerun-if-changed={}", folder.display());
-    let mut names = Vec::new();
-    for entry in fs::read_dir(&folder)? {
-        let name = entry?.file_name().to_string_lossy().into_owned();
-        if name.ends_with(".json") {
-            names.push(name);
-        }
-    }
-    names.sort();
-    let each = names.iter().map(|name| {
-        let shown = format!("ci/findings/{name}");
-        format!("    ({shown:?}, include_str!({:?})),\n", folder.join(name))
-    });
-    let text = format!("&[\n{}]\n", each.collect::<String>());
-    let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
-    fs::write(out.join("findings.rs"), text)
-}
-
-fn main() -> io::Result<()> {
+fn main() {
     println!("cargo:rerun-if-changed=build.rs");
-    findings()?;
     let mut version = env::var("CARGO_PKG_VERSION").unwrap_or_default();
     if git(&["rev-parse", "--show-prefix"]).as_deref() == Some("crates/cli/") {
         // The log of HEAD grows with every commit and checkout.
@@ -54,5 +30,8 @@ fn main() -> io::Result<()> {
         }
     }
     println!("cargo:rustc-env=ETALON_VERSION={version}");
-    Ok(())
+    // The compiler's libraries need not be present where the program runs.
+    if env::var("TARGET").is_ok_and(|target| target.ends_with("windows-gnu")) {
+        println!("cargo:rustc-link-arg-bins=-static");
+    }
 }

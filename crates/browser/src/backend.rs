@@ -1,8 +1,6 @@
 //! The backend that draws in a page.
 
-use crate::adapter;
 use crate::browser::Browser;
-use crate::message::{Failed, FailedKind, Request, Times};
 use crate::server::Server;
 use crate::session::Session;
 use etalon_backend::{
@@ -11,7 +9,8 @@ use etalon_backend::{
 use etalon_frame::{Frame, Limits};
 use etalon_keeper::{Kept, token};
 use etalon_scene::Scene;
-use etalon_webgpu::{CallList, Device, lower, plant};
+use etalon_webgpu::message::{Request, Times, take_contents};
+use etalon_webgpu::{CallList, Device, adapter, lower, plant};
 use std::cell::{Cell, RefCell};
 use std::net::SocketAddr;
 use std::process::Command;
@@ -121,14 +120,7 @@ impl Backend for BrowserBackend {
             plant(fault, &mut list);
         }
         let recorded = self.options.record.then(|| list.clone());
-        let mut contents = Vec::new();
-        let mut places = Vec::new();
-        for (place, buffer) in list.buffers.iter_mut().enumerate() {
-            if !buffer.contents.is_empty() {
-                places.push((place, buffer.contents.len()));
-                contents.push(std::mem::take(&mut buffer.contents));
-            }
-        }
+        let (places, contents) = take_contents(&mut list);
         Ok(Box::new(PreparedScene {
             backend: self,
             slot: step(&self.next_slot),
@@ -217,7 +209,7 @@ impl PreparedScene<'_> {
             };
             backend.messages.borrow_mut().extend(answer.messages);
             if let Some(failed) = answer.error {
-                return Err(error(failed));
+                return Err(failed.into());
             }
             self.known = true;
             return Ok((answer.times, bytes));
@@ -294,18 +286,4 @@ impl Drop for PreparedScene<'_> {
 /// Returns a time of the page's clock. Invalid values become 0.
 fn duration(milliseconds: f64) -> Duration {
     Duration::try_from_secs_f64(milliseconds / 1e3).unwrap_or_default()
-}
-
-fn error(failed: Failed) -> BackendError {
-    let Failed {
-        kind,
-        what,
-        message,
-    } = failed;
-    match kind {
-        FailedKind::Lost => BackendError::lost(message),
-        FailedKind::Resource => BackendError::refused(what, message),
-        FailedKind::Shader => BackendError::shader(what, message),
-        FailedKind::Internal => BackendError::internal_of(what, message),
-    }
 }

@@ -7,10 +7,8 @@
 //! The browser is started by the worker, or by a person who opens the page. A started one is kept by a process of its
 //! own ([`etalon_keeper`]), which ends it together with the worker however that ends.
 
-mod adapter;
 mod backend;
 mod browser;
-mod message;
 mod page;
 mod request_head;
 mod server;

@@ -11,11 +11,21 @@ pub(crate) struct File {
 }
 
 /// All files.
-pub(crate) const FILES: [File; 3] = [
+pub(crate) const FILES: [File; 5] = [
     File {
         path: "",
         media: "text/html; charset=utf-8",
         text: include_str!("../page/index.html"),
+    },
+    File {
+        path: "scenes.js",
+        media: "text/javascript; charset=utf-8",
+        text: include_str!("../page/scenes.js"),
+    },
+    File {
+        path: "device.js",
+        media: "text/javascript; charset=utf-8",
+        text: include_str!("../page/device.js"),
     },
     File {
         path: "executor.js",

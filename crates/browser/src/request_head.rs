@@ -82,15 +82,15 @@ mod tests {
 
     #[test]
     fn other_origins_are_foreign() {
-        let of = |lines: &str| head(&format!("GET / HTTP/1.1\r\nHost: a:1\r\n{lines}\r\n"));
-        assert!(!of("").is_foreign());
-        assert!(!of("Upgrade: websocket\r\nOrigin: http://a:1\r\n").is_foreign());
+        let head_with = |lines: &str| head(&format!("GET / HTTP/1.1\r\nHost: a:1\r\n{lines}\r\n"));
+        assert!(!head_with("").is_foreign());
+        assert!(!head_with("Upgrade: websocket\r\nOrigin: http://a:1\r\n").is_foreign());
         for lines in [
             "Upgrade: WebSocket\r\n",
             "Origin: http://b:1\r\n",
             "Origin: null\r\n",
         ] {
-            assert!(of(lines).is_foreign(), "{lines}");
+            assert!(head_with(lines).is_foreign(), "{lines}");
         }
     }
 

@@ -1,9 +1,9 @@
 //! The connection with a page.
 
-use crate::message::{Answer, Greeting, Hello, PROTOCOL, Request, packed, unpacked};
 use crate::server::{Server, Socket};
 use etalon_backend::BackendError;
 use etalon_keeper::Kept;
+use etalon_webgpu::message::{Answer, Greeting, Hello, PROTOCOL, Request, packed, unpacked};
 use std::cell::RefCell;
 use std::time::{Duration, Instant};
 use tungstenite::{Error, Message};

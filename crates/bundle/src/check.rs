@@ -120,13 +120,13 @@ static void tell(const struct texel *t)
 "#;
 
 /// Returns the function that checks the values that were read.
-pub(crate) fn check(recording: &Recording, due: &Due) -> Result<String, BundleError> {
+pub(crate) fn check(recording: &Recording, expected: &Due) -> Result<String, BundleError> {
     let mut text = String::new();
-    if !due.texels.is_empty() {
+    if !expected.texels.is_empty() {
         text.push_str(TYPES);
     }
     let mut texels = String::new();
-    for (number, texel) in table::texels(recording, due)?.iter().enumerate() {
+    for (number, texel) in table::texels(recording, expected)?.iter().enumerate() {
         let _ = write!(
             text,
             "\nstatic const struct channel channels_{number}[] = {{\n"
@@ -172,7 +172,7 @@ pub(crate) fn check(recording: &Recording, due: &Due) -> Result<String, BundleEr
              i++)\n        if (!is_right(&all[i])) {{\n            tell(&all[i]);\n            return BUG;\n        }}\n"
         );
     }
-    for counter in &due.counters {
+    for counter in &expected.counters {
         text.push_str(&counted(recording, counter)?);
     }
     text.push_str("    printf(\"right\\n\");\n    return 0;\n}\n");
@@ -191,8 +191,11 @@ fn order(order: Order) -> &'static str {
 }
 
 /// Returns the statements that check a counter.
-fn counted(recording: &Recording, due: &crate::due::DueCounter) -> Result<String, BundleError> {
-    let counter = table::counter(recording, due)?;
+fn counted(
+    recording: &Recording,
+    expected: &crate::due::DueCounter,
+) -> Result<String, BundleError> {
+    let counter = table::counter(recording, expected)?;
     let mut text = String::from("    {\n        uint64_t count = 0, part;\n");
     for part in &counter.parts {
         let _ = write!(
@@ -206,7 +209,7 @@ fn counted(recording: &Recording, due: &crate::due::DueCounter) -> Result<String
             "        count += part;\n"
         });
     }
-    let above = match due.range.high {
+    let above = match expected.range.high {
         Some(most) => format!(" || count > {most}u"),
         None => String::new(),
     };
@@ -214,9 +217,9 @@ fn counted(recording: &Recording, due: &crate::due::DueCounter) -> Result<String
         text,
         "        if (count < {}u{above}) {{\n            printf(\"counter %s is %llu (must be %s)\\n\", {}, (unsigned long \
          long)count, {});\n            return BUG;\n        }}\n    }}\n",
-        due.range.low,
-        c::string(&due.name),
-        c::string(&due.range.to_string()),
+        expected.range.low,
+        c::string(&expected.name),
+        c::string(&expected.range.to_string()),
     );
     Ok(text)
 }

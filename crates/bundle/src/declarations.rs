@@ -127,17 +127,17 @@ impl Declarations {
             let _ = writeln!(self.data, "static const unsigned char {name}[{size}];");
             return name;
         }
-        let whole = bytes.len().is_multiple_of(4);
+        let is_words = bytes.len().is_multiple_of(4);
         let words = || {
             let each = bytes.chunks_exact(4);
             each.map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]))
         };
         let printed = print
-            .filter(|_| whole)
+            .filter(|_| is_words)
             .and_then(|(kind, print)| Some((kind, words().map(print).collect::<Option<_>>()?)));
         let (kind, values): (&str, Vec<String>) = match printed {
             Some(printed) => printed,
-            None if whole => ("uint32_t", words().map(|w| format!("0x{w:08x}")).collect()),
+            None if is_words => ("uint32_t", words().map(|w| format!("0x{w:08x}")).collect()),
             None => ("unsigned char", bytes.iter().map(u8::to_string).collect()),
         };
         let count = values.len();

@@ -26,7 +26,7 @@ pub struct Program {
 pub fn program(
     head: &Head,
     recording: &Recording,
-    due: &Due,
+    expected: &Due,
     trim: Trim,
 ) -> Result<Program, BundleError> {
     let text = match &recording.context {
@@ -42,7 +42,7 @@ pub fn program(
                 library: library.as_deref(),
                 device: *device,
             };
-            gl::program(head, &context, recording, due, trim)
+            gl::program(head, &context, recording, expected, trim)
         }
         RecordedContext::Vulkan {
             device,
@@ -54,14 +54,14 @@ pub fn program(
                 version: *version,
                 needs,
             };
-            vulkan::program(head, &context, recording, due)
+            vulkan::program(head, &context, recording, expected)
         }
         RecordedContext::Wgpu {
             api,
             device,
             features,
             list,
-        } => return wgpu::program(head, [api, device], features, list, recording, due),
+        } => return wgpu::program(head, [api, device], features, list, recording, expected),
     };
     Ok(Program {
         language: Language::C,

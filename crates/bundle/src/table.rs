@@ -51,7 +51,7 @@ pub(crate) struct CheckedChannel {
 }
 
 /// Returns the samples to check.
-pub(crate) fn texels(recording: &Recording, due: &Due) -> Result<Vec<Texel>, BundleError> {
+pub(crate) fn texels(recording: &Recording, expected: &Due) -> Result<Vec<Texel>, BundleError> {
     let texel = |texel: &DueTexel| {
         let channels = texel.channels.iter().map(|c| place(recording, texel, c));
         let range = |(range, channel): (&[i64; 2], &DueChannel)| {
@@ -68,18 +68,18 @@ pub(crate) fn texels(recording: &Recording, due: &Due) -> Result<Vec<Texel>, Bun
             allowed: texel.allowed.iter().map(outcome).collect(),
         })
     };
-    due.texels.iter().map(texel).collect()
+    expected.texels.iter().map(texel).collect()
 }
 
 /// Returns where a counter was read back.
 pub(crate) fn counter<'a>(
     recording: &'a Recording,
-    due: &DueCounter,
+    expected: &DueCounter,
 ) -> Result<&'a RecordedCounter, BundleError> {
-    let counter = recording.counters.get(due.index);
+    let counter = recording.counters.get(expected.index);
     counter
         .filter(|c| !c.parts.is_empty())
-        .ok_or_else(|| BundleError::Unread(format!("counter {}", due.name)))
+        .ok_or_else(|| BundleError::Unread(format!("counter {}", expected.name)))
 }
 
 fn unread(channel: &DueChannel) -> BundleError {
@@ -119,7 +119,7 @@ fn place(
         .channels
         .get(channel.channel)
         .ok_or_else(|| unread(channel))?;
-    let at = (u64::from(texel.y) * u64::from(image.size[0]) + u64::from(texel.x))
+    let offset = (u64::from(texel.y) * u64::from(image.size[0]) + u64::from(texel.x))
         * u64::from(plane.texel);
     let (order, width) = match (plane.form, channel.encoding) {
         (Form::Float | Form::Fraction, _) => (Order::Value, 32),
@@ -135,7 +135,7 @@ fn place(
     Ok(CheckedChannel {
         name: channel.name(),
         output: plane.output,
-        at,
+        at: offset,
         bit: *bit,
         bits: *bits,
         order,

@@ -69,7 +69,7 @@ pub(crate) fn chosen_ids(arguments: &CaseArguments) -> Result<Vec<(String, bool)
         return Ok(cases.map(|case| (case.id, case.measured)).collect());
     }
     let library = library(None)?;
-    let selection = etalon_runner::select(&library, arguments.profile.into(), &arguments.globs);
+    let selection = etalon_case::select(&library, arguments.profile.into(), &arguments.globs);
     let selection = selection.map_err(Failure::usage)?;
     let cases = selection.cases.iter();
     let ids = cases.map(|c| (c.id(), c.is_measured())).collect();
@@ -85,7 +85,7 @@ pub(crate) fn left_out(arguments: &CaseArguments, selected: &[String]) -> Result
     let area = |id: &str| id.split('/').next().unwrap_or_default().to_owned();
     let areas: BTreeSet<String> = selected.iter().map(|id| area(id)).collect();
     let library = library(arguments.cases.as_ref())?;
-    let matching = etalon_runner::select(&library, Profile::Full, &arguments.globs);
+    let matching = etalon_case::select(&library, Profile::Full, &arguments.globs);
     let matching = matching.map_err(Failure::usage)?;
     let same = matching
         .cases
@@ -104,9 +104,9 @@ pub(crate) fn leave_measured<T>(
     if !arguments.globs.is_empty() || cases.iter().all(&is_measured) {
         return 0;
     }
-    let all = cases.len();
+    let count = cases.len();
     cases.retain(|case| !is_measured(case));
-    all - cases.len()
+    count - cases.len()
 }
 
 /// Returns the selection, or an error if it is empty.
@@ -119,7 +119,7 @@ fn some<T>(selected: Vec<T>, arguments: &CaseArguments) -> Result<Vec<T>, Failur
         return Err(Failure::nothing("there are no cases"));
     }
     let library = library(arguments.cases.as_ref())?;
-    let full = etalon_runner::select(&library, Profile::Full, globs).map_err(Failure::usage)?;
+    let full = etalon_case::select(&library, Profile::Full, globs).map_err(Failure::usage)?;
     let shown = |glob: &String| match glob.as_str() {
         "" => "''".to_owned(),
         glob => glob.to_owned(),
@@ -189,7 +189,7 @@ pub(crate) fn build(
     profile: Profile,
     globs: &[String],
 ) -> Result<Vec<Case>, Failure> {
-    let selection = etalon_runner::select(library, profile, globs).map_err(Failure::usage)?;
+    let selection = etalon_case::select(library, profile, globs).map_err(Failure::usage)?;
     build_each(&selection.cases)
 }
 
@@ -222,7 +222,7 @@ pub(crate) fn round_trips(folder: Option<&PathBuf>, cases: &[Case]) -> Result<Ve
     let given = folder.map(|_| library(folder)).transpose()?;
     let built_in = library(None)?;
     let libraries: Vec<&Library> = given.iter().chain([&built_in]).collect();
-    etalon_runner::round_trips(&libraries, cases).map_err(Failure::usage)
+    etalon_judge::round_trips(&libraries, cases).map_err(Failure::usage)
 }
 
 /// Returns the ids of all cases. Cases of a folder are also built, so that errors are reported.

@@ -7,9 +7,6 @@ use etalon_record::{Entry, Expectations, RecordError};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The files of `ci/findings`: paths and contents.
-const FINDINGS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/findings.rs"));
-
 /// Flags for expectations of the user's own.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct ExpectArguments {
@@ -43,18 +40,13 @@ pub(crate) fn built_in() -> Result<Expectations, Failure> {
 }
 
 fn findings() -> Result<Expectations, Failure> {
-    Expectations::of_findings(FINDINGS).map_err(Failure::usage)
+    etalon_findings::findings().map_err(Failure::usage)
 }
 
 /// Returns the expectations that apply today, to a run with these labels on this machine.
 pub(crate) fn counting(expectations: Expectations, labels: &[String]) -> Expectations {
     let machine = provenance::machine();
     expectations.of_run(&machine.cpu, labels).on(&today())
-}
-
-/// Returns true if a place is that of a built-in finding.
-pub(crate) fn is_built_in(place: &str) -> bool {
-    FINDINGS.iter().any(|(path, _)| *path == place)
 }
 
 /// Returns the current day in UTC, such as `2027-01-31`.

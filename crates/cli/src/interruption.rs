@@ -21,8 +21,8 @@ pub(crate) fn listen() -> Result<&'static AtomicBool, Failure> {
 /// Returns the command that resumes this run, quoted for a shell.
 pub(crate) fn how_to_resume() -> String {
     let command = provenance::command();
-    let own = command.iter().map(String::as_str);
-    let words = own.filter(|word| *word != "--force" && *word != "--resume");
+    let arguments = command.iter().map(String::as_str);
+    let words = arguments.filter(|word| *word != "--force" && *word != "--resume");
     // Quoting fails only on a zero byte, which no argument contains.
     let command = shlex::try_join(words.chain(["--resume"])).unwrap_or_default();
     format!("resume with: {command}")

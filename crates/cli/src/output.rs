@@ -7,19 +7,18 @@
 //! truncated output as complete.
 
 use crate::failure::Failure;
+use etalon_process::write_output;
 use etalon_report::TableOptions;
 use serde::Serialize;
 use std::fmt::Arguments;
-use std::fs::File;
 use std::io::{self, ErrorKind, IsTerminal, Write};
-use std::os::fd::AsFd;
 
 /// Writes a command's output to standard output.
 ///
 /// # Errors
 /// If a write fails, except because the reader closed the pipe.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
-    match write(text) {
+    match write_output(text.as_bytes()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::incomplete(format!(
             "cannot write the output: {error}"
         ))),
@@ -35,7 +34,7 @@ pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
 /// Writes a summary of a folder to standard output. A failed write is reported on standard error and is no
 /// error.
 pub(crate) fn summarize(text: &str) {
-    match write(text) {
+    match write_output(text.as_bytes()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             say!("cannot write the summary: {error}");
         }
@@ -48,13 +47,6 @@ fn json(value: &impl Serialize) -> Result<String, Failure> {
         .map_err(|e| Failure::incomplete(format!("cannot write JSON: {e}")))?;
     text.push('\n');
     Ok(text)
-}
-
-fn write(text: &str) -> io::Result<()> {
-    let out = io::stdout().lock();
-    // The standard library reports success for writes to a closed standard output, so write to the
-    // descriptor.
-    File::from(out.as_fd().try_clone_to_owned()?).write_all(text.as_bytes())
 }
 
 /// Writes a line to standard error; see [`say!`].
@@ -87,9 +79,8 @@ pub(crate) fn width() -> usize {
     if !io::stdout().is_terminal() {
         return UNLIMITED;
     }
-    let known = rustix::termios::tcgetwinsize(io::stdout())
-        .ok()
-        .map(|size| usize::from(size.ws_col))
+    let known = terminal_size::terminal_size_of(io::stdout())
+        .map(|(columns, _)| usize::from(columns.0))
         .filter(|columns| *columns >= 40);
     known.unwrap_or(120)
 }

@@ -46,6 +46,7 @@ pub(crate) fn machine() -> Machine {
         os: field("/etc/os-release", "PRETTY_NAME", '=')
             .unwrap_or_else(|| std::env::consts::OS.to_owned()),
         cpu: field("/proc/cpuinfo", "model name", ':')
+            .or_else(|| std::env::var("PROCESSOR_IDENTIFIER").ok())
             .unwrap_or_else(|| std::env::consts::ARCH.to_owned()),
         cores: processors() as u32,
     }

@@ -117,11 +117,11 @@ fn of_draw(scene: &Scene, number: usize, draw: &Draw, [width, height]: [u32; 2])
             add(format!("params back_color {:?}", draw.params.back_color));
         }
     }
-    let whole = Viewport {
+    let default = Viewport {
         rect: [0.0, 0.0, width as f32, height as f32],
         depth: [0.0, 1.0],
     };
-    if draw.viewport != whole {
+    if draw.viewport != default {
         add(format!(
             "viewport rect {:?}, depth {:?}",
             draw.viewport.rect, draw.viewport.depth
@@ -231,12 +231,12 @@ mod tests {
     #[test]
     fn what_is_not_the_default_is_listed() {
         let library = Library::built_in().unwrap();
-        let all = |id: &str| {
+        let text_of = |id: &str| {
             let mut cases = library.cases(Profile::Full);
             let case = cases.find(|c| c.id() == id).unwrap().build().unwrap();
             lines(&case.scene).join("\n")
         };
-        let text = all("depth/compare/compare=less/format=depth32float-stencil8/write=true");
+        let text = text_of("depth/compare/compare=less/format=depth32float-stencil8/write=true");
         assert!(text.contains("depth32float"), "{text}");
         assert!(text.contains("compare less"), "{text}");
         for absent in ["cull", "scissor", "blend", "topology"] {

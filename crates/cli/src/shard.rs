@@ -121,10 +121,10 @@ pub(crate) fn from_environment(
         let step = number("SLURM_ARRAY_TASK_STEP")?.unwrap_or(1).max(1);
         let count = number("SLURM_ARRAY_TASK_COUNT")?;
         let index = id.checked_sub(first).map(|n| n / step + 1);
-        let whole = id >= first && (id - first).is_multiple_of(step);
+        let is_exact = id >= first && (id - first).is_multiple_of(step);
         add(
             "Slurm",
-            index.filter(|_| whole),
+            index.filter(|_| is_exact),
             count,
             "SLURM_ARRAY_TASK_COUNT",
         )?;

@@ -10,7 +10,6 @@ use etalon_keeper::Served;
 use etalon_runner::Setup;
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, ErrorKind, Write};
-use std::path::Path;
 use std::process::Command;
 
 #[derive(Debug, Args)]
@@ -36,7 +35,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         Some(FROM_INPUT) => Some(set_up()?),
         other => other.map(str::to_owned),
     };
-    let mut output = private_output()?;
+    // The driver's own output goes to standard error.
+    let mut output = etalon_process::private_output()?;
     if let Some(name) = &arguments.enumerate {
         let name: BackendName = parse(&format!("\"{name}\""))?;
         let found = enumerate(name).unwrap_or_default();
@@ -84,37 +84,15 @@ fn set_up() -> Result<String, Failure> {
             None => command.env_remove(name),
         };
     }
-    Err(become_other(command, &program))
-}
-
-/// Replaces this process; returns only if that fails.
-#[cfg(unix)]
-fn become_other(mut command: Command, program: &Path) -> Failure {
-    let error = std::os::unix::process::CommandExt::exec(&mut command);
-    Failure::usage(format!(
+    let error = etalon_process::replace(&mut command);
+    Err(Failure::usage(format!(
         "{} cannot be started with the environment that the adapter needs: {error}",
         program.display()
-    ))
-}
-
-/// Returns the error for systems that cannot replace a process.
-#[cfg(not(unix))]
-fn become_other(_: Command, program: &Path) -> Failure {
-    Failure::usage(format!(
-        "{}: the launcher does not pass the environment on; put `env NAME=VALUE` after it",
-        program.display()
-    ))
+    )))
 }
 
 fn parse<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, Failure> {
     serde_json::from_str(text).map_err(|e| Failure::usage(format!("--open or --enumerate: {e}")))
-}
-
-/// Returns standard output for use by the protocol alone; the driver's own output goes to standard error.
-fn private_output() -> Result<File, Failure> {
-    let private = rustix::io::dup(io::stdout()).map_err(io::Error::from)?;
-    rustix::stdio::dup2_stdout(io::stderr()).map_err(io::Error::from)?;
-    Ok(File::from(private))
 }
 
 fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
@@ -162,6 +140,8 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
         BackendName::GlEs => gl(etalon_gl::Profile::Es),
         BackendName::WgpuVulkan => wgpu(etalon_wgpu::Via::Vulkan),
         BackendName::WgpuGl => wgpu(etalon_wgpu::Via::Gl),
+        BackendName::WgpuDx12 => wgpu(etalon_wgpu::Via::Dx12),
+        BackendName::WgpuMetal => wgpu(etalon_wgpu::Via::Metal),
         BackendName::Webgpu => browser(what),
     }
 }
@@ -243,6 +223,8 @@ fn enumerate(backend: BackendName) -> Result<Vec<HardwareDevice>, Unavailable> {
         }
         BackendName::WgpuVulkan => etalon_wgpu::enumerate(etalon_wgpu::Via::Vulkan).map(infos),
         BackendName::WgpuGl => etalon_wgpu::enumerate(etalon_wgpu::Via::Gl).map(infos),
+        BackendName::WgpuDx12 => etalon_wgpu::enumerate(etalon_wgpu::Via::Dx12).map(infos),
+        BackendName::WgpuMetal => etalon_wgpu::enumerate(etalon_wgpu::Via::Metal).map(infos),
         BackendName::Webgpu => Ok(Vec::new()),
     }
 }

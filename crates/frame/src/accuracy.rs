@@ -24,9 +24,15 @@ pub struct Accuracy {
     /// The number of channel values about which the yardstick asserts something.
     pub channels: u64,
     /// The mean distance of the channels.
+    #[serde(default, skip_serializing_if = "is_zero")]
     pub mean: f64,
     /// The largest distance; a code that stands for no finite value counts as 2^32 away.
+    #[serde(default, skip_serializing_if = "is_zero")]
     pub max: f64,
+}
+
+fn is_zero(distance: &f64) -> bool {
+    *distance == 0.0
 }
 
 impl Accuracy {

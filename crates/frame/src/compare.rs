@@ -52,11 +52,25 @@ pub struct TexelCounts {
     /// The number of judged samples.
     pub total: u64,
     /// Samples outside the legal set.
+    #[serde(default, skip_serializing_if = "is_zero")]
     pub wrong: u64,
     /// Legal samples outside the yardstick.
+    #[serde(default, skip_serializing_if = "is_zero")]
     pub imprecise: u64,
     /// Samples about which the legal set asserts nothing.
+    #[serde(default, skip_serializing_if = "is_zero")]
     pub open: u64,
+}
+
+impl TexelCounts {
+    /// Returns true if no sample was judged.
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+fn is_zero(count: &u64) -> bool {
+    *count == 0
 }
 
 /// The outcome of [`compare`].

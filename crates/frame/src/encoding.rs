@@ -3,6 +3,7 @@
 use half::f16;
 use serde::{Deserialize, Serialize};
 use std::fmt;
+use std::sync::LazyLock;
 
 /// The encoding of one channel: the mapping between codes and values.
 ///
@@ -60,6 +61,7 @@ impl ChannelEncoding {
     }
 
     /// Returns the largest order of any finite code.
+    #[inline]
     pub fn max_order(self) -> i64 {
         match self {
             Self::Unorm(bits) | Self::Uint(bits) => (1_i64 << bits) - 1,
@@ -72,6 +74,7 @@ impl ChannelEncoding {
     }
 
     /// Returns the smallest order of any finite code.
+    #[inline]
     pub fn min_order(self) -> i64 {
         match self {
             Self::Unorm(_) | Self::Uint(_) | Self::Srgb8 | Self::Ufloat(_) => 0,
@@ -81,6 +84,7 @@ impl ChannelEncoding {
     }
 
     /// Returns the order of the smallest normal value above 0; 0 for encodings without subnormal values.
+    #[inline]
     pub fn least_normal_order(self) -> i64 {
         match self {
             Self::Ufloat(mantissa) => 1 << mantissa,
@@ -91,11 +95,13 @@ impl ChannelEncoding {
     }
 
     /// Returns true if the encoding is a float.
+    #[inline]
     pub fn is_float(self) -> bool {
         matches!(self, Self::Float16 | Self::Float32 | Self::Ufloat(_))
     }
 
     /// Returns the range of values of a normalized encoding; `None` for floats and integers.
+    #[inline]
     pub fn normalized_range(self) -> Option<(f32, f32)> {
         match self {
             Self::Unorm(_) | Self::Srgb8 => Some((0.0, 1.0)),
@@ -106,6 +112,7 @@ impl ChannelEncoding {
 
     /// Returns the order of a code. Both float zeros have order 0: the specifications leave the sign of zero
     /// open (SPIR-V's default float controls; OpenGL 4.6, 2.3.4.1).
+    #[inline]
     pub fn order_of_code(self, code: u32) -> i64 {
         let signed = |magnitude: u32, negative: bool| {
             let magnitude = i64::from(magnitude);
@@ -123,6 +130,7 @@ impl ChannelEncoding {
     }
 
     /// Returns the code of an order, the inverse of [`ChannelEncoding::order_of_code`].
+    #[inline]
     pub fn code_of_order(self, order: i64) -> u32 {
         let magnitude = u32::try_from(order.unsigned_abs()).unwrap_or(u32::MAX);
         match self {
@@ -135,29 +143,23 @@ impl ChannelEncoding {
     }
 
     /// Returns the value of the code with this order; for sRGB, the linear value.
+    #[inline]
     pub fn value_of_order(self, order: i64) -> f64 {
         match self {
             Self::Unorm(_) => order as f64 / self.max_order() as f64,
             Self::Snorm(_) => (order as f64 / self.max_order() as f64).max(-1.0),
-            Self::Srgb8 => srgb_to_linear(order as f64 / 255.0),
+            Self::Srgb8 => linear_of_half_codes(2 * order),
             Self::Uint(_) => order as f64,
-            Self::Float16 => f16::from_bits(self.code_of_order(order) as u16).to_f64(),
+            Self::Float16 if order < 0 => -small_float(HALF_MANTISSA, order.unsigned_abs()),
+            Self::Float16 => small_float(HALF_MANTISSA, order.unsigned_abs()),
             Self::Float32 => f64::from(f32::from_bits(self.code_of_order(order))),
-            Self::Ufloat(mantissa) => {
-                let (exponent, fraction) = (order >> mantissa, order & ((1 << mantissa) - 1));
-                let fraction = fraction as f64 / f64::from(1_u32 << mantissa);
-                match exponent {
-                    0 => fraction * 2_f64.powi(-14),
-                    31 if fraction > 0.0 => f64::NAN,
-                    31 => f64::INFINITY,
-                    _ => (1.0 + fraction) * 2_f64.powi(exponent as i32 - 15),
-                }
-            }
+            Self::Ufloat(mantissa) => small_float(mantissa, order.unsigned_abs()),
         }
     }
 
     /// Returns the position of a value on the scale of orders, not rounded: the scale times the value; for
     /// sRGB, times the encoded value. `None` for encodings whose codes are not equidistant.
+    #[inline]
     pub fn position(self, value: f64) -> Option<f64> {
         match self {
             Self::Unorm(_) | Self::Snorm(_) => Some(value * self.max_order() as f64),
@@ -184,17 +186,45 @@ impl ChannelEncoding {
     }
 
     /// Returns the largest order whose value is not above a number; the lowest if all are above it.
+    #[inline]
     pub fn order_below(self, value: f64) -> i64 {
+        if let Some([below, _]) = self.neighbours(value) {
+            return below;
+        }
         self.search(value, |order| self.value_of_order(order) <= value)
     }
 
     /// Returns the smallest order whose value is not below a number; the highest if all are below it.
+    #[inline]
     pub fn order_above(self, value: f64) -> i64 {
+        if let Some([_, above]) = self.neighbours(value) {
+            return above;
+        }
         let below = self.search(value, |order| self.value_of_order(order) < value);
         match self.value_of_order(below) {
             v if v >= value => below,
             _ => (below + 1).min(self.max_order()),
         }
+    }
+
+    /// Returns the orders on either side of a number, for floats with 5 exponent bits; `None` for other
+    /// encodings and for NaN.
+    fn neighbours(self, value: f64) -> Option<[i64; 2]> {
+        let mantissa = match self {
+            Self::Float16 => HALF_MANTISSA,
+            Self::Ufloat(mantissa) => mantissa,
+            _ => return None,
+        };
+        if value.is_nan() {
+            return None;
+        }
+        let [inner, outer] = magnitudes(mantissa, value.abs());
+        let orders = if value < 0.0 {
+            [-outer, -inner]
+        } else {
+            [inner, outer]
+        };
+        Some(orders.map(|order| order.clamp(self.min_order(), self.max_order())))
     }
 
     /// Returns the smallest order to which a number is converted: for -1, which has two codes, the upper one.
@@ -211,9 +241,8 @@ impl ChannelEncoding {
             // The cast saturates.
             Self::Unorm(_) | Self::Snorm(_) => Some((value * self.max_order() as f64) as i64),
             Self::Uint(_) => Some(value as i64),
-            Self::Float16 => Some(self.order_of_code(f16::from_f64(value).to_bits().into())),
             Self::Float32 => Some(self.order_of_code((value as f32).to_bits())),
-            Self::Srgb8 | Self::Ufloat(_) => None,
+            Self::Srgb8 | Self::Float16 | Self::Ufloat(_) => None,
         }
     }
 
@@ -249,6 +278,53 @@ impl ChannelEncoding {
             Self::Unorm(_) | Self::Snorm(_) | Self::Srgb8 | Self::Uint(_) => false,
         }
     }
+}
+
+/// The number of mantissa bits of a 16-bit float.
+const HALF_MANTISSA: u8 = 10;
+
+/// The exponent of a 64-bit float, with its bias, minus that of an equal float with 5 exponent bits.
+const REBIAS: u64 = 1023 - 15;
+
+/// Returns the value of an unsigned float with 5 exponent bits.
+fn small_float(mantissa: u8, order: u64) -> f64 {
+    let (exponent, fraction) = (order >> mantissa, order & ((1 << mantissa) - 1));
+    match exponent {
+        0 => fraction as f64 / f64::from(1_u32 << (14 + mantissa)),
+        1..=30 => f64::from_bits((order + (REBIAS << mantissa)) << (52 - mantissa)),
+        31 if fraction == 0 => f64::INFINITY,
+        _ => f64::NAN,
+    }
+}
+
+/// Returns the orders of the unsigned floats with 5 exponent bits on either side of a number that is not
+/// negative; they can be beyond the largest order.
+fn magnitudes(mantissa: u8, value: f64) -> [i64; 2] {
+    let least_normal = small_float(mantissa, 1 << mantissa);
+    let (below, exact) = if value < least_normal {
+        let position = value * f64::from(1_u32 << (14 + mantissa));
+        (position as i64, (position as i64) as f64 == position)
+    } else {
+        let (bits, shift) = (value.to_bits(), 52 - mantissa);
+        let below = (bits >> shift) - (REBIAS << mantissa);
+        (below as i64, bits & ((1 << shift) - 1) == 0)
+    };
+    [below, below + i64::from(!exact)]
+}
+
+/// The linear values of the codes of 8-bit sRGB, and of the middles between them.
+static LINEAR: LazyLock<Vec<f64>> = LazyLock::new(|| {
+    let half_codes = 0..=2 * 255;
+    half_codes
+        .map(|n| srgb_to_linear(f64::from(n) / 2.0 / 255.0))
+        .collect()
+});
+
+/// Returns the linear value of a number of half codes of 8-bit sRGB.
+pub fn linear_of_half_codes(half_codes: i64) -> f64 {
+    let known = usize::try_from(half_codes).ok();
+    let known = known.and_then(|n| LINEAR.get(n).copied());
+    known.unwrap_or_else(|| srgb_to_linear(half_codes as f64 / 2.0 / 255.0))
 }
 
 /// Converts an sRGB-encoded value in 0..=1 to a linear one (IEC 61966-2-1; Khronos Data Format, 13.3.2).

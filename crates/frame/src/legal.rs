@@ -378,12 +378,9 @@ impl LegalSetBuilder {
     pub fn set(&mut self, group: usize, mut set: TexelSet) -> u32 {
         set.worlds.sort_unstable();
         set.worlds.dedup();
-        let target = &mut self.groups[group];
-        let next = target.palette.len() as u32;
-        *self.interned[group].entry(set).or_insert_with_key(|set| {
-            target.palette.push(set.clone());
-            next
-        })
+        let interned = &mut self.interned[group];
+        let next = interned.len() as u32;
+        *interned.entry(set).or_insert(next)
     }
 
     /// Adds the next `count` samples of a group, which have the set with this index.
@@ -406,7 +403,12 @@ impl LegalSetBuilder {
     ///
     /// # Panics
     /// If a group has too few or too many samples: a bug of the judge.
-    pub fn build(self) -> LegalSet {
+    pub fn build(mut self) -> LegalSet {
+        for (group, interned) in self.groups.iter_mut().zip(self.interned) {
+            let mut sets: Vec<(TexelSet, u32)> = interned.into_iter().collect();
+            sets.sort_unstable_by_key(|(_, number)| *number);
+            group.palette = sets.into_iter().map(|(set, _)| set).collect();
+        }
         for group in &self.groups {
             let expected = group.size[0] as usize * group.size[1] as usize * group.samples as usize;
             assert_eq!(group.len(), expected, "a group's samples are not complete");

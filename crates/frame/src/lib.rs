@@ -46,7 +46,7 @@ pub use compare::{ChannelMismatch, Comparison, TexelCounts, WrongTexel, compare}
 pub use contents::{Codes, Contents, ValueRange};
 pub use counter::{CountRange, CounterKind, CounterOutcome, CounterSet};
 pub use distance::Distance;
-pub use encoding::{ChannelEncoding, linear_to_srgb, srgb_to_linear};
+pub use encoding::{ChannelEncoding, linear_of_half_codes, linear_to_srgb, srgb_to_linear};
 pub use error_kind::ErrorKind;
 pub use event::{
     BlendedChannel, Coverage, DepthTest, Effect, Event, Origin, Rejection, ResolveChoice,

@@ -33,8 +33,18 @@ mod ext {
 }
 
 /// The system's dispatch library.
-const SYSTEM: &str = "libEGL.so.1";
-const INSTALL_EGL: &str = "apt-get install libegl1 libgl1-mesa-dri";
+const SYSTEM: &str = if cfg!(windows) {
+    "libEGL.dll"
+} else if cfg!(target_vendor = "apple") {
+    "libEGL.dylib"
+} else {
+    "libEGL.so.1"
+};
+const INSTALL_EGL: &str = if cfg!(target_os = "linux") {
+    "apt-get install libegl1 libgl1-mesa-dri"
+} else {
+    "install ANGLE, and name its libEGL in the adapter's entry (`egl`)"
+};
 
 /// The EGL platform, which selects the driver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

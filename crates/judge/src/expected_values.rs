@@ -21,9 +21,9 @@ pub(crate) fn expected_values(case: &Case, frame: &Frame, legal: &LegalSet, reco
         for (c, value) in expect.value.iter().enumerate() {
             let encoding = info.channels[c];
             let expected = encoding.nearest_code(*value);
-            let at = info.first_channel + c;
+            let channel = info.first_channel + c;
             let legal_here = set
-                .hull(at)
+                .hull(channel)
                 .is_none_or(|hull| hull.contains(encoding.order_of_code(expected)));
             if !legal_here {
                 record.verdict = Verdict::InternalError;

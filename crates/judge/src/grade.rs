@@ -40,13 +40,13 @@ impl Grades {
         sets: &Sets<'_>,
     ) -> Option<Self> {
         let rules = Rules::of(limits);
-        let at = |grade| forbidden(scene, limits, frame, &rules.bound_by(grade), sets);
+        let forbidden_by = |grade| forbidden(scene, limits, frame, &rules.bound_by(grade), sets);
         if rules.bound_by(Grade::Proven) == rules {
             return None;
         }
         Some(Self {
-            proven: at(Grade::Proven),
-            required: at(Grade::RequiredByCts),
+            proven: forbidden_by(Grade::Proven),
+            required: forbidden_by(Grade::RequiredByCts),
         })
     }
 
@@ -56,8 +56,8 @@ impl Grades {
     }
 
     /// Returns the band of a sample that all evidence places outside the set.
-    pub(crate) fn sample(&self, at: (u32, u32, u32)) -> Band {
-        self.band(|forbidden| forbidden.samples.contains(&at))
+    pub(crate) fn sample(&self, position: (u32, u32, u32)) -> Band {
+        self.band(|forbidden| forbidden.samples.contains(&position))
     }
 
     /// Returns the band of a counter, by its index, that is outside the range by all evidence.
@@ -85,8 +85,8 @@ fn forbidden(
     rules: &Rules,
     sets: &Sets<'_>,
 ) -> Forbidden {
-    let all = limits.alternatives(&scene.formats());
-    let each = all.iter().filter_map(|limits| {
+    let alternatives = limits.alternatives(&scene.formats());
+    let each = alternatives.iter().filter_map(|limits| {
         let open = set_by(scene, limits, rules, sets);
         // The whole frame has one step of depth bias, as in the set by all evidence.
         let set = match fit(scene, limits, rules, &open, frame, sets) {

@@ -221,10 +221,10 @@ fn judge_scene(case: &Case, adapter: &str, limits: &Limits, compared: Compared<'
                 Band::Imprecise => Rules::yardstick(&judgement.limits),
                 _ => judgement.rules.clone(),
             };
-            if let Some(at) = sample_of(case, wrong) {
+            if let Some(position) = sample_of(case, wrong) {
                 let by = (&judgement.limits, &rules);
                 let came = (Some(frame), Some(wrong.band));
-                record.story = Some(story::story_of_sample(case, index, by, at, came));
+                record.story = Some(story::story_of_sample(case, index, by, position, came));
             }
         }
         file = Some(frame_file(case, adapter, frame, judgement, record.verdict));
@@ -307,13 +307,13 @@ fn worse(first: Judged, second: Judged, case: &Case, index: usize) -> Judged {
             .iter_mut()
             .find(|a| a.aspect == assertion.aspect)
         {
-            Some(own) => own.add(assertion),
+            Some(known) => known.add(assertion),
             None => record.assertions.push(*assertion),
         }
     }
     for accuracy in &other.record.accuracy {
         match record.accuracy.iter_mut().find(|a| a.is_alike(accuracy)) {
-            Some(own) => own.add(accuracy),
+            Some(known) => known.add(accuracy),
             None => record.accuracy.push(*accuracy),
         }
     }
@@ -321,9 +321,9 @@ fn worse(first: Judged, second: Judged, case: &Case, index: usize) -> Judged {
 }
 
 /// Returns the message about the share of a picture that was judged.
-fn share_message(judged: u64, all: u64) -> String {
-    let share = judged as f64 / all as f64 * 100.0;
-    format!("{share:.1} % of the picture is judged: {judged} of {all} samples, on a lattice")
+fn share_message(judged: u64, total: u64) -> String {
+    let share = judged as f64 / total as f64 * 100.0;
+    format!("{share:.1} % of the picture is judged: {judged} of {total} samples, on a lattice")
 }
 
 /// Returns the message about counters outside their legal range.
@@ -418,7 +418,7 @@ pub(crate) fn best<'a>(
 
 fn assertions(judgement: &Judgement) -> Vec<Assertion> {
     let tight = judgement.yardstick.statistics();
-    let of = |aspect: Aspect| -> AspectStatistics {
+    let tightest = |aspect: Aspect| -> AspectStatistics {
         tight
             .iter()
             .find(|(a, _)| *a == aspect)
@@ -429,7 +429,7 @@ fn assertions(judgement: &Judgement) -> Vec<Assertion> {
         .legal
         .statistics()
         .iter()
-        .map(|(aspect, legal)| Assertion::new(*aspect, *legal, of(*aspect)))
+        .map(|(aspect, legal)| Assertion::new(*aspect, *legal, tightest(*aspect)))
         .collect()
 }
 

@@ -43,8 +43,14 @@ pub(crate) fn check(relation: &Relation, case: &Case, frames: &[Frame]) -> Diffe
         };
         for (i, (variant, frame)) in case.variants.iter().zip(others).enumerate() {
             let between = format!("the scene in variant {}", variant.name);
-            for (due, came) in first.images.iter().zip(&frame.images) {
-                found.compare(relation, (due, 0), (came, i + 1), relation.offset, &between);
+            for (expected, came) in first.images.iter().zip(&frame.images) {
+                found.compare(
+                    relation,
+                    (expected, 0),
+                    (came, i + 1),
+                    relation.offset,
+                    &between,
+                );
             }
         }
         return found;
@@ -55,17 +61,17 @@ pub(crate) fn check(relation: &Relation, case: &Case, frames: &[Frame]) -> Diffe
             .iter()
             .map(|index| case.scene.attachments[*index].name.as_str())
             .collect();
-        let of = |name: &str| -> Vec<&Image> {
-            let all = frame.images.iter();
-            all.filter(|image| image.attachment == name).collect()
+        let images_of = |name: &str| -> Vec<&Image> {
+            let images = frame.images.iter();
+            images.filter(|image| image.attachment == name).collect()
         };
         let Some((first, others)) = names.split_first() else {
             continue;
         };
         for other in others {
             let between = format!("attachment {first} in attachment {other}");
-            for (due, came) in of(first).into_iter().zip(of(other)) {
-                found.compare(relation, (due, scene), (came, scene), [0, 0], &between);
+            for (expected, came) in images_of(first).into_iter().zip(images_of(other)) {
+                found.compare(relation, (expected, scene), (came, scene), [0, 0], &between);
             }
         }
     }
@@ -76,15 +82,17 @@ impl Differences {
     fn compare(
         &mut self,
         relation: &Relation,
-        (due, due_scene): (&Image, usize),
+        (expected, expected_scene): (&Image, usize),
         (came, came_scene): (&Image, usize),
         offset: [i32; 2],
         between: &str,
     ) {
         let [left, top, width, height] =
-            relation.within.unwrap_or([0, 0, due.size[0], due.size[1]]);
-        let right = left.saturating_add(width).min(due.size[0]);
-        let bottom = top.saturating_add(height).min(due.size[1]);
+            relation
+                .within
+                .unwrap_or([0, 0, expected.size[0], expected.size[1]]);
+        let right = left.saturating_add(width).min(expected.size[0]);
+        let bottom = top.saturating_add(height).min(expected.size[1]);
         for y in top..bottom {
             for x in left..right {
                 let moved = [(x, offset[0]), (y, offset[1])].map(|(v, o)| v.checked_add_signed(o));
@@ -94,9 +102,12 @@ impl Differences {
                 if to_x >= came.size[0] || to_y >= came.size[1] {
                     continue;
                 }
-                for sample in 0..due.samples.min(came.samples) {
+                for sample in 0..expected.samples.min(came.samples) {
                     self.compared += 1;
-                    let pair = (due.sample(x, y, sample), came.sample(to_x, to_y, sample));
+                    let pair = (
+                        expected.sample(x, y, sample),
+                        came.sample(to_x, to_y, sample),
+                    );
                     let channels = differing(relation, came, pair);
                     if channels.is_empty() {
                         continue;
@@ -113,7 +124,7 @@ impl Differences {
                             at,
                         };
                         self.sides = Some([
-                            side(due, due_scene, [x, y]),
+                            side(expected, expected_scene, [x, y]),
                             side(came, came_scene, [to_x, to_y]),
                         ]);
                     }
@@ -150,15 +161,15 @@ fn differing(relation: &Relation, came: &Image, pair: (&[u32], &[u32])) -> Vec<C
         if came.aspect == Aspect::Color && relation.channels & (1 << c) == 0 {
             continue;
         }
-        let (due, actual) = (pair.0[c], pair.1[c]);
-        if encoding.order_of_code(due) != encoding.order_of_code(actual) {
+        let (expected, actual) = (pair.0[c], pair.1[c]);
+        if encoding.order_of_code(expected) != encoding.order_of_code(actual) {
             result.push(ChannelMismatch {
                 attachment: came.attachment.clone(),
                 aspect: came.aspect,
                 channel: c as u8,
                 encoding: *encoding,
-                low: due,
-                high: due,
+                low: expected,
+                high: expected,
                 actual,
             });
         }

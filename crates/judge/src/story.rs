@@ -15,10 +15,10 @@ pub fn story_of_sample(
     case: &Case,
     index: usize,
     (limits, rules): (&Limits, &Rules),
-    at: Sample,
+    position: Sample,
     (frame, band): (Option<&Frame>, Option<Band>),
 ) -> Story {
-    let mut story = explain(judged_scene(case, index), limits, rules, at, frame);
+    let mut story = explain(judged_scene(case, index), limits, rules, position, frame);
     if let Some(ruling) = &mut story.ruling {
         ruling.band = band;
         ruling.variant = match scene_name(case, index) {
@@ -38,13 +38,13 @@ pub fn story_of_relation(
     [x, y]: [u32; 2],
 ) -> Option<(Band, Story)> {
     let relation = case.relation.as_ref()?;
-    let mut one = relation.clone();
-    one.within = Some([x, y, 1, 1]);
+    let mut texel_relation = relation.clone();
+    texel_relation.within = Some([x, y, 1, 1]);
     if let Some([left, top, width, height]) = relation.within {
         let inside = x >= left && y >= top && x - left < width && y - top < height;
         inside.then_some(())?;
     }
-    let found = relation::check(&one, case, frames);
+    let found = relation::check(&texel_relation, case, frames);
     let band = Rules::invariance(limits, relation.invariance).value()?;
     Some((
         band,
@@ -124,7 +124,7 @@ fn of_differences(
             continue;
         }
         seen.push((side.scene, side.at));
-        let at = Sample {
+        let position = Sample {
             size: side.size,
             samples,
             x: side.at[0],
@@ -132,7 +132,7 @@ fn of_differences(
             sample: first.sample,
         };
         let scene = judged_scene(case, side.scene);
-        let alone = explain(scene, limits, &rules, at, frames.get(side.scene));
+        let alone = explain(scene, limits, &rules, position, frames.get(side.scene));
         let name = scene_name(case, side.scene);
         let ruling = alone.ruling.map(|ruling| (name.clone(), ruling));
         story.alone.extend(ruling);

@@ -1,5 +1,6 @@
 //! A program, the process that keeps it, and the worker's handle of that process.
 
+use etalon_process::Group;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
@@ -45,8 +46,7 @@ impl Kept {
     /// If the keeper cannot be started.
     pub fn start(mut keeper: Command, program: &Program) -> io::Result<Self> {
         // A separate process group, so that the worker's signals do not reach it.
-        #[cfg(unix)]
-        std::os::unix::process::CommandExt::process_group(&mut keeper, 0);
+        etalon_process::separate(&mut keeper);
         let mut keeper = keeper.stdin(Stdio::piped()).stdout(Stdio::null()).spawn()?;
         let missing = || io::Error::other("the keeper has no input");
         let mut input = keeper.stdin.take().ok_or_else(missing)?;
@@ -107,7 +107,7 @@ fn keep_started(program: &Program, mut input: impl BufRead + Send + 'static) -> 
     for (name, text) in &program.files {
         fs::write(program.folder.join(name), text)?;
     }
-    let mut child = start(program)?;
+    let (mut child, group) = start(program)?;
     let (sender, ended) = channel::<()>();
     thread::Builder::new().spawn(move || {
         // Nothing is sent; only the end matters.
@@ -124,7 +124,7 @@ fn keep_started(program: &Program, mut input: impl BufRead + Send + 'static) -> 
             _ => break,
         }
     }
-    end(&mut child);
+    end(&mut child, &group);
     Ok(())
 }
 
@@ -136,7 +136,7 @@ fn make(folder: &Path) -> io::Result<()> {
     builder.create(folder)
 }
 
-fn start(program: &Program) -> io::Result<Child> {
+fn start(program: &Program) -> io::Result<(Child, Group)> {
     let (name, words) = program.command.split_first().unzip();
     let name = name.map_or("", String::as_str);
     let mut command = Command::new(name);
@@ -150,37 +150,20 @@ fn start(program: &Program) -> io::Result<Child> {
             None => command.env_remove(variable),
         };
     }
-    // A separate process group, so that all processes of the program end together.
-    #[cfg(unix)]
-    std::os::unix::process::CommandExt::process_group(&mut command, 0);
-    command
-        .spawn()
+    Group::start(&mut command)
         .map_err(|error| io::Error::new(error.kind(), format!("{name}: {error}")))
 }
 
 /// Ends a program and all its processes.
-fn end(child: &mut Child) {
-    signal(child, false);
-    within_grace(|| matches!(child.try_wait(), Ok(Some(_))));
-    signal(child, true);
+fn end(child: &mut Child, group: &Group) {
+    if group.ask() {
+        within_grace(|| matches!(child.try_wait(), Ok(Some(_))));
+    }
+    group.kill();
     // Killing fails only if the process has ended or cannot be ended.
     let _ = child.kill();
     let _ = child.wait();
 }
-
-/// Asks the processes of a program to end, or kills them.
-#[cfg(unix)]
-fn signal(child: &Child, at_once: bool) {
-    use rustix::process::{Pid, Signal, kill_process_group};
-    let signal = if at_once { Signal::KILL } else { Signal::TERM };
-    if let Some(group) = i32::try_from(child.id()).ok().and_then(Pid::from_raw) {
-        // The processes might have ended already.
-        let _ = kill_process_group(group, signal);
-    }
-}
-
-#[cfg(not(unix))]
-fn signal(_: &Child, _: bool) {}
 
 /// Removes a folder. Ending processes might still write to it, so it tries again for a while.
 fn remove(folder: &Path) {

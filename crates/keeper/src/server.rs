@@ -98,7 +98,7 @@ impl Server {
             Some("`server` names no command")
         } else if !words.any(|word| word.contains(SOCKET)) {
             Some("`server` needs a word with `{socket}`, the path at which it listens")
-        } else if !self.socket.is_absolute() {
+        } else if !self.socket.has_root() {
             Some("the `socket` of a `server` is a path from the root")
         } else {
             None
@@ -154,10 +154,7 @@ impl Link {
     fn new(path: &Path, socket: &Path) -> Result<Self, NotServed> {
         let mut lock_path = path.as_os_str().to_owned();
         lock_path.push(".lock");
-        let lock = OpenOptions::new()
-            .append(true)
-            .create(true)
-            .open(&lock_path);
+        let lock = lock_file(lock_path.as_ref());
         let lock = lock.and_then(|file| file.lock().map(|()| file));
         let lock = lock.map_err(system(&format!("no lock at {}", lock_path.display())))?;
         // A killed worker leaves a link, and a killed server a socket without a listener.
@@ -176,6 +173,20 @@ impl Link {
             _lock: lock,
         })
     }
+}
+
+/// Opens the file of a lock that all users share.
+fn lock_file(path: &Path) -> io::Result<File> {
+    // A lock does not need write permission. In a shared temporary folder, Linux refuses to open another user's
+    // file with the option to create it.
+    match File::open(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+        opened => return opened,
+    }
+    let file = OpenOptions::new().append(true).create(true).open(path)?;
+    #[cfg(unix)]
+    file.set_permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644))?;
+    Ok(file)
 }
 
 fn system(what: &str) -> impl FnOnce(io::Error) -> NotServed {

@@ -33,13 +33,19 @@ pub fn blend<A: Arithmetic>(
     encodings: [ChannelEncoding; 4],
     input: &BlendInput<A::Real>,
 ) -> [A::Real; 4] {
+    let second = reads(state, BlendFactor::is_second_source);
+    let constant = reads(state, BlendFactor::is_constant);
     // Converts the operands to blending precision once, so that all uses agree.
     let mut operands = *input;
     for (c, encoding) in encodings.into_iter().enumerate() {
         operands.src[c] = a.blend_operand(encoding, input.src[c]);
-        operands.src1[c] = a.blend_operand(encoding, input.src1[c]);
         operands.dst[c] = a.blend_operand(encoding, input.dst[c]);
-        operands.constant[c] = a.blend_operand(encoding, input.constant[c]);
+        if second {
+            operands.src1[c] = a.blend_operand(encoding, input.src1[c]);
+        }
+        if constant {
+            operands.constant[c] = a.blend_operand(encoding, input.constant[c]);
+        }
     }
     // A loop, because closures over arrays are not always inlined.
     let mut result = operands.src;
@@ -48,6 +54,14 @@ pub fn blend<A: Arithmetic>(
         result[c] = channel(a, component, encoding, &operands, c);
     }
     result
+}
+
+/// Returns true if a factor of the state is of a kind.
+#[inline(always)]
+fn reads(state: &BlendState, kind: impl Fn(BlendFactor) -> bool) -> bool {
+    [&state.color, &state.alpha]
+        .into_iter()
+        .any(|component| kind(component.src_factor) || kind(component.dst_factor))
 }
 
 #[inline(always)]

@@ -188,8 +188,8 @@ impl Finding {
             ("evidence", finding.evidence.is_empty()),
         ];
         let line_of = |key: &str| {
-            let at = text.find(&format!("\"{key}\"")).unwrap_or(0);
-            text[..at].matches('\n').count() + 1
+            let offset = text.find(&format!("\"{key}\"")).unwrap_or(0);
+            text[..offset].matches('\n').count() + 1
         };
         for (key, empty) in parts {
             if empty {

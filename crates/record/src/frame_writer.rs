@@ -3,13 +3,10 @@
 
 use crate::error::RecordError;
 use crate::frame_file::FrameFile;
-use crate::json::json_line;
-use crate::paths::{frame_path, picture_path};
-use flate2::Compression;
-use flate2::write::GzEncoder;
+use crate::line::frame_file;
+use crate::paths::picture_path;
 use std::collections::HashSet;
 use std::fs;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -48,13 +45,10 @@ impl FrameWriter {
     /// # Errors
     /// If the file cannot be written.
     pub fn write_frame(&self, frame: &FrameFile) -> Result<String, RecordError> {
-        let relative = frame_path(&frame.adapter, &frame.case);
+        let (relative, bytes) = frame_file(frame)?;
         let path = self.folder.join(&relative);
         self.make_folder_of(&path)?;
-        let bytes = json_line("a frame", frame)?;
-        packed(&bytes)
-            .and_then(|packed| fs::write(&path, packed))
-            .map_err(RecordError::io("write", &path))?;
+        fs::write(&path, bytes).map_err(RecordError::io("write", &path))?;
         Ok(relative)
     }
 
@@ -77,11 +71,4 @@ impl FrameWriter {
             .map_err(RecordError::io("write", &path))?;
         Ok(relative)
     }
-}
-
-/// Compresses bytes with gzip.
-fn packed(bytes: &[u8]) -> io::Result<Vec<u8>> {
-    let mut packed = GzEncoder::new(Vec::new(), Compression::fast());
-    packed.write_all(bytes)?;
-    packed.finish()
 }

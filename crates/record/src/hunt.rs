@@ -95,8 +95,8 @@ pub struct MutantRecord {
 impl MutantRecord {
     /// Returns true if the cases of the bug's own area are enough for the outcome.
     pub fn by_own_area(&self) -> bool {
-        let own = self.areas.iter().find(|a| a.area == self.mutant.area);
-        own.is_some_and(|area| match self.outcome {
+        let tally = self.areas.iter().find(|a| a.area == self.mutant.area);
+        tally.is_some_and(|area| match self.outcome {
             Catch::Caught => area.fail > 0,
             Catch::Noticed => area.imprecise > 0,
             Catch::Survived | Catch::Broken => false,
@@ -107,11 +107,11 @@ impl MutantRecord {
     pub fn add(&mut self, other: Self) {
         for tally in other.areas {
             match self.areas.iter_mut().find(|a| a.area == tally.area) {
-                Some(own) => {
-                    own.pass += tally.pass;
-                    own.imprecise += tally.imprecise;
-                    own.fail += tally.fail;
-                    own.broken += tally.broken;
+                Some(known) => {
+                    known.pass += tally.pass;
+                    known.imprecise += tally.imprecise;
+                    known.fail += tally.fail;
+                    known.broken += tally.broken;
                 }
                 None => self.areas.push(tally),
             }

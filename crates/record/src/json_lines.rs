@@ -66,19 +66,19 @@ pub(crate) fn put<L: AsRef<[u8]>>(
 }
 
 /// Opens a file to append lines after its first `whole` bytes; cuts off what follows them.
-pub(crate) fn reopen(path: &Path, whole: u64) -> Result<File, RecordError> {
+pub(crate) fn reopen(path: &Path, length: u64) -> Result<File, RecordError> {
     let mut file = File::options()
         .read(true)
         .write(true)
         .open(path)
         .map_err(RecordError::io("write", path))?;
-    cut(&mut file, whole).map_err(RecordError::io("write", path))?;
+    cut(&mut file, length).map_err(RecordError::io("write", path))?;
     Ok(file)
 }
 
-fn cut(file: &mut File, whole: u64) -> std::io::Result<()> {
-    file.set_len(whole)?;
-    file.seek(SeekFrom::Start(whole.saturating_sub(1)))?;
+fn cut(file: &mut File, length: u64) -> std::io::Result<()> {
+    file.set_len(length)?;
+    file.seek(SeekFrom::Start(length.saturating_sub(1)))?;
     let mut last = [0];
     file.read_exact(&mut last)?;
     // The last line can lack its newline.

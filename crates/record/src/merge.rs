@@ -110,7 +110,12 @@ impl Merge {
                 None => (record, folder.to_owned()),
                 Some(other) if other.0.verdict == record.verdict => {
                     self.merged.twice += 1;
-                    other
+                    // The complete record is kept.
+                    if other.0.example.is_some() && record.example.is_none() {
+                        (record, folder.to_owned())
+                    } else {
+                        other
+                    }
                 }
                 Some(other) => {
                     let names = (record.adapter.clone(), record.case.clone());
@@ -198,42 +203,42 @@ fn selection(parts: &[(&PathBuf, Run)]) -> Result<Vec<String>, RecordError> {
 
 /// Returns the header of the merged run.
 fn header(first: &Path, parts: &[(&PathBuf, Run)]) -> Result<Header, RecordError> {
-    let mut whole: Option<Header> = None;
+    let mut merged: Option<Header> = None;
     // The folder in which each adapter was first seen.
     let mut seen: HashMap<String, &Path> = HashMap::new();
     for (folder, run) in parts {
         let header = &run.header;
-        let whole = match &mut whole {
+        let merged = match &mut merged {
             None => {
                 let mut begun = header.clone();
                 begun.format = FORMAT;
                 begun.settings.shard = None;
                 begun.adapters.clear();
                 begun.absent.clear();
-                whole.insert(begun)
+                merged.insert(begun)
             }
-            Some(whole) => whole,
+            Some(merged) => merged,
         };
-        let apart = |one: &Path, reason| RecordError::Apart {
-            one: one.to_owned(),
+        let apart = |earlier: &Path, reason| RecordError::Apart {
+            one: earlier.to_owned(),
             other: (*folder).clone(),
             reason,
         };
-        if let Some(reason) = whole.conflict(header) {
-            let reason = match selections(first, &whole.settings, folder, &header.settings) {
+        if let Some(reason) = merged.conflict(header) {
+            let reason = match selections(first, &merged.settings, folder, &header.settings) {
                 Some(globs) => format!("the selection of cases differs: {globs}"),
                 None => reason,
             };
             return Err(apart(first, reason));
         }
-        if header.started < whole.started {
-            whole.started.clone_from(&header.started);
+        if header.started < merged.started {
+            merged.started.clone_from(&header.started);
         }
         for adapter in &header.adapters {
-            match whole.adapter(&adapter.name) {
+            match merged.adapter(&adapter.name) {
                 None => {
                     seen.insert(adapter.name.clone(), folder);
-                    whole.adapters.push(adapter.clone());
+                    merged.adapters.push(adapter.clone());
                 }
                 Some(known) => {
                     if let Some(reason) = known.conflict(adapter) {
@@ -244,30 +249,30 @@ fn header(first: &Path, parts: &[(&PathBuf, Run)]) -> Result<Header, RecordError
             }
         }
         for absent in &header.absent {
-            if !whole.absent.iter().any(|a| a.name == absent.name) {
-                whole.absent.push(absent.clone());
+            if !merged.absent.iter().any(|a| a.name == absent.name) {
+                merged.absent.push(absent.clone());
             }
         }
-        if header.machine != whole.machine {
+        if header.machine != merged.machine {
             let join = |list: &mut String, name: &str| {
                 if !list.split("; ").any(|known| known == name) {
                     *list = format!("{list}; {name}");
                 }
             };
-            join(&mut whole.machine.os, &header.machine.os);
-            join(&mut whole.machine.cpu, &header.machine.cpu);
-            whole.machine.cores = whole.machine.cores.max(header.machine.cores);
+            join(&mut merged.machine.os, &header.machine.os);
+            join(&mut merged.machine.cpu, &header.machine.cpu);
+            merged.machine.cores = merged.machine.cores.max(header.machine.cores);
         }
     }
-    let mut whole = whole.ok_or_else(|| RecordError::NoRun {
+    let mut merged = merged.ok_or_else(|| RecordError::NoRun {
         path: first.to_owned(),
     })?;
-    let here: BTreeSet<String> = whole.adapters.iter().map(|a| a.name.clone()).collect();
-    whole.absent.retain(|a| !here.contains(&a.name));
-    let digest = &whole.settings.selection;
+    let here: BTreeSet<String> = merged.adapters.iter().map(|a| a.name.clone()).collect();
+    merged.absent.retain(|a| !here.contains(&a.name));
+    let digest = &merged.settings.selection;
     let count = digest.split('-').next().and_then(|n| n.parse().ok());
-    whole.cases = count.unwrap_or(whole.cases);
-    Ok(whole)
+    merged.cases = count.unwrap_or(merged.cases);
+    Ok(merged)
 }
 
 /// The maximum number of globs that are named per side.
@@ -295,8 +300,8 @@ fn selections(
             let record = Record::new(id.as_str(), "", Verdict::Pass);
             // If the other selection lacks a whole area, the area is named instead of its files.
             let area = format!("{}/", record.area());
-            let whole = !others.iter().any(|other| other.starts_with(&area));
-            let glob = if whole {
+            let is_whole_area = !others.iter().any(|other| other.starts_with(&area));
+            let glob = if is_whole_area {
                 record.area().to_owned()
             } else {
                 record.case_file().to_owned()
@@ -326,7 +331,7 @@ fn selections(
 
 /// Merges two records of a case that disagree.
 fn disagreeing(first: (Record, PathBuf), other: (Record, PathBuf)) -> (Record, PathBuf) {
-    let told = format!(
+    let disagreement = format!(
         "{} in one part, {} in another",
         first.0.verdict, other.0.verdict
     );
@@ -341,8 +346,8 @@ fn disagreeing(first: (Record, PathBuf), other: (Record, PathBuf)) -> (Record, P
     record.expected = None;
     record.improves = None;
     record.message = match record.message.as_str() {
-        "" => told,
-        message => format!("{told}; {message}"),
+        "" => disagreement,
+        message => format!("{message}; {disagreement}"),
     };
     worse
 }

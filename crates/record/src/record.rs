@@ -9,6 +9,7 @@ use etalon_frame::{
     Accuracy, Aspect, AspectStatistics, CounterOutcome, ErrorKind, Story, TexelCounts, WrongTexel,
 };
 use serde::{Deserialize, Serialize};
+use std::time::Duration;
 
 /// The maximum number of bytes of a record's line, including its newline.
 pub const MAX_LINE: usize = 64 * 1024;
@@ -44,8 +45,10 @@ pub struct Record {
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub message: String,
     /// The number of samples by result; all zero if no frame came back.
+    #[serde(default, skip_serializing_if = "TexelCounts::is_empty")]
     pub texels: TexelCounts,
     /// The asserted fraction and the sharpness, per aspect.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub assertions: Vec<Assertion>,
     /// The distance of the frame from the ideal, per aspect; empty if no frame came back.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -53,6 +56,10 @@ pub struct Record {
     /// Every counter with its legal range.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub counters: Vec<CounterOutcome>,
+    /// The case whose record on this adapter has the story, the wrong samples and the frame of the same known
+    /// failure. This record keeps the first wrong sample only. Formats before 5 lack it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub example: Option<String>,
     /// The first wrong samples, failures before imprecise ones; at most [`MAX_WRONG_TEXELS`].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub wrong: Vec<WrongTexel>,
@@ -63,6 +70,7 @@ pub struct Record {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<String>,
     /// The time that drawing and judging took.
+    #[serde(default, skip_serializing_if = "Seconds::is_zero")]
     pub seconds: Seconds,
     /// The measurements of a method case.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -139,6 +147,7 @@ impl Record {
             assertions: Vec::new(),
             accuracy: Vec::new(),
             counters: Vec::new(),
+            example: None,
             wrong: Vec::new(),
             story: None,
             frame: None,
@@ -210,6 +219,24 @@ impl Record {
         }
     }
 
+    /// Returns the reason why a wrong picture is expected: for a selftest that is due to fail, its case
+    /// file. On one adapter, records with the same reason show the same bug.
+    pub fn excuse(&self) -> Option<&str> {
+        if self.due_fail && self.verdict.is_violation() {
+            return Some(self.case_file());
+        }
+        let pictured = self.verdict.is_violation() || self.verdict == Verdict::Flaky;
+        let expected = self.expected.as_ref().filter(|_| pictured);
+        expected.map(|expected| &*expected.reason)
+    }
+
+    /// Leaves out what the record of another case with the same [excuse](Self::excuse) shows.
+    pub fn refer_to(&mut self, example: String) {
+        self.wrong.truncate(1);
+        self.story = None;
+        self.example = Some(example);
+    }
+
     /// Returns true if the verdict is better than expected.
     pub fn improvement(&self) -> bool {
         self.improves.is_some() && !self.unexpected()
@@ -268,10 +295,25 @@ pub struct Seconds {
     pub judge: f64,
 }
 
+impl Seconds {
+    /// Returns the times, rounded to microseconds.
+    pub fn new(draw: Duration, judge: Duration) -> Self {
+        let rounded = |time: Duration| time.as_micros() as f64 / 1e6;
+        Self {
+            draw: rounded(draw),
+            judge: rounded(judge),
+        }
+    }
+
+    fn is_zero(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
 /// How much the legal set and the yardstick assert about one aspect. A *channel* here is one channel of one
 /// sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(from = "WrittenAssertion", into = "WrittenAssertion")]
 pub struct Assertion {
     /// The aspect.
     pub aspect: Aspect,
@@ -289,6 +331,59 @@ pub struct Assertion {
     pub yardstick_codes: u64,
     /// Channels that the yardstick asserts something about.
     pub yardstick_asserted: u64,
+}
+
+/// The file form of an [`Assertion`]. An absent number equals `channels`, as most do.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenAssertion {
+    aspect: Aspect,
+    channels: u64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    asserted: Option<u64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    exact: Option<u64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    codes: Option<u64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    yardstick_exact: Option<u64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    yardstick_codes: Option<u64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    yardstick_asserted: Option<u64>,
+}
+
+impl From<Assertion> for WrittenAssertion {
+    fn from(assertion: Assertion) -> Self {
+        let written = |number| (number != assertion.channels).then_some(number);
+        Self {
+            aspect: assertion.aspect,
+            channels: assertion.channels,
+            asserted: written(assertion.asserted),
+            exact: written(assertion.exact),
+            codes: written(assertion.codes),
+            yardstick_exact: written(assertion.yardstick_exact),
+            yardstick_codes: written(assertion.yardstick_codes),
+            yardstick_asserted: written(assertion.yardstick_asserted),
+        }
+    }
+}
+
+impl From<WrittenAssertion> for Assertion {
+    fn from(written: WrittenAssertion) -> Self {
+        let channels = written.channels;
+        let number = |written: Option<u64>| written.unwrap_or(channels);
+        Self {
+            aspect: written.aspect,
+            channels,
+            asserted: number(written.asserted),
+            exact: number(written.exact),
+            codes: number(written.codes),
+            yardstick_exact: number(written.yardstick_exact),
+            yardstick_codes: number(written.yardstick_codes),
+            yardstick_asserted: number(written.yardstick_asserted),
+        }
+    }
 }
 
 impl Assertion {

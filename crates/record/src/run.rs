@@ -140,7 +140,7 @@ impl Run {
         File::open(&path)
             .and_then(|file| file.take(most.saturating_add(1)).read_to_end(&mut bytes))
             .map_err(RecordError::io("read", &path))?;
-        let whole = bytes.len() as u64 <= most && bytes.starts_with(PNG);
-        Ok(whole.then_some(bytes))
+        let is_picture = bytes.len() as u64 <= most && bytes.starts_with(PNG);
+        Ok(is_picture.then_some(bytes))
     }
 }

@@ -1,6 +1,6 @@
 //! The outcome of a case on an adapter.
 
-use etalon_frame::state_enum;
+use etalon_frame::{ErrorKind, state_enum};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -43,6 +43,15 @@ state_enum! {
 }
 
 impl Verdict {
+    /// Returns the verdict on a case whose backend failed with an error of this kind.
+    pub fn of_error(kind: &ErrorKind) -> Self {
+        match kind {
+            ErrorKind::DeviceLost => Self::DeviceLost,
+            ErrorKind::Resource { .. } => Self::ResourceError,
+            ErrorKind::Shader(_) | ErrorKind::Internal { .. } => Self::InternalError,
+        }
+    }
+
     /// Returns true if the verdict counts against a run unless it was expected.
     pub fn is_bad(self) -> bool {
         match self {

@@ -91,7 +91,7 @@ impl RunWriter {
     /// # Errors
     /// If the folder holds no run, a damaged one, or a run that does not match the header.
     pub fn resume(folder: &Path, header: &Header) -> Result<(Self, Run), RecordError> {
-        let (mut run, whole) = Run::read_prefix(folder)?;
+        let (mut run, length) = Run::read_prefix(folder)?;
         if let Some(reason) = resume_conflict(&run.header, header) {
             return Err(RecordError::Another {
                 path: folder.to_owned(),
@@ -99,7 +99,7 @@ impl RunWriter {
             });
         }
         let path = folder.join(RUN_FILE);
-        let file = reopen(&path, whole)?;
+        let file = reopen(&path, length)?;
         run.truncated = false;
         Ok((Self::new(folder, path, file), run))
     }

@@ -14,7 +14,7 @@ impl Walk<'_> {
     /// Carries worlds through one primitive.
     pub(crate) fn primitive(
         &self,
-        place: Place<'_>,
+        place: &Place<'_>,
         worlds: Worlds,
         notes: &mut Notes<'_>,
     ) -> Worlds {
@@ -22,9 +22,12 @@ impl Walk<'_> {
         let count = worlds.len();
         let several = count > 1;
         for (w, world) in worlds.into_iter().enumerate() {
-            let mut place = place;
+            let numbered = Place {
+                world: (w + 1, count),
+                ..*place
+            };
+            let place = if several { &numbered } else { place };
             if several {
-                place.world = (w + 1, count);
                 self.note_world(notes, place, &world);
             }
             match &place.primitive.shape {
@@ -63,7 +66,7 @@ impl Walk<'_> {
     }
 
     /// Returns how often a point, a line or an outline can cover a sample under the rules for lines.
-    pub(crate) fn times(&self, place: Place<'_>) -> Times {
+    pub(crate) fn times(&self, place: &Place<'_>) -> Times {
         let (least, most) = place.primitive.times(place.point, self.units);
         let is_line = matches!(place.primitive.shape, Shape::Line(_) | Shape::Outline(_));
         let forced = Forced {
@@ -83,7 +86,7 @@ impl Walk<'_> {
     /// Repeats the fragment of a point, line or outline at the sample as often as the primitive can cover it.
     fn repeat(
         &self,
-        place: Place<'_>,
+        place: &Place<'_>,
         world: World,
         positive_area: bool,
         result: &mut Worlds,
@@ -117,7 +120,7 @@ impl Walk<'_> {
 
     fn triangle(
         &self,
-        place: Place<'_>,
+        place: &Place<'_>,
         triangle: &Triangle,
         world: World,
         result: &mut Worlds,
@@ -148,7 +151,7 @@ impl Walk<'_> {
     /// Splits a world by the edges that may or may not include the sample.
     fn covered(
         &self,
-        place: Place<'_>,
+        place: &Place<'_>,
         primitive: &Triangle,
         world: World,
         positive_area: bool,
@@ -234,7 +237,7 @@ impl Walk<'_> {
     }
 
     /// Notes the state of the world that a primitive is drawn in, if there are several worlds.
-    fn note_world(&self, notes: &mut Notes<'_>, place: Place<'_>, world: &World) {
+    fn note_world(&self, notes: &mut Notes<'_>, place: &Place<'_>, world: &World) {
         let pass = &self.scene.passes[place.pass];
         let targets = pass.color.iter().chain(&pass.depth_stencil);
         let contents = |i: &usize| self.all_contents(*i, &world.cells[*i]);
@@ -247,7 +250,13 @@ impl Walk<'_> {
 
     /// Notes the outcome at an edge that passes so close to the sample that it may include or exclude it. An
     /// earlier primitive with the same edge decides it, or it is open.
-    fn note_edge(&self, notes: &mut Notes<'_>, place: Place<'_>, edge: Edge, covers: Option<bool>) {
+    fn note_edge(
+        &self,
+        notes: &mut Notes<'_>,
+        place: &Place<'_>,
+        edge: Edge,
+        covers: Option<bool>,
+    ) {
         let effect = match covers {
             Some(true) => Effect::None,
             Some(false) => Effect::Rejects(Rejection::Coverage),

@@ -36,7 +36,7 @@ impl Walk<'_> {
     /// Takes one fragment at this sample through culling, shading, tests, blending and stores.
     pub(crate) fn fragment(
         &self,
-        place: Place<'_>,
+        place: &Place<'_>,
         world: World,
         positive_area: bool,
         result: &mut Worlds,
@@ -64,19 +64,23 @@ impl Walk<'_> {
             return;
         }
         let outline = matches!(place.primitive.shape, Shape::Outline(_));
-        let drawn = self.by_sample_coverage(place, world, notes).into_iter();
-        let read = drawn.flat_map(|(world, drawn)| {
-            let open_texts = &self.open_texts[place.pass][place.draw_index];
-            let worlds = open_texts.by_reading(world).into_iter();
-            worlds.map(move |world| (world, drawn))
-        });
         let masks = self.input_masks(place);
-        for (world, drawn) in read {
+        let mut shade = |world: &World, drawn: bool, notes: &mut Notes<'_>| {
             for mask in &masks {
                 if outline && !self.rules.outlines_face_as_polygons.value() {
-                    self.shade(place, &world, (!front, *mask), drawn, result, notes);
+                    self.shade(place, world, (!front, *mask), drawn, result, notes);
                 }
-                self.shade(place, &world, (front, *mask), drawn, result, notes);
+                self.shade(place, world, (front, *mask), drawn, result, notes);
+            }
+        };
+        let open_texts = &self.open_texts[place.pass][place.draw_index];
+        if draw.multisample.sample_coverage.is_none() && !open_texts.is_contested() {
+            shade(&world, true, notes);
+            return;
+        }
+        for (world, drawn) in self.by_sample_coverage(place, world, notes) {
+            for world in open_texts.by_reading(world) {
+                shade(&world, drawn, notes);
             }
         }
     }
@@ -85,7 +89,7 @@ impl Walk<'_> {
     /// its shader reads; `drawn` is false if sample coverage removes the sample.
     fn shade(
         &self,
-        place: Place<'_>,
+        place: &Place<'_>,
         world: &World,
         (front, mask): (bool, InputBits),
         drawn: bool,
@@ -145,23 +149,30 @@ impl Walk<'_> {
         };
         let incoming = self.in_range(place, output.depth.unwrap_or(own_depth), source);
         for face in self.faces(place, front, &output, notes) {
-            for (mut outcome, passes) in self.tests(place, world, face, incoming, notes) {
-                let contributes = passes && self.contributes(place);
-                self.run(place, &mut outcome, asks || (!masked && contributes));
-                if passes {
-                    self.count(place, &mut outcome, true, CounterKind::is_occlusion);
-                    self.write_depth(place, &mut outcome, incoming, notes);
-                    self.write_colors(place, &mut outcome, &output, notes);
-                }
-                result.push(outcome);
-            }
+            self.tests(
+                place,
+                world,
+                face,
+                incoming,
+                notes,
+                |mut outcome, passes, notes| {
+                    let contributes = passes && self.contributes(place);
+                    self.run(place, &mut outcome, asks || (!masked && contributes));
+                    if passes {
+                        self.count(place, &mut outcome, true, CounterKind::is_occlusion);
+                        self.write_depth(place, &mut outcome, incoming, notes);
+                        self.write_colors(place, &mut outcome, &output, notes);
+                    }
+                    result.push(outcome);
+                },
+            );
         }
     }
 
     /// Performs the tests that precede a fragment's shader, and what follows them.
     fn test_early(
         &self,
-        place: Place<'_>,
+        place: &Place<'_>,
         world: &World,
         shaded: &Shaded<'_>,
         result: &mut Worlds,
@@ -171,18 +182,27 @@ impl Walk<'_> {
         let face = Face::of(place.draw, shaded.front);
         self.note_late_reference(place, shaded.front, notes);
         if !shaded.masked {
-            for (mut outcome, passes) in self.tests(place, world, face, incoming, notes) {
-                if passes {
-                    let worlds = [world, &outcome];
-                    let (output, covered) = (shaded.output, shaded.covered);
-                    self.early_fragment(place, worlds, output, incoming, covered, result, notes);
-                } else {
-                    if !self.rules.skips_rejected.value() {
-                        self.run(place, &mut outcome, false);
+            self.tests(
+                place,
+                world,
+                face,
+                incoming,
+                notes,
+                |mut outcome, passes, notes| {
+                    if passes {
+                        let worlds = [world, &outcome];
+                        let (output, covered) = (shaded.output, shaded.covered);
+                        self.early_fragment(
+                            place, worlds, output, incoming, covered, result, notes,
+                        );
+                    } else {
+                        if !self.rules.skips_rejected.value() {
+                            self.run(place, &mut outcome, false);
+                        }
+                        result.push(outcome);
                     }
-                    result.push(outcome);
-                }
-            }
+                },
+            );
             return;
         }
         // The order of the sample mask and counting is open; its order relative to the tests is in the rules.
@@ -193,7 +213,10 @@ impl Walk<'_> {
         } else {
             &mut *notes
         };
-        let outcomes = self.tests(place, world, face, incoming, noted);
+        let mut outcomes: SmallVec<[(World, bool); 2]> = SmallVec::new();
+        self.tests(place, world, face, incoming, noted, |outcome, passes, _| {
+            outcomes.push((outcome, passes));
+        });
         let mut kept = world.clone();
         if outcomes.iter().any(|(_, passes)| *passes) {
             self.count(place, &mut kept, false, |_| true);
@@ -213,7 +236,7 @@ impl Walk<'_> {
     /// Runs the fragment shader at the sample.
     fn shader(
         &self,
-        place: Place<'_>,
+        place: &Place<'_>,
         world: &World,
         (front, mask): (bool, InputBits),
         notes: &mut Notes<'_>,
@@ -294,7 +317,7 @@ impl Walk<'_> {
     }
 
     /// Returns true if a fragment that passes its tests changes an attachment.
-    fn contributes(&self, place: Place<'_>) -> bool {
+    fn contributes(&self, place: &Place<'_>) -> bool {
         let pass = &self.scene.passes[place.pass];
         let depth = pass.depth_stencil.is_some() && place.draw.depth.is_some_and(|d| d.write);
         let mut targets = pass.color.iter().zip(&place.draw.targets);
@@ -302,7 +325,7 @@ impl Walk<'_> {
     }
 
     /// Returns true if a draw counts the runs of its shader.
-    fn counts_runs(&self, place: Place<'_>) -> bool {
+    fn counts_runs(&self, place: &Place<'_>) -> bool {
         let kind = |counter: &usize| self.scene.counters[*counter].kind;
         let mut counters = place.draw.counters.iter();
         counters.any(|counter| kind(counter) == CounterKind::ShaderRuns)
@@ -310,7 +333,7 @@ impl Walk<'_> {
 
     /// Adds a run of the shader for a fragment; `certain` if the rules demand it. If a later fragment can
     /// make earlier fragments unnecessary, their runs are no longer certain.
-    fn run(&self, place: Place<'_>, world: &mut World, certain: bool) {
+    fn run(&self, place: &Place<'_>, world: &mut World, certain: bool) {
         if !self.counts_runs(place) {
             return;
         }
@@ -330,7 +353,7 @@ impl Walk<'_> {
     /// Returns whether the shader, the sample mask and alpha to coverage keep the sample.
     fn covered_after_shading(
         &self,
-        place: Place<'_>,
+        place: &Place<'_>,
         output: &FragmentOutput<Range>,
         notes: &mut Notes<'_>,
     ) -> Covered {
@@ -398,7 +421,7 @@ impl Walk<'_> {
     )]
     fn early_fragment(
         &self,
-        place: Place<'_>,
+        place: &Place<'_>,
         [before, tested]: [&World; 2],
         output: &FragmentOutput<Range>,
         incoming: Incoming,
@@ -456,7 +479,7 @@ impl Walk<'_> {
     /// Adds to the draw's counters of the given kinds.
     fn count(
         &self,
-        place: Place<'_>,
+        place: &Place<'_>,
         world: &mut World,
         certain: bool,
         kinds: impl Fn(CounterKind) -> bool,
@@ -476,13 +499,13 @@ impl Walk<'_> {
     /// fragment passes. The stencil value is updated; depth is not yet written.
     fn tests(
         &self,
-        place: Place<'_>,
+        place: &Place<'_>,
         world: &World,
         face: Option<Face>,
         incoming: Incoming,
         notes: &mut Notes<'_>,
-    ) -> SmallVec<[(World, bool); 2]> {
-        let mut result = SmallVec::new();
+        mut then: impl FnMut(World, bool, &mut Notes<'_>),
+    ) {
         let draw = place.draw;
         let pass = &self.scene.passes[place.pass];
         let depth_stencil = pass.depth_stencil;
@@ -491,10 +514,10 @@ impl Walk<'_> {
         if let (Some(bounds), Some(index)) = (draw.depth_bounds, bounded) {
             let inside = self.depth_bounds(place, world, bounds, index, notes);
             if !inside.must() {
-                result.push((world.clone(), false));
+                then(world.clone(), false, notes);
             }
             if !inside.can() {
-                return result;
+                return;
             }
         }
         if let (Some(face), Some(index)) = (face, depth_stencil) {
@@ -508,9 +531,9 @@ impl Walk<'_> {
                 self.note_stencil(place, &face, [stored, new], StencilOutcome::Fails, notes);
                 let mut failed = world.clone();
                 failed.cells[index].stencil = new;
-                result.push((failed, false));
+                then(failed, false, notes);
                 if !either {
-                    return result;
+                    return;
                 }
             }
         }
@@ -538,15 +561,14 @@ impl Walk<'_> {
                 self.note_stencil(place, &face, [stored, new], outcome, notes);
                 world.cells[index].stencil = new;
             }
-            result.push((world, passes));
+            then(world, passes, notes);
         }
-        result
     }
 
     /// Returns the depth that is tested and stored. It is clamped to the viewport's range if the draw clamps;
     /// otherwise the rules decide about a depth outside the range. A fixed-function depth is always inside if
     /// the primitive is clipped.
-    fn in_range(&self, place: Place<'_>, depth: Range, source: Source) -> Incoming {
+    fn in_range(&self, place: &Place<'_>, depth: Range, source: Source) -> Incoming {
         let [near, far] = place.draw.viewport.depth.map(f64::from);
         let (near, far) = (near.min(far), near.max(far));
         let held = depth.float.clamp(near, far);
@@ -588,7 +610,7 @@ impl Walk<'_> {
     }
 
     /// Returns whether the sample mask that the shader writes keeps the sample.
-    fn shader_mask_keeps(&self, place: Place<'_>, output: &FragmentOutput<Range>) -> Possible {
+    fn shader_mask_keeps(&self, place: &Place<'_>, output: &FragmentOutput<Range>) -> Possible {
         let Some(mask) = &output.mask else {
             return Possible::Always;
         };
@@ -612,12 +634,12 @@ impl Walk<'_> {
     }
 
     /// Returns true if the fragment has a shader, or if the rules let it pass unchanged without a shader.
-    fn goes_on(&self, place: Place<'_>) -> bool {
+    fn goes_on(&self, place: &Place<'_>) -> bool {
         place.draw.shader.has_fragment() || self.rules.goes_on_unshaded.value()
     }
 
     /// Returns whether mask and alpha to coverage keep the sample.
-    fn sample_passes(&self, place: Place<'_>, alpha: Range) -> Possible {
+    fn sample_passes(&self, place: &Place<'_>, alpha: Range) -> Possible {
         let state = place.draw.multisample;
         if state.mask & (1 << place.at.sample) == 0 {
             return Possible::Never;
@@ -636,7 +658,7 @@ impl Walk<'_> {
     /// Returns whether the stored depth is within the bounds (Vulkan, Depth Bounds Test).
     fn depth_bounds(
         &self,
-        place: Place<'_>,
+        place: &Place<'_>,
         world: &World,
         [low, high]: [f32; 2],
         index: usize,
@@ -672,7 +694,7 @@ impl Walk<'_> {
     /// Notes a stencil test and the update of the stencil value.
     fn note_stencil(
         &self,
-        place: Place<'_>,
+        place: &Place<'_>,
         face: &Face,
         [before, after]: [u8; 2],
         outcome: StencilOutcome,
@@ -719,7 +741,7 @@ impl Walk<'_> {
     /// Returns whether a depth test can pass, and whether it can fail.
     fn depth_test(
         &self,
-        place: Place<'_>,
+        place: &Place<'_>,
         function: CompareFunction,
         incoming: Incoming,
         stored: Cell,

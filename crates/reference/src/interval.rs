@@ -19,11 +19,13 @@ impl Interval {
     };
 
     /// Returns true if the values can include NaN.
+    #[inline]
     pub fn may_be_nan(self) -> bool {
         self == Self::EVERYTHING
     }
 
     /// Returns the interval of one number.
+    #[inline]
     pub const fn exact(value: f64) -> Self {
         Self {
             low: value,
@@ -32,6 +34,7 @@ impl Interval {
     }
 
     /// Returns the interval between two numbers, in either order.
+    #[inline]
     pub fn between(a: f64, b: f64) -> Self {
         Self {
             low: a.min(b),
@@ -40,6 +43,7 @@ impl Interval {
     }
 
     /// Returns the values of an interval of codes; all values if the codes include a NaN.
+    #[inline]
     pub fn of_codes(encoding: ChannelEncoding, codes: CodeInterval) -> Self {
         let (low, high) = (
             encoding.value_of_order(codes.low),
@@ -52,16 +56,19 @@ impl Interval {
     }
 
     /// Returns true if the interval is exactly this number.
+    #[inline]
     pub fn is(self, value: f64) -> bool {
         self.low == value && self.high == value
     }
 
     /// Returns true if the number is inside.
+    #[inline]
     pub fn contains(self, value: f64) -> bool {
         self.low <= value && value <= self.high
     }
 
     /// Returns the smallest interval that contains both.
+    #[inline]
     pub fn hull(self, other: Self) -> Self {
         Self {
             low: self.low.min(other.low),
@@ -70,6 +77,7 @@ impl Interval {
     }
 
     /// Applies an increasing function.
+    #[inline]
     pub fn map_increasing(self, f: impl Fn(f64) -> f64) -> Self {
         Self {
             low: f(self.low),
@@ -79,6 +87,7 @@ impl Interval {
 
     /// Applies a function that is monotone in each argument alone, so that its extremes are at corners. If a
     /// corner is NaN, as from an infinite end, the result is all values.
+    #[inline]
     pub fn corners(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         let values = [
             f(self.low, other.low),
@@ -126,6 +135,7 @@ impl Interval {
     }
 
     /// Widens each end by a fraction of its magnitude; zero and infinities stay unchanged.
+    #[inline]
     pub fn widen_relative(self, share: f64) -> Self {
         Self {
             low: widened(self.low, -self.low.abs() * share),
@@ -134,6 +144,7 @@ impl Interval {
     }
 
     /// Widens each end by an amount; infinities stay unchanged.
+    #[inline]
     pub fn widen(self, amount: f64) -> Self {
         Self {
             low: widened(self.low, -amount),
@@ -143,6 +154,7 @@ impl Interval {
 
     /// Returns the results of a step that may be computed in 32-bit floats: an end beyond the greatest finite
     /// float can be infinite.
+    #[inline]
     pub fn may_overflow(self) -> Self {
         let greatest = f64::from(f32::MAX);
         Self {
@@ -160,11 +172,13 @@ impl Interval {
     }
 
     /// Clamps both ends to another interval.
+    #[inline]
     pub fn clamp_to(self, other: Self) -> Self {
         self.clamp(other.low, other.high)
     }
 
     /// Clamps both ends to a range.
+    #[inline]
     pub fn clamp(self, low: f64, high: f64) -> Self {
         self.map_increasing(|v| v.clamp(low, high))
     }
@@ -180,6 +194,7 @@ impl From<Interval> for ValueRange {
 }
 
 /// Returns an end plus an amount; infinite ends stay unchanged.
+#[inline]
 fn widened(end: f64, amount: f64) -> f64 {
     if end.is_infinite() { end } else { end + amount }
 }

@@ -3,13 +3,13 @@
 use crate::interval::Interval;
 use crate::range::Range;
 use crate::rounding::{
-    INTEGER_SLACK, all_codes, nearest, order_above, order_below, to_codes, to_half, to_significand,
-    to_steps, towards_zero,
+    INTEGER_SLACK, all_codes, ceil, floor, nearest, order_above, order_below, to_codes, to_half,
+    to_significand, to_steps, towards_zero,
 };
 use crate::rules::{
     BlendPrecision, DepthTerms, FactorClamp, Rounding, Rules, SignedClamp, SmallFloats,
 };
-use etalon_frame::{ChannelEncoding, CodeInterval, srgb_to_linear};
+use etalon_frame::{ChannelEncoding, CodeInterval, linear_of_half_codes};
 use etalon_pipeline::{Arithmetic, logic_operation};
 use etalon_scene::LogicOperation;
 
@@ -53,6 +53,7 @@ impl<'r> Judging<'r> {
         }
     }
 
+    #[inline]
     fn error(&self) -> f64 {
         self.rules.float_error.value()
     }
@@ -140,6 +141,7 @@ impl<'r> Judging<'r> {
     }
 
     /// Returns true if blending may have only the destination's precision.
+    #[inline]
     fn is_coarse(&self) -> bool {
         let precision = if self.advanced {
             &self.rules.advanced_blend
@@ -151,6 +153,7 @@ impl<'r> Judging<'r> {
 
     /// Widens an operand or an exact result by the rounding to the shortest significand with the
     /// destination's precision. `computed` contains its computed values.
+    #[inline]
     fn float_outward(
         &self,
         encoding: ChannelEncoding,
@@ -169,6 +172,7 @@ impl<'r> Judging<'r> {
 
     /// Returns the least number of bits, without a sign, with which blends into a normalized destination are
     /// computed.
+    #[inline]
     fn bits(&self, encoding: ChannelEncoding) -> Option<u32> {
         let bits = match encoding {
             ChannelEncoding::Unorm(bits) => u32::from(bits),
@@ -185,12 +189,14 @@ impl<'r> Judging<'r> {
 
     /// Returns the number of steps between 0 and 1 in fixed-point arithmetic of the least precision, a power
     /// of two.
+    #[inline]
     fn steps(&self, encoding: ChannelEncoding) -> f64 {
         self.bits(encoding)
-            .map_or(1.0, |bits| 2_f64.powi(bits as i32))
+            .map_or(1.0, |bits| (1_u64 << bits) as f64)
     }
 
     /// Returns the floats that one step of a blend may compute for an exact result.
+    #[inline]
     fn float_step(&self, encoding: ChannelEncoding, exact: Interval) -> Interval {
         self.float_outward(encoding, exact, exact.widen_relative(self.error()))
     }
@@ -204,6 +210,7 @@ impl<'r> Judging<'r> {
     }
 
     /// Rounds the results that are not computed in floating-point.
+    #[inline]
     fn on_grids(&self, encoding: ChannelEncoding, value: Range) -> Range {
         let codes = self.round_outward(encoding, Grid::Codes, value.codes);
         let has_fractions = matches!(
@@ -253,6 +260,7 @@ impl<'r> Judging<'r> {
     }
 
     /// Widens to the grid's values on either side, if blending may round to them.
+    #[inline]
     fn round_outward(&self, encoding: ChannelEncoding, grid: Grid, value: Interval) -> Interval {
         if !self.is_coarse() {
             return value;
@@ -266,12 +274,16 @@ impl<'r> Judging<'r> {
             // The codes of sRGB are evenly spaced in the encoded value.
             ChannelEncoding::Srgb8 => {
                 let position = |v: f64| encoding.position(v).unwrap_or(0.0);
-                let linear = |code: f64| srgb_to_linear((code / 255.0).clamp(0.0, 1.0));
+                let linear = |code: f64| linear_of_half_codes(2 * code.clamp(0.0, 255.0) as i64);
+                let low = position(value.low.max(0.0));
+                let high = if value.high == value.low {
+                    low
+                } else {
+                    position(value.high.max(0.0))
+                };
                 Interval {
-                    low: linear((position(value.low.max(0.0)) + INTEGER_SLACK).floor())
-                        .min(value.low),
-                    high: linear((position(value.high.max(0.0)) - INTEGER_SLACK).ceil())
-                        .max(value.high),
+                    low: linear(floor(low + INTEGER_SLACK)).min(value.low),
+                    high: linear(ceil(high - INTEGER_SLACK)).max(value.high),
                 }
             }
             ChannelEncoding::Float16 | ChannelEncoding::Ufloat(_) => {
@@ -288,6 +300,7 @@ impl<'r> Judging<'r> {
     }
 
     /// Clamps an operand of a blend into a normalized format.
+    #[inline]
     fn blend_clamp(&self, encoding: ChannelEncoding, value: Interval) -> Interval {
         let Some((low, high)) = encoding.normalized_range() else {
             return value;
@@ -335,8 +348,8 @@ impl<'r> Judging<'r> {
             };
             let (low, high) = (low - off(low), high + off(high));
             let (low, high) = match self.rules.store.value() {
-                Rounding::EitherNeighbour => ((low + slack).floor(), (high - slack).ceil()),
-                Rounding::Within(codes) => ((low - codes).ceil(), (high + codes).floor()),
+                Rounding::EitherNeighbour => (floor(low + slack), ceil(high - slack)),
+                Rounding::Within(codes) => (ceil(low - codes), floor(high + codes)),
             };
             let least = match encoding {
                 // -1 is stored as the code above the lowest.
@@ -509,14 +522,13 @@ impl Arithmetic for Judging<'_> {
             // Within half a code of the encoded value (Direct3D 11.3, 3.2.3.7); no other specification is
             // tighter.
             ChannelEncoding::Srgb8 => {
-                let linear = |code: f64| srgb_to_linear(code / 255.0);
-                let ends = |order: i64, by: f64| match order {
-                    0 | 255 => linear(order as f64),
-                    _ => linear(order as f64 + by),
+                let ends = |order: i64, half: i64| match order {
+                    0 | 255 => linear_of_half_codes(2 * order),
+                    _ => linear_of_half_codes(2 * order + half),
                 };
                 Range::same(Interval {
-                    low: ends(code.low, -0.5),
-                    high: ends(code.high, 0.5),
+                    low: ends(code.low, -1),
+                    high: ends(code.high, 1),
                 })
             }
             ChannelEncoding::Uint(_)

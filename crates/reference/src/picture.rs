@@ -23,22 +23,24 @@ struct Known {
     by_words: FxHashMap<SmallVec<[u64; 6]>, State>,
     key: SmallVec<[u64; 6]>,
     /// For each draw, the number of outcomes that were looked up and the number found.
-    asked: FxHashMap<u32, [u32; 2]>,
+    asked: Vec<[u32; 2]>,
 }
 
 impl Known {
     /// Returns true if outcomes of a draw recur often enough to keep them. If every sample has its own
     /// signature, as with interpolated depths or a shader that reads its position, a cache costs more than it
     /// saves.
-    fn pays(&mut self, draw: u32) -> bool {
+    fn pays(&self, draw: u32) -> bool {
         const TRIED: u32 = 512;
-        let [asked, found] = *self.asked.entry(draw).or_default();
+        let [asked, found] = self.asked.get(draw as usize).copied().unwrap_or_default();
         asked < TRIED || found >= asked / 16
     }
 
     /// Notes whether an outcome was known.
     fn note(&mut self, draw: u32, found: bool) {
-        let [asked, known] = self.asked.entry(draw).or_default();
+        let needed = self.asked.len().max(draw as usize + 1);
+        self.asked.resize(needed, [0; 2]);
+        let [asked, known] = &mut self.asked[draw as usize];
         *asked += 1;
         *known += u32::from(found);
     }

@@ -27,11 +27,13 @@ impl From<Range> for ValueRange {
 
 impl Range {
     /// Returns exactly one value.
+    #[inline]
     pub fn exact(value: f64) -> Self {
         Self::same(Interval::exact(value))
     }
 
     /// Returns the same interval for all ways of computing.
+    #[inline]
     pub fn same(interval: Interval) -> Self {
         Self {
             float: interval,
@@ -41,6 +43,7 @@ impl Range {
     }
 
     /// Returns the values of all ways of computing.
+    #[inline]
     pub fn hull(self) -> Interval {
         if self.is_same() {
             self.float
@@ -50,10 +53,12 @@ impl Range {
     }
 
     /// Returns true if all ways of computing have the same values.
+    #[inline]
     pub(crate) fn is_same(self) -> bool {
         self.codes == self.float && self.fixed == self.float
     }
 
+    #[inline]
     pub(crate) fn zip(self, other: Self, f: impl Fn(Interval, Interval) -> Interval) -> Self {
         let float = f(self.float, other.float);
         if self.is_same() && other.is_same() {
@@ -67,6 +72,7 @@ impl Range {
     }
 
     /// Returns the values of a function of each way.
+    #[inline]
     pub(crate) fn map(self, f: impl Fn(Interval) -> Interval) -> Self {
         self.zip(self, |value, _| f(value))
     }

@@ -26,6 +26,11 @@ impl OpenTexts {
         }
     }
 
+    /// Returns true if a contested clause matters to the draw.
+    pub(crate) fn is_contested(&self) -> bool {
+        !self.contested.is_empty()
+    }
+
     /// Splits a world by the readings that matter to the draw and that the world has not chosen yet.
     pub(crate) fn by_reading(&self, world: World) -> Worlds {
         let mut worlds: Worlds = smallvec![world];

@@ -8,19 +8,45 @@ use etalon_frame::{ChannelEncoding, CodeInterval};
 pub(crate) const INTEGER_SLACK: f64 = 1e-10;
 
 /// Widens to a normalized encoding's codes on either side.
+#[inline]
 pub(crate) fn to_codes(encoding: ChannelEncoding, value: Interval) -> Interval {
     to_steps(encoding.max_order() as f64, value)
 }
 
 /// Widens to multiples of one over `steps` on either side.
+#[inline]
 pub(crate) fn to_steps(steps: f64, value: Interval) -> Interval {
-    Interval {
-        low: (value.low * steps + INTEGER_SLACK).floor() / steps,
-        high: (value.high * steps - INTEGER_SLACK).ceil() / steps,
+    // Rounding up is rounding down of the negated number.
+    let [low, high] =
+        [value.low, -value.high].map(|end| floor(end * steps + INTEGER_SLACK) / steps);
+    Interval { low, high: -high }
+}
+
+/// Returns the largest integer that is not above a number. [`f64::floor`] is a call of a function on x86
+/// processors without SSE4.1.
+#[inline]
+pub(crate) fn floor(value: f64) -> f64 {
+    // Numbers of this size are integers, so adding it rounds to the nearest integer.
+    const ROUND: f64 = 1.5 * (1_u64 << 52) as f64;
+    if value.abs() >= (1_u64 << 51) as f64 {
+        return value.floor();
+    }
+    let nearest = (value + ROUND) - ROUND;
+    if nearest > value {
+        nearest - 1.0
+    } else {
+        nearest
     }
 }
 
+/// Returns the smallest integer that is not below a number.
+#[inline]
+pub(crate) fn ceil(value: f64) -> f64 {
+    -floor(-value)
+}
+
 /// Widens to the nearest floats on either side with `bits` significand bits.
+#[inline]
 pub(crate) fn to_significand(bits: u32, value: Interval) -> Interval {
     let unit = 1_u64 << (f64::MANTISSA_DIGITS - bits);
     let towards_zero = |v: f64| f64::from_bits(v.to_bits() & !(unit - 1));
@@ -125,6 +151,36 @@ pub(crate) fn order_above(value: f64) -> i64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn floor_and_ceil_are_those_of_the_standard_library() {
+        let two_51 = (1_u64 << 51) as f64;
+        let large = [
+            two_51 - 0.25,
+            two_51 + 0.5,
+            2.0 * two_51,
+            1e300,
+            f64::INFINITY,
+        ];
+        let small = [
+            0.0,
+            1e-300,
+            0.25,
+            0.5,
+            0.75,
+            1.0,
+            1.5,
+            2.5,
+            254.999_999_999_99,
+        ];
+        for value in small.into_iter().chain(large) {
+            for value in [value, -value] {
+                assert_eq!(floor(value), value.floor(), "{value}");
+                assert_eq!(ceil(value), value.ceil(), "{value}");
+            }
+        }
+        assert!(floor(f64::NAN).is_nan());
+    }
 
     #[test]
     fn short_significands_round_away_on_both_sides() {

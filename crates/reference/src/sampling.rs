@@ -26,7 +26,7 @@ const MOST_DRAWN_TEXELS: usize = 9;
 
 impl Walk<'_> {
     /// Returns the value that the shader reads from a texture at the sample, in a world.
-    pub(crate) fn texel(&self, place: Place<'_>, world: &World, t: usize) -> [Range; 4] {
+    pub(crate) fn texel(&self, place: &Place<'_>, world: &World, t: usize) -> [Range; 4] {
         let Some(index) = place.draw.textures.get(t).copied() else {
             return [Range::exact(0.0); 4];
         };
@@ -51,12 +51,12 @@ impl Walk<'_> {
     }
 
     /// Returns the texture coordinates that the shader reads.
-    pub(crate) fn uv(&self, place: Place<'_>) -> [Range; 2] {
+    pub(crate) fn uv(&self, place: &Place<'_>) -> [Range; 2] {
         self.coordinates(place)
             .map_or([Range::exact(0.0); 2], |uv| uv.map(Range::same))
     }
 
-    fn coordinates(&self, place: Place<'_>) -> Option<[Interval; 2]> {
+    fn coordinates(&self, place: &Place<'_>) -> Option<[Interval; 2]> {
         let samples = self.samples_shaded(place);
         let sampling = place.draw.shader.interpolation_sampling();
         place
@@ -91,7 +91,7 @@ impl Walk<'_> {
 
     /// Returns the texel under the sample after earlier passes: this world's contents if the shapes agree,
     /// otherwise everything that it can contain.
-    fn left_before(&self, place: Place<'_>, world: &World, index: usize) -> [Range; 4] {
+    fn left_before(&self, place: &Place<'_>, world: &World, index: usize) -> [Range; 4] {
         let attachment = &self.scene.attachments[index];
         let at = place.at;
         if attachment.size != at.size {

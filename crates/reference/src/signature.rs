@@ -204,7 +204,7 @@ impl Walk<'_> {
                 draw_id: self.draw_ids[pass] + d,
                 world: (0, 1),
             };
-            self.sign_primitive(place, hit, inputs.kinds[i as usize], inputs, signature);
+            self.sign_primitive(&place, hit, inputs.kinds[i as usize], inputs, signature);
         }
     }
 
@@ -233,7 +233,7 @@ impl Walk<'_> {
 
     fn sign_primitive(
         &self,
-        place: Place<'_>,
+        place: &Place<'_>,
         hit: Hit,
         kind: u32,
         inputs: &Inputs,

@@ -2,7 +2,8 @@
 
 use crate::sample::{Sample, Shape};
 use crate::world::Worlds;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHasher};
+use std::hash::{Hash, Hasher};
 use std::rc::Rc;
 
 /// The number of a state; [`OPEN`] if the sample is open.
@@ -14,26 +15,33 @@ pub(crate) const OPEN: State = u32::MAX;
 /// All states, each stored once.
 #[derive(Debug, Default)]
 pub(crate) struct States {
-    all: Vec<Rc<Worlds>>,
-    numbers: FxHashMap<Rc<Worlds>, State>,
+    /// Each state's worlds, and an earlier state with the same hash; [`OPEN`] if there is none.
+    all: Vec<(Rc<Worlds>, State)>,
+    /// For each hash, the last state that has it.
+    last: FxHashMap<u64, State>,
 }
 
 impl States {
     pub(crate) fn number(&mut self, worlds: Option<Worlds>) -> State {
         let Some(worlds) = worlds else { return OPEN };
-        if let Some(state) = self.numbers.get(&worlds) {
-            return *state;
+        let mut hasher = FxHasher::default();
+        worlds.hash(&mut hasher);
+        let last = self.last.entry(hasher.finish()).or_insert(OPEN);
+        let mut state = *last;
+        while let Some((known, earlier)) = self.all.get(state as usize) {
+            if **known == worlds {
+                return state;
+            }
+            state = *earlier;
         }
-        let state = self.all.len() as State;
-        let worlds = Rc::new(worlds);
-        self.all.push(Rc::clone(&worlds));
-        self.numbers.insert(worlds, state);
-        state
+        self.all.push((Rc::new(worlds), *last));
+        *last = self.all.len() as State - 1;
+        *last
     }
 
     /// Returns the worlds of a state; `None` if the sample is open.
     pub(crate) fn worlds(&self, state: State) -> Option<&Rc<Worlds>> {
-        self.all.get(state as usize)
+        self.all.get(state as usize).map(|(worlds, _)| worlds)
     }
 }
 

@@ -37,7 +37,7 @@ impl Walk<'_> {
     /// reference that the shader writes is not known exactly.
     pub(crate) fn faces(
         &self,
-        place: Place<'_>,
+        place: &Place<'_>,
         front: bool,
         output: &FragmentOutput<Range>,
         notes: &mut Notes<'_>,
@@ -73,7 +73,12 @@ impl Walk<'_> {
     }
 
     /// Notes that the reference that a shader writes comes too late.
-    pub(crate) fn note_late_reference(&self, place: Place<'_>, front: bool, notes: &mut Notes<'_>) {
+    pub(crate) fn note_late_reference(
+        &self,
+        place: &Place<'_>,
+        front: bool,
+        notes: &mut Notes<'_>,
+    ) {
         let Some(face) = Face::of(place.draw, front) else {
             return;
         };

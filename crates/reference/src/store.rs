@@ -19,7 +19,7 @@ impl Walk<'_> {
     /// Stores the depth of a fragment that passed all tests.
     pub(crate) fn write_depth(
         &self,
-        place: Place<'_>,
+        place: &Place<'_>,
         world: &mut World,
         incoming: Incoming,
         notes: &mut Notes<'_>,
@@ -83,7 +83,7 @@ impl Walk<'_> {
     /// Returns the blend constant of a draw.
     fn blend_constant(
         &self,
-        place: Place<'_>,
+        place: &Place<'_>,
         world: &World,
         judging: &mut Judging<'_>,
     ) -> [Range; 4] {
@@ -100,7 +100,7 @@ impl Walk<'_> {
     /// Returns the colour of an advanced blend of source and destination.
     fn advanced(
         &self,
-        place: Place<'_>,
+        place: &Place<'_>,
         mode: AdvancedBlend,
         encodings: [ChannelEncoding; 4],
         [src, dst]: [[Range; 4]; 2],
@@ -131,7 +131,7 @@ impl Walk<'_> {
     /// Stores the colours of a fragment that passed all tests.
     pub(crate) fn write_colors(
         &self,
-        place: Place<'_>,
+        place: &Place<'_>,
         world: &mut World,
         output: &FragmentOutput<Range>,
         notes: &mut Notes<'_>,

@@ -49,6 +49,8 @@ pub(crate) struct Walk<'a> {
     /// Per pass, the number of its first draw, counted over the scene from 1.
     pub(crate) draw_ids: Vec<u32>,
     pub(crate) units: i64,
+    /// For each attachment, the encoding of its depth, if it has one.
+    depth_encodings: Vec<ChannelEncoding>,
     /// The judged texels.
     pub(crate) texels: Texels,
     /// The results that depend on discarded contents.
@@ -160,6 +162,9 @@ impl<'a> Walk<'a> {
             open_texts: open_texts.collect(),
             draw_ids: draw_ids.collect(),
             units: units_per_texel(limits),
+            depth_encodings: (0..scene.attachments.len())
+                .map(|index| depth_encoding(scene, limits, index))
+                .collect(),
             texels,
             undefined: Undefined::of(scene),
             known: RefCell::default(),
@@ -199,7 +204,7 @@ impl<'a> Walk<'a> {
 
     /// Returns the encoding in which an attachment stores its depth.
     pub(crate) fn depth_encoding(&self, attachment: usize) -> ChannelEncoding {
-        depth_encoding(self.scene, self.limits, attachment)
+        self.depth_encodings[attachment]
     }
 
     /// Returns the encodings in which an aspect is read back, and the read path.
@@ -313,10 +318,10 @@ impl<'a> Walk<'a> {
             };
             skipped.add(primitive.index, None);
             if !hit.is_certain() {
-                self.note_clipping(notes, place, hit);
+                self.note_clipping(notes, &place, hit);
             }
             let before = (!hit.is_certain()).then(|| worlds.clone());
-            worlds = self.primitive(place, worlds, notes);
+            worlds = self.primitive(&place, worlds, notes);
             // A sample that may be clipped away can also keep its contents.
             worlds.extend(before.into_iter().flatten());
             if !merge(&mut worlds) {
@@ -506,8 +511,6 @@ impl<'a> Walk<'a> {
                     }
                     self.open_undefined(*index, *aspect, &mut channels[first..]);
                 }
-                let depth_by_shader = attachment.format.has_depth()
-                    && self.read_encoding(*index, Aspect::Depth).1 == ReadPath::Shader;
                 notes.add(
                     || Origin::End {
                         world: (worlds.len() > 1).then_some([w + 1, worlds.len()]),
@@ -515,7 +518,8 @@ impl<'a> Walk<'a> {
                     || Step::ReadBack {
                         attachment: attachment.name.clone(),
                         contents: self.all_contents(*index, cell),
-                        depth_by_shader,
+                        depth_by_shader: attachment.format.has_depth()
+                            && read_path(self.limits, attachment.format) == ReadPath::Shader,
                     },
                     None,
                 );
@@ -570,11 +574,12 @@ impl<'a> Walk<'a> {
     /// Returns a depth as it is read back: its code, or the float that a shader reads.
     pub(crate) fn read_depth(&self, attachment: usize, stored: CodeInterval) -> CodeInterval {
         let encoding = self.depth_encoding(attachment);
-        let (read, _) = self.read_encoding(attachment, Aspect::Depth);
-        if read[0] == encoding {
-            return stored;
+        match read_path(self.limits, self.scene.attachments[attachment].format) {
+            ReadPath::Shader if encoding != ChannelEncoding::Float32 => {
+                converted(self.rules, (encoding, stored), ChannelEncoding::Float32)
+            }
+            ReadPath::Shader | ReadPath::Copy => stored,
         }
-        converted(self.rules, (encoding, stored), read[0])
     }
 }
 

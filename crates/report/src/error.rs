@@ -1,5 +1,6 @@
 //! The error of every report.
 
+#[cfg(feature = "history")]
 use etalon_history::HistoryError;
 use etalon_record::RecordError;
 use std::io;
@@ -29,7 +30,7 @@ pub enum ReportError {
         source: io::Error,
     },
     /// A folder for a site has no page.
-    #[error("{0} holds no page; `etalon report {0}` writes the pages of a run or bench", path.display())]
+    #[error("{0} holds no page; `etalon report {0}` writes the pages of a run or bench, `ci/page {0}` the suite as a page", path.display())]
     NoPage {
         /// The folder.
         path: PathBuf,
@@ -65,6 +66,7 @@ pub enum ReportError {
         folder: PathBuf,
     },
     /// A history could not be read.
+    #[cfg(feature = "history")]
     #[error(transparent)]
     History(#[from] HistoryError),
     /// A history has no run with these labels.

@@ -18,6 +18,7 @@ mod diff;
 mod error;
 mod export;
 mod files;
+#[cfg(feature = "history")]
 mod history;
 mod hunt;
 mod lists;
@@ -45,12 +46,16 @@ pub use command::quoted;
 pub use diff::benches::{BenchDiff, BenchFacts, TimeChange, Untimed, diff, diff_table, write_diff};
 pub use diff::runs;
 pub use error::ReportError;
+#[cfg(feature = "history")]
 pub use history::{HISTORY_PAGE_FILE, write_history};
 pub use hunt::{HUNT_PAGE, WrittenHunt, hunt_table, write_hunt};
 pub use matrix::matrix_table;
 pub use news::{News, NewsEntry, Since, news_table};
 pub use picture::{Ringed, ringed_pictures};
-pub use run::{RUN_FILES, RUN_FOLDERS, RunReports, dead_lines, table, write, write_run_with_news};
+pub use run::{
+    OtherFormats, RUN_FILES, RUN_FOLDERS, RecordLine, RunReports, dead_lines, record_html, table,
+    write, write_run_with_news,
+};
 pub use site::{SITE_FILE, write_site};
 pub use staged::WrittenFolder;
 pub use terminal::TableOptions;

@@ -6,13 +6,13 @@ use std::hash::Hash;
 
 /// Returns the values without repetitions.
 pub(crate) fn distinct<T: PartialEq>(values: impl IntoIterator<Item = T>) -> Vec<T> {
-    let mut all = Vec::new();
+    let mut distinct_values = Vec::new();
     for value in values {
-        if !all.contains(&value) {
-            all.push(value);
+        if !distinct_values.contains(&value) {
+            distinct_values.push(value);
         }
     }
-    all
+    distinct_values
 }
 
 /// Groups the values by key. Keys are in the order in which they first occur.

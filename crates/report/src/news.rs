@@ -1,5 +1,6 @@
 //! The news of a run.
 
+#[cfg(feature = "history")]
 mod compare;
 
 use crate::terminal::TableOptions;

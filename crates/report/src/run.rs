@@ -4,10 +4,12 @@ mod dead;
 pub(crate) mod grid;
 mod index;
 mod reasons;
+mod sample;
 mod table;
 pub(crate) mod unexpected;
 mod write;
 
 pub use dead::dead_lines;
+pub use sample::{RecordLine, record_html};
 pub use table::table;
-pub use write::{RUN_FILES, RUN_FOLDERS, RunReports, write, write_run_with_news};
+pub use write::{OtherFormats, RUN_FILES, RUN_FOLDERS, RunReports, write, write_run_with_news};

@@ -424,7 +424,7 @@ impl Bench<'_, '_> {
             }
             let clock = clock::measure();
             let began = Instant::now();
-            let at = self.offset + self.start.elapsed().as_secs_f64();
+            let began_at = self.offset + self.start.elapsed().as_secs_f64();
             let case = &self.cases[pair.case];
             let adapter = &mut self.adapters[pair.adapter];
             let name = adapter.record.name.clone();
@@ -447,7 +447,7 @@ impl Bench<'_, '_> {
                         case: case.id.clone(),
                         adapter: name.clone(),
                         round: number,
-                        at,
+                        at: began_at,
                         ruler: [before, after],
                         prepare: measured.prepare,
                         first: measured.first,

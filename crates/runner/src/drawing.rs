@@ -114,7 +114,9 @@ impl WorkerProcess {
         timeout: Duration,
     ) -> Result<Vec<FrameTime>, Failure> {
         match self.ask(Request::Submit { slot, times }, timeout)? {
-            (Payload::Submitted(all), _) if all.len() == times as usize => Ok(all),
+            (Payload::Submitted(frame_times), _) if frame_times.len() == times as usize => {
+                Ok(frame_times)
+            }
             _ => Err(wrong_answer().into()),
         }
     }

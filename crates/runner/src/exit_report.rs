@@ -56,7 +56,7 @@ impl ExitReport {
             message,
             end: ProcessEnd {
                 kind,
-                signal: own_status.and_then(signal),
+                signal: own_status.and_then(etalon_process::signal),
                 exit: own_status.and_then(|s| s.code()),
                 stderr,
                 seconds: 0.0,
@@ -65,23 +65,13 @@ impl ExitReport {
     }
 }
 
-fn signal(status: ExitStatus) -> Option<i32> {
-    #[cfg(unix)]
-    {
-        use std::os::unix::process::ExitStatusExt;
-        status.signal()
-    }
-    #[cfg(not(unix))]
-    {
-        let _ = status;
-        None
-    }
-}
-
 fn ending(status: ExitStatus) -> String {
-    match signal(status) {
+    match etalon_process::signal(status) {
         Some(signal) => format!("died of signal {signal}{}", signal_name(signal)),
-        None => format!("ended with {status}"),
+        None => {
+            let name = status.code().map_or("", exception_name);
+            format!("ended with {status}{name}")
+        }
     }
 }
 
@@ -96,6 +86,20 @@ fn signal_name(signal: i32) -> &'static str {
         11 => " (segmentation fault)",
         15 => " (terminated)",
         31 => " (bad system call)",
+        _ => "",
+    }
+}
+
+/// Returns the name of the exception that ended a process of Windows, by its exit code.
+fn exception_name(code: i32) -> &'static str {
+    match code as u32 {
+        0x8000_0003 => " (breakpoint)",
+        0xC000_0005 => " (access violation)",
+        0xC000_001D => " (illegal instruction)",
+        0xC000_0094 => " (division by zero)",
+        0xC000_00FD => " (stack overflow)",
+        0xC000_0374 => " (heap corruption)",
+        0xC000_0409 => " (abort)",
         _ => "",
     }
 }

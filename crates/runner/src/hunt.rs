@@ -42,7 +42,7 @@ pub fn hunt(
             .enumerate()
             .skip(*job)
             .step_by(jobs)
-            .map(|(at, info)| Mutant::new(at, info, open(&info.name)))
+            .map(|(number, info)| Mutant::new(number, info, open(&info.name)))
             .collect();
         for (number, case) in plan.cases.iter().enumerate() {
             if case.judged_as.is_none() {

@@ -1,4 +1,4 @@
-//! Selection, isolation, drawing and judging of cases, reported as one stream of events.
+//! Isolation, drawing and judging of cases, reported as one stream of events.
 //!
 //! Workers only draw: [`serve()`] answers requests in its own process. The parent judges: [`run()`] drives
 //! workers of every adapter, compares every frame with its legal set and writes one record per case and
@@ -24,7 +24,6 @@ mod process;
 mod protocol;
 mod reduction;
 mod run;
-mod select;
 mod serve;
 mod stderr_tail;
 mod supervisor;
@@ -43,8 +42,7 @@ pub use protocol::Hello;
 pub use reduction::{
     Flakiness, Looked, Lost, Reducer, ReductionError, Smallest, Unconfirmed, confirm, smallest,
 };
-pub use run::{KeptFrames, Options, Plan, Rechecks, RunError, RunSummary, round_trips, run};
-pub use select::{Globs, SelectError, Selection, select};
+pub use run::{KeptFrames, Options, Plan, Rechecks, RunError, RunSummary, run};
 pub use serve::serve;
 pub use trial::Trials;
 pub use version_search::releases_to_draw;

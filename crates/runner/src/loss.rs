@@ -37,11 +37,7 @@ impl Failure {
         match self {
             Self::Backend(error) => match error {
                 BackendError::NotSupported(_) => Verdict::NotSupported,
-                BackendError::Failed { kind, .. } => match kind {
-                    ErrorKind::DeviceLost => Verdict::DeviceLost,
-                    ErrorKind::Resource { .. } => Verdict::ResourceError,
-                    ErrorKind::Shader(_) | ErrorKind::Internal { .. } => Verdict::InternalError,
-                },
+                BackendError::Failed { kind, .. } => Verdict::of_error(kind),
             },
             Self::Lost(loss) => match loss {
                 Loss::Timeout(_) => Verdict::Timeout,

@@ -4,7 +4,6 @@
 //! use.
 
 use crate::sync::lock;
-use std::fs;
 use std::io;
 use std::process::Child;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -37,10 +36,12 @@ impl MemoryLimit {
     ) -> io::Result<Self> {
         let held = Arc::<AtomicU64>::default();
         let exceeded = Arc::clone(&held);
-        let id = lock(&child).id();
         thread::Builder::new().spawn(move || {
             while !ended.load(Ordering::Relaxed) {
-                let Some(now) = held_by(id) else { return };
+                let bytes = etalon_process::memory(&lock(&child));
+                let Some(now) = bytes.map(|bytes| bytes >> 20) else {
+                    return;
+                };
                 if now > limit {
                     exceeded.store(now, Ordering::Relaxed);
                     // The process may have ended already; then there is nothing to kill.
@@ -58,15 +59,4 @@ impl MemoryLimit {
         let held = self.held.load(Ordering::Relaxed);
         (held > 0).then_some((held, self.limit))
     }
-}
-
-/// Returns the MiB of memory that a process uses, resident and swapped; `None` if the system does not
-/// report it.
-fn held_by(process: u32) -> Option<u64> {
-    let status = fs::read_to_string(format!("/proc/{process}/status")).ok()?;
-    let field = |name: &str| -> Option<u64> {
-        let line = status.lines().find_map(|l| l.strip_prefix(name))?;
-        line.trim_end_matches("kB").trim().parse().ok()
-    };
-    Some((field("VmRSS:")? + field("VmSwap:").unwrap_or(0)) / 1024)
 }

@@ -87,9 +87,7 @@ impl WorkerProcess {
             command.env(MALLOC.0, MALLOC.1);
         }
         // Ctrl-C is meant for the parent, which then ends its workers in an orderly way.
-        #[cfg(unix)]
-        std::os::unix::process::CommandExt::process_group(&mut command, 0);
-        let mut child = command
+        let mut child = etalon_process::separate(&mut command)
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())

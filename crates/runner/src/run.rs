@@ -7,14 +7,11 @@
 mod adapter_queue;
 mod adapter_run;
 mod execute;
-
 mod pictures;
 mod plan;
-mod round_trips;
 mod second_look;
 mod shared;
 mod worker_loop;
 
 pub use execute::run;
 pub use plan::{KeptFrames, Options, Plan, Rechecks, RunError, RunSummary};
-pub use round_trips::round_trips;

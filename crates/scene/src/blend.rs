@@ -56,6 +56,17 @@ impl BlendFactor {
             Self::Src1 | Self::OneMinusSrc1 | Self::Src1Alpha | Self::OneMinusSrc1Alpha
         )
     }
+
+    /// Returns true if the factor comes from the blend constant.
+    pub fn is_constant(self) -> bool {
+        matches!(
+            self,
+            Self::Constant
+                | Self::OneMinusConstant
+                | Self::ConstantAlpha
+                | Self::OneMinusConstantAlpha
+        )
+    }
 }
 
 state_enum! {

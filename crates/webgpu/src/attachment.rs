@@ -118,9 +118,9 @@ impl Attached {
                 }));
             }
             InitialContents::DepthStencil(..) if self.cleared_by.is_none() => {
-                let whole = self.as_depth_stencil(lowering, None, &PassOperations::default());
+                let attachment = self.as_depth_stencil(lowering, None, &PassOperations::default());
                 each.push(Command::Pass(RenderPass {
-                    depth_stencil: Some(whole),
+                    depth_stencil: Some(attachment),
                     ..RenderPass::default()
                 }));
             }

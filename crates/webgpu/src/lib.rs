@@ -3,11 +3,13 @@
 //! [`lower()`] turns a scene into a [`CallList`]: the objects that it needs, the commands of a frame, the
 //! commands that copy what is read back into one buffer, and a [`Reading`] that turns the bytes of that
 //! buffer into a [`Frame`](etalon_frame::Frame). An executor creates the objects, records the commands and
-//! maps the buffer, without knowing about scenes.
+//! maps the buffer, without knowing about scenes. An executor in a page reports its device as an
+//! [`adapter`], and exchanges lists and bytes as [`message`]s.
 //!
 //! The suite's conventions are WebGPU's, so lowering converts nothing. The crate has no graphics API and no
 //! I/O.
 
+pub mod adapter;
 mod attachment;
 mod binding;
 mod calls;
@@ -18,6 +20,7 @@ mod fault;
 mod fetch;
 mod format;
 mod lower;
+pub mod message;
 mod offer;
 mod path;
 mod pipeline;

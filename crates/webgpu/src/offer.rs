@@ -205,16 +205,22 @@ fn exempt(offer: &Offer) -> BTreeSet<Requirement> {
 /// Returns the formats of a device with these features, by their names in WebGPU (26.1, Texture Format
 /// Capabilities). The level must not be [`Level::Less`].
 pub fn standard_formats(level: Level, has: impl Fn(&str) -> bool) -> BTreeMap<TextureFormat, Uses> {
-    let all = Uses {
+    let every_use = Uses {
         drawn: true,
         blended: true,
         multisampled: true,
     };
     let unblended = Uses {
         blended: false,
-        ..all
+        ..every_use
     };
-    let when = |feature: &str| if has(feature) { all } else { Uses::default() };
+    let when = |feature: &str| {
+        if has(feature) {
+            every_use
+        } else {
+            Uses::default()
+        }
+    };
     let uses = |format: TextureFormat| {
         Some(match format {
             TextureFormat::R8Unorm
@@ -222,10 +228,10 @@ pub fn standard_formats(level: Level, has: impl Fn(&str) -> bool) -> BTreeMap<Te
             | TextureFormat::Rgba8Unorm
             | TextureFormat::Rgba8UnormSrgb
             | TextureFormat::Bgra8Unorm
-            | TextureFormat::Rgb10a2Unorm => all,
+            | TextureFormat::Rgb10a2Unorm => every_use,
             TextureFormat::Rgba16Float => Uses {
                 multisampled: level == Level::Core,
-                ..all
+                ..every_use
             },
             TextureFormat::Rgba8Snorm => when("texture-formats-tier1"),
             TextureFormat::Rg11b10Ufloat => when("rg11b10ufloat-renderable"),

@@ -274,9 +274,9 @@ mod tests {
         let none = paths(false, abilities(false), &BTreeSet::new());
         assert!([base, indirect, views].iter().all(|v| !none.contains(v)));
         let features = BTreeSet::from([Feature::BaseVertex]);
-        let all = paths(true, abilities(true), &features);
-        assert!([base, indirect, views].iter().all(|v| all.contains(v)));
-        assert!(!all.contains(&PathValue::Target(PathTarget::Renderbuffer)));
+        let offered = paths(true, abilities(true), &features);
+        assert!([base, indirect, views].iter().all(|v| offered.contains(v)));
+        assert!(!offered.contains(&PathValue::Target(PathTarget::Renderbuffer)));
     }
 
     #[test]

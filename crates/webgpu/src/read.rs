@@ -53,12 +53,12 @@ pub(crate) fn plan(
         }
     }
     let bytes = size + counting.bytes();
-    let whole = bytes.next_multiple_of(4).max(4);
-    lowering.list.buffers[output].size = whole;
+    let padded = bytes.next_multiple_of(4).max(4);
+    lowering.list.buffers[output].size = padded;
     // If the driver loses a copy, the codes of an earlier scene with the same picture must not remain.
     copies.push(Command::ClearBuffer {
         buffer: output,
-        size: whole,
+        size: padded,
     });
     commands.extend(counting.copy(output, size));
     lowering.list.read = copies.into_iter().chain(commands).collect();
@@ -82,10 +82,10 @@ fn copied(
     let (target, views) = (PathTarget::Plain, PathViews::Same);
     let target = lowering.attachment(format, size, attachment.samples, target, views)?;
     commands.extend(spoiled(lowering, format, target).map(Command::Pass));
-    let all = TextureAspect::All;
+    let aspect = TextureAspect::All;
     commands.push(Command::CopyTexture {
-        from: drawn.copied(all, [0, 0]),
-        to: target.copied(all, [0, 0]),
+        from: drawn.copied(aspect, [0, 0]),
+        to: target.copied(aspect, [0, 0]),
         size,
     });
     Ok(target)

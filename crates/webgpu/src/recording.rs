@@ -134,11 +134,11 @@ fn planes(memories: &mut Memories, image: &ImageReading) -> Vec<Plane> {
 /// Returns the places of the counters, which share one memory.
 fn counters(memories: &mut Memories, reading: &Reading) -> Vec<RecordedCounter> {
     let mut counters = Vec::new();
-    let mut whole = None;
+    let mut memory = None;
     for counter in &reading.counters {
         let part = |place: &Place| {
             let bytes = reading.bytes as u32;
-            let output = *whole.get_or_insert_with(|| {
+            let output = *memory.get_or_insert_with(|| {
                 memories.rows(Rows {
                     offset: 0,
                     pitch: bytes,

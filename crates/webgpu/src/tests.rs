@@ -245,11 +245,11 @@ fn what_a_device_lacks_is_named() {
         first_instance(&scene).then_some(scene)
     });
     let scene = scene.expect("a case of indirect draws from another instance on");
-    let whole = device();
-    assert!(lower(&whole, &scene).is_ok());
+    let complete = device();
+    assert!(lower(&complete, &scene).is_ok());
     let poorer = Device {
         indirect_first_instance: false,
-        ..whole
+        ..complete
     };
     let missing = lower(&poorer, &scene).expect_err("a feature is missing");
     let value = PathValue::Draws(PathDraws::Indirect);

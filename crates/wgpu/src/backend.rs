@@ -16,8 +16,12 @@ use wgpu::{Backends, InstanceFlags};
 pub enum Via {
     /// Vulkan.
     Vulkan,
-    /// OpenGL through EGL, or OpenGL ES if OpenGL is not available.
+    /// OpenGL through EGL, or OpenGL ES if OpenGL is not available. On Windows through WGL.
     Gl,
+    /// Direct3D 12.
+    Dx12,
+    /// Metal.
+    Metal,
 }
 
 /// Options for [`open`].
@@ -108,10 +112,7 @@ impl Backend for WgpuBackend {
     }
 
     fn recording(&self) -> Option<Recording> {
-        let api = match self.via {
-            Via::Vulkan => "vulkan",
-            Via::Gl => "gl",
-        };
+        let api = word(self.via);
         let list = self.gpu.recorded.as_ref()?.borrow();
         let features = self.gpu.device.features();
         let features = features.iter_names().map(|(name, _)| name.to_owned());
@@ -197,6 +198,8 @@ fn backends(via: Via) -> Backends {
     match via {
         Via::Vulkan => Backends::VULKAN,
         Via::Gl => Backends::GL,
+        Via::Dx12 => Backends::DX12,
+        Via::Metal => Backends::METAL,
     }
 }
 
@@ -204,6 +207,18 @@ fn api(via: Via) -> &'static str {
     match via {
         Via::Vulkan => "Vulkan",
         Via::Gl => "OpenGL",
+        Via::Dx12 => "Direct3D 12",
+        Via::Metal => "Metal",
+    }
+}
+
+/// Returns the API's name in adapter names.
+fn word(via: Via) -> &'static str {
+    match via {
+        Via::Vulkan => "vulkan",
+        Via::Gl => "gl",
+        Via::Dx12 => "dx12",
+        Via::Metal => "metal",
     }
 }
 
@@ -214,6 +229,8 @@ fn remedy(via: Via) -> &'static str {
              VK_ICD_FILENAMES, if set, name a driver"
         }
         Via::Gl => "apt-get install libegl1 libgl1-mesa-dri",
+        Via::Dx12 => "install the driver of the GPU's vendor; Direct3D 12 needs Windows",
+        Via::Metal => "Metal needs macOS",
     }
 }
 
@@ -233,17 +250,13 @@ fn info(via: Via, adapter: &wgpu::Adapter) -> AdapterInfo {
     let software = found.device_type == wgpu::DeviceType::Cpu
         || emulates.iter().any(|driver| words.contains(driver));
     let driver = driver(via, &words);
-    let prefix = match via {
-        Via::Vulkan => "vulkan",
-        Via::Gl => "gl",
-    };
     let named = if found.driver.is_empty() {
         driver.clone()
     } else {
         found.driver.clone()
     };
     AdapterInfo {
-        name: format!("wgpu:{prefix}:{driver}"),
+        name: format!("wgpu:{}:{driver}", word(via)),
         backend: "wgpu".to_owned(),
         device: found.name.clone(),
         driver: named,
@@ -266,10 +279,12 @@ fn driver(via: Via, words: &str) -> String {
     }
     // Mesa's Vulkan driver reports the name of the rasterizer that it shares with Mesa's OpenGL driver.
     if words.contains("llvmpipe") {
-        return match via {
-            Via::Vulkan => "lavapipe".to_owned(),
-            Via::Gl => "llvmpipe".to_owned(),
+        let name = if via == Via::Gl {
+            "llvmpipe"
+        } else {
+            "lavapipe"
         };
+        return name.to_owned();
     }
     let is_letter = |c: char| c.is_ascii_alphanumeric();
     let mut parts = words

@@ -178,7 +178,7 @@ fn a_page_draws() {
 #[test]
 fn garbage_of_a_page_fails_its_scene_alone() {
     type Garbage = fn(&Value) -> Message;
-    let all: [Garbage; 7] = [
+    let answers: [Garbage; 7] = [
         |_| Message::text("{}"),
         |_| Message::binary(Vec::new()),
         |_| Message::binary(vec![0xff; 64]),
@@ -195,7 +195,7 @@ fn garbage_of_a_page_fails_its_scene_alone() {
             message(&answer, &[])
         },
     ];
-    for (number, garbage) in all.into_iter().enumerate() {
+    for (number, garbage) in answers.into_iter().enumerate() {
         let failed = drawn_with(garbage);
         let is_internal = matches!(
             failed,
@@ -229,7 +229,7 @@ fn the_errors_of_a_page_keep_their_kinds() {
 fn only_who_has_the_token_is_served() {
     let page = Page::new();
     let worker = page.worker();
-    let own = format!("http://{}", page.address);
+    let origin = format!("http://{}", page.address);
     assert!(page.get(&format!("/{}/", page.token)).contains("200 OK"));
     let script = page.get(&format!("/{}/executor.js", page.token));
     assert!(script.contains("text/javascript"));
@@ -241,12 +241,12 @@ fn only_who_has_the_token_is_served() {
     ] {
         assert!(page.get(path).contains("404 Not Found"), "{path}");
     }
-    assert!(page.socket("wrong", &own).is_none());
+    assert!(page.socket("wrong", &origin).is_none());
     assert!(page.socket(&page.token, "http://elsewhere").is_none());
     assert!(page.socket(&page.token, "null").is_none());
 
     let mut first = page.opened();
-    assert!(page.socket(&page.token, &own).is_none(), "a second page");
+    assert!(page.socket(&page.token, &origin).is_none(), "a second page");
     greet(
         &mut first,
         &json!({ "protocol": 1, "unavailable": "no adapter" }),

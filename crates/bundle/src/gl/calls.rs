@@ -76,13 +76,13 @@ impl Printer {
                 format!("CALL({made}), linked({}, __LINE__);", values.join(", "))
             }
             (_, Some(Argument::Object(kind, number))) => {
-                let own = match kind.as_str() {
+                let c_type = match kind.as_str() {
                     "location" => "GLint",
                     _ => "GLuint",
                 };
-                self.declarations.function(name, own, types);
+                self.declarations.function(name, c_type, types);
                 let program = self.program_of(call);
-                let variable = self.define(kind, *number, program, own);
+                let variable = self.define(kind, *number, program, c_type);
                 format!("{variable} = {made}, check(\"{name}\", __LINE__);")
             }
             (_, Some(_)) => {
@@ -146,10 +146,10 @@ impl Printer {
                 let floats = holds_floats(call).then_some(FLOATS);
                 self.declarations.bytes(bytes, floats)
             }
-            Argument::Array(all) => {
-                let kind = element_of(all);
+            Argument::Array(elements) => {
+                let kind = element_of(elements);
                 let mut values = Vec::new();
-                for value in all {
+                for value in elements {
                     values.push(self.value(call, value)?);
                 }
                 format!("(const {kind}[]){{ {} }}", values.join(", "))

@@ -32,7 +32,7 @@ pub(crate) fn program(
     head: &Head,
     context: &Context<'_>,
     recording: &Recording,
-    due: &Due,
+    expected: &Due,
     trim: Trim,
 ) -> Result<String, BundleError> {
     let Context {
@@ -44,7 +44,7 @@ pub(crate) fn program(
     let api = if es { "OpenGL ES" } else { "OpenGL" };
     let mut printer = Printer::default();
     let body = printer.body(&trimmed(&recording.calls, trim))?;
-    let check = check::check(recording, due)?;
+    let check = check::check(recording, expected)?;
     let mut text = head.beginning(BUILD_C, "the EGL library to load", "");
     text.push_str(TYPES);
     text.push_str(&printer.constants());

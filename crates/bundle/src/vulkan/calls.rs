@@ -190,12 +190,12 @@ impl Printer {
                 _ => return Err(BundleError::Call(call.function.clone())),
             },
             Argument::Bytes(bytes) => self.declarations.bytes(bytes, WORDS),
-            Argument::Array(all) => {
-                let kind = element_of(all);
-                let values = self.values(call, all)?;
+            Argument::Array(elements) => {
+                let kind = element_of(elements);
+                let values = self.values(call, elements)?;
                 format!("(const {kind}[]){{ {values} }}")
             }
-            Argument::Values(all) => format!("{{ {} }}", self.values(call, all)?),
+            Argument::Values(members) => format!("{{ {} }}", self.values(call, members)?),
             Argument::Struct {
                 kind,
                 size,
@@ -226,9 +226,9 @@ impl Printer {
         })
     }
 
-    fn values(&mut self, call: &Call, all: &[Argument]) -> Result<String, BundleError> {
+    fn values(&mut self, call: &Call, arguments: &[Argument]) -> Result<String, BundleError> {
         let mut values = Vec::new();
-        for value in all {
+        for value in arguments {
             values.push(self.value(call, value)?);
         }
         Ok(values.join(", "))

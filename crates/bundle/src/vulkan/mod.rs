@@ -26,7 +26,7 @@ pub(crate) fn program(
     head: &Head,
     context: &Context<'_>,
     recording: &Recording,
-    due: &Due,
+    expected: &Due,
 ) -> Result<String, BundleError> {
     let Context {
         device,
@@ -35,7 +35,7 @@ pub(crate) fn program(
     } = *context;
     let mut printer = Printer::new();
     let body = printer.body(&recording.calls)?;
-    let check = check::check(recording, due)?;
+    let check = check::check(recording, expected)?;
     let mut text = head.beginning(
         BUILD_C,
         "the index of the device; by default, the device with the name below is used, or the first one",

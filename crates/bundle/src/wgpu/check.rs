@@ -174,15 +174,15 @@ function tell(memories, texel) {
 "#;
 
 /// Returns the functions that check the values that were read.
-pub(super) fn check(recording: &Recording, due: &Due) -> Result<Code, BundleError> {
-    let texels = table::texels(recording, due)?;
+pub(super) fn check(recording: &Recording, expected: &Due) -> Result<Code, BundleError> {
+    let texels = table::texels(recording, expected)?;
     let mut text = Code::same("");
     if !texels.is_empty() {
         text.push(&Code::new(RUST, SCRIPT));
-        let all = list(texels.iter().map(texel));
+        let entries = list(texels.iter().map(texel));
         text.push(&Code {
-            rust: wrapped(&format!("\nstatic TEXELS: &[Texel] = {};", all.rust)) + "\n",
-            script: all
+            rust: wrapped(&format!("\nstatic TEXELS: &[Texel] = {};", entries.rust)) + "\n",
+            script: entries
                 .script
                 .map(|texels| wrapped(&format!("\nconst texels = {texels};")) + "\n"),
         });
@@ -198,8 +198,8 @@ pub(super) fn check(recording: &Recording, due: &Due) -> Result<Code, BundleErro
             "  for (const texel of texels)\n    if (!isRight(memories, texel))\n      return tell(memories, texel);\n",
         ));
     }
-    for due in &due.counters {
-        text.push(&counter(recording, due)?);
+    for expected_counter in &expected.counters {
+        text.push(&counter(recording, expected_counter)?);
     }
     text.push(&Code::new("    None\n}\n", "  return null;\n}\n"));
     Ok(text)
@@ -248,8 +248,8 @@ fn channel(channel: &CheckedChannel) -> Code {
 }
 
 /// Returns the statements that check a counter.
-fn counter(recording: &Recording, due: &crate::due::DueCounter) -> Result<Code, BundleError> {
-    let counter = table::counter(recording, due)?;
+fn counter(recording: &Recording, expected: &crate::due::DueCounter) -> Result<Code, BundleError> {
+    let counter = table::counter(recording, expected)?;
     let parts = counter.parts.iter().map(|part| {
         let (memory, first) = (part.output, part.offset);
         let end = first + part.bytes;
@@ -278,7 +278,7 @@ fn counter(recording: &Recording, due: &crate::due::DueCounter) -> Result<Code, 
             "all + part",
         )
     };
-    let (low, high) = (due.range.low, due.range.high);
+    let (low, high) = (expected.range.low, expected.range.high);
     let range = match high {
         Some(high) => format!("{low}..={high}"),
         None => format!("{low}.."),
@@ -287,7 +287,7 @@ fn counter(recording: &Recording, due: &crate::due::DueCounter) -> Result<Code, 
         Some(high) => format!(" || count > {high}"),
         None => String::new(),
     };
-    let (name, allowed) = (string(&due.name), string(&due.range.to_string()));
+    let (name, allowed) = (string(&expected.name), string(&expected.range.to_string()));
     let script = |parts: String| {
         let (name, allowed) = (name.script.as_ref()?, allowed.script.as_ref()?);
         Some(format!(

@@ -178,7 +178,7 @@ impl Structure {
         self.rust.push(format!("{name}: {}", value.rust));
         match (&mut self.script, value.script) {
             (_, Some(members)) if members.is_empty() => {}
-            (Some(all), Some(members)) => all.push(members),
+            (Some(script), Some(members)) => script.push(members),
             (members, _) => *members = None,
         }
         self

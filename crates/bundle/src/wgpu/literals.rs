@@ -71,16 +71,19 @@ pub(super) fn number(value: f64) -> Code {
 }
 
 /// Returns bytes as an expression: zeros, floats, words, or single bytes.
-pub(super) fn bytes(all: &[u8]) -> Code {
-    let size = all.len();
-    if all.iter().all(|byte| *byte == 0) {
+pub(super) fn bytes(values: &[u8]) -> Code {
+    let size = values.len();
+    if values.iter().all(|byte| *byte == 0) {
         return Code::new(format!("&[0; {size}]"), format!("new Uint8Array({size})"));
     }
     if !size.is_multiple_of(4) {
-        return Code::new(format!("&{all:?}"), format!("new Uint8Array({all:?})"));
+        return Code::new(
+            format!("&{values:?}"),
+            format!("new Uint8Array({values:?})"),
+        );
     }
     let words = || {
-        let each = all.chunks_exact(4);
+        let each = values.chunks_exact(4);
         each.map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]))
     };
     let is_float = |bits: u32| {

@@ -28,11 +28,11 @@ pub(crate) fn program(
     features: &[String],
     calls: &str,
     recording: &Recording,
-    due: &Due,
+    expected: &Due,
 ) -> Result<Program, BundleError> {
     let unread = |error| BundleError::Call(format!("wgpu: {error}"));
     let calls = serde_json::from_str(calls).map_err(unread)?;
-    let check = check::check(recording, due)?;
+    let check = check::check(recording, expected)?;
     let below = match api {
         "vulkan" => Api::Vulkan,
         "gl" => Api::Gl,

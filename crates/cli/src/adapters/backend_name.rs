@@ -13,5 +13,7 @@ pub(crate) enum BackendName {
     GlEs,
     WgpuVulkan,
     WgpuGl,
+    WgpuDx12,
+    WgpuMetal,
     Webgpu,
 }

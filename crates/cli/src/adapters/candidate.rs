@@ -19,7 +19,13 @@ use std::time::{Duration, Instant};
 /// The longest failed start after which the driver gets a second attempt.
 const RETRY_LIMIT: Duration = Duration::from_secs(10);
 /// The folders that the system's loader searches first.
-const LIBRARY_PATH: &str = "LD_LIBRARY_PATH";
+const LIBRARY_PATH: &str = if cfg!(windows) {
+    "PATH"
+} else if cfg!(target_vendor = "apple") {
+    "DYLD_LIBRARY_PATH"
+} else {
+    "LD_LIBRARY_PATH"
+};
 /// The remedy if no other is known.
 const SEE_LOG: &str = "see the driver's own log";
 
@@ -315,7 +321,11 @@ fn fits(fault: Fault, backend: BackendName) -> bool {
         (Fault::Call(fault), BackendName::Gl | BackendName::GlEs) => fault.is_in(Api::OpenGl),
         (
             Fault::Call(fault),
-            BackendName::WgpuVulkan | BackendName::WgpuGl | BackendName::Webgpu,
+            BackendName::WgpuVulkan
+            | BackendName::WgpuGl
+            | BackendName::WgpuDx12
+            | BackendName::WgpuMetal
+            | BackendName::Webgpu,
         ) => fault.is_in(Api::WebGpu),
         (Fault::Call(_), BackendName::Cpu) => false,
         (Fault::Read(_), backend) => backend != BackendName::Cpu,

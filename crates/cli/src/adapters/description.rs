@@ -12,10 +12,11 @@ use etalon_keeper::Server;
 use etalon_record::Release;
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
+use std::env::consts::{DLL_EXTENSION, EXE_SUFFIX};
 use std::fs::File;
 use std::io::Read;
 use std::net::SocketAddr;
-use std::path::{Path, PathBuf};
+use std::path::{Path, PathBuf, is_separator};
 use thiserror::Error;
 
 /// The maximum size of a file in bytes.
@@ -48,7 +49,8 @@ pub(super) struct Description {
     /// in the folders of manifests.
     #[serde(default)]
     manifests: Vec<String>,
-    /// The EGL library to open instead of `libEGL.so.1`; for the backends `gl` and `gl-es`.
+    /// The EGL library to open instead of the system's; for the backends `gl` and `gl-es`. A name without an
+    /// extension gets the system's.
     egl: Option<String>,
     /// Folders searched for libraries before those of the system.
     #[serde(default)]
@@ -152,8 +154,8 @@ pub(crate) fn releases_of(
         f.display().to_string()
     });
     let described = |entry: &Description| Some((entry.name.clone(), entry.release()?));
-    let all: Vec<(String, Release)> = entries.iter().filter_map(described).collect();
-    let mut releases: Vec<(String, Release)> = all
+    let described_releases: Vec<(String, Release)> = entries.iter().filter_map(described).collect();
+    let mut releases: Vec<(String, Release)> = described_releases
         .iter()
         .filter(|(_, r)| r.line == line)
         .cloned()
@@ -166,7 +168,10 @@ pub(crate) fn releases_of(
         )));
     }
     if releases.len() < 2 {
-        let lines: BTreeSet<&str> = all.iter().map(|(_, r)| r.line.as_str()).collect();
+        let lines: BTreeSet<&str> = described_releases
+            .iter()
+            .map(|(_, r)| r.line.as_str())
+            .collect();
         let known = match lines.len() {
             0 => "none; --adapters takes a file whose entries have `line` and `version`".to_owned(),
             _ => lines.into_iter().collect::<Vec<_>>().join(", "),
@@ -300,7 +305,7 @@ impl Description {
         if self.program.is_some() && self.launcher.is_empty() {
             return Err("`program` is for entries with a `launcher`; remove it".to_owned());
         }
-        let named = |text: &String| !text.contains('/');
+        let named = |text: &String| !text.contains(is_separator);
         if !self.launcher.is_empty() && self.manifests.iter().any(named) {
             return Err(
                 "with a `launcher`, manifests are not searched; give the path there".to_owned(),
@@ -385,7 +390,7 @@ impl Description {
         let path = |text: &str| -> Result<PathBuf, Unresolved> {
             let text = expand(text, variable)?;
             // The loader searches for a name without a folder.
-            let is_path = text.contains('/');
+            let is_path = text.contains(is_separator);
             Ok(if is_path {
                 folder.join(text)
             } else {
@@ -403,7 +408,10 @@ impl Description {
             resolved.library_path.push(found);
         }
         if let Some(text) = &self.egl {
-            let found = path(text)?;
+            let mut found = path(text)?;
+            if found.extension().is_none() {
+                found.set_extension(DLL_EXTENSION);
+            }
             if here && found.components().count() > 1 && !found.is_file() {
                 return Err(missing(format!(
                     "the library {} does not exist",
@@ -418,7 +426,7 @@ impl Description {
                 *word = expand(word, variable)?;
             }
             if let Some(program) = browser.command.first_mut() {
-                if program.contains('/') {
+                if program.contains(is_separator) {
                     *program = folder.join(&*program).to_string_lossy().into_owned();
                 }
                 if here && !is_program(program, variable) {
@@ -433,7 +441,7 @@ impl Description {
                 *text = expand(text, variable)?;
             }
             if let Some(program) = server.command.first_mut() {
-                if program.contains('/') {
+                if program.contains(is_separator) {
                     *program = folder.join(&*program).to_string_lossy().into_owned();
                 }
                 if here && !is_program(program, variable) {
@@ -494,11 +502,13 @@ fn manifest(wanted: &[PathBuf], variable: &dyn Fn(&str) -> Option<String>) -> Op
 
 /// Returns true if a program exists: as a path, or in a folder of `PATH`.
 fn is_program(program: &str, variable: &dyn Fn(&str) -> Option<String>) -> bool {
-    if program.contains('/') {
-        return Path::new(program).is_file();
+    let names = [program.to_owned(), format!("{program}{EXE_SUFFIX}")];
+    if program.contains(is_separator) {
+        return names.iter().any(|name| Path::new(name).is_file());
     }
     let folders = variable("PATH").unwrap_or_default();
-    std::env::split_paths(&folders).any(|folder| folder.join(program).is_file())
+    std::env::split_paths(&folders)
+        .any(|folder| names.iter().any(|name| folder.join(name).is_file()))
 }
 
 /// Replaces the variables in a text.

@@ -26,12 +26,16 @@ pub(crate) struct HardwareDevice {
 }
 
 /// The backends that enumerate devices: argument of the worker, prefix of names, backend.
-pub(super) const BACKENDS: [(&str, &str, BackendName); 5] = [
+pub(super) const BACKENDS: &[(&str, &str, BackendName)] = &[
     ("vulkan", "vulkan", BackendName::Vulkan),
     ("gl", "gl", BackendName::Gl),
     ("gl-es", "gl:es", BackendName::GlEs),
     ("wgpu-vulkan", "wgpu:vulkan", BackendName::WgpuVulkan),
     ("wgpu-gl", "wgpu:gl", BackendName::WgpuGl),
+    #[cfg(windows)]
+    ("wgpu-dx12", "wgpu:dx12", BackendName::WgpuDx12),
+    #[cfg(target_vendor = "apple")]
+    ("wgpu-metal", "wgpu:metal", BackendName::WgpuMetal),
 ];
 
 /// Hardware drivers that have findings. A machine without the hardware does not make these findings dead.

@@ -135,10 +135,10 @@ fn described(file: Option<&Path>) -> Result<Vec<Candidate>, Failure> {
 /// Returns the devices that backends enumerate, and adds the backends that fail to `absent`.
 fn hardware(taken: &BTreeSet<String>, absent: &mut Vec<AbsentAdapter>) -> Vec<Candidate> {
     let found: Vec<Result<Vec<HardwareDevice>, String>> =
-        each(BACKENDS.len(), &BACKENDS, |(word, ..)| enumerate(word));
+        each(BACKENDS.len(), BACKENDS, |(word, ..)| enumerate(word));
     let mut taken = taken.clone();
     let mut ready = Vec::new();
-    for ((_, prefix, backend), found) in BACKENDS.into_iter().zip(found) {
+    for (&(_, prefix, backend), found) in BACKENDS.iter().zip(found) {
         match found {
             Ok(found) => {
                 for device in devices::unique_names(&taken, found) {

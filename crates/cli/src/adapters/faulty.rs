@@ -8,7 +8,6 @@ use etalon_backend::{
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Frame, Limits, TextureFormat};
 use etalon_scene::Scene;
-use rustix::process::{Signal, getpid, kill_process};
 use std::cell::{Cell, RefCell};
 use std::fs::File;
 use std::hash::{BuildHasher, RandomState};
@@ -78,14 +77,7 @@ impl Faulty {
                 say!("about to abort, as planted");
                 std::process::abort()
             }
-            ProcessFault::Segv => {
-                // Sends the signal, since safe code cannot read invalid memory. Sends it twice, since the
-                // first signal only removes the standard library's handler.
-                for _ in 0..2 {
-                    let _ = kill_process(getpid(), Signal::SEGV);
-                }
-                sleep_endlessly()
-            }
+            ProcessFault::Segv => etalon_process::crash(),
             ProcessFault::Exit => std::process::exit(7),
             ProcessFault::Panic => panic!("a planted panic"),
             ProcessFault::Hang => sleep_endlessly(),

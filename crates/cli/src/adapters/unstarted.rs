@@ -15,7 +15,10 @@ pub(crate) fn take_unstarted(adapters: &mut Adapters) -> Vec<(AdapterRecord, Str
             BackendName::Vulkan => ("vulkan", Api::Vulkan),
             BackendName::Gl => ("gl", Api::OpenGl),
             BackendName::GlEs => ("gl", Api::OpenGlEs),
-            BackendName::WgpuVulkan | BackendName::WgpuGl => ("wgpu", Api::WebGpu),
+            BackendName::WgpuVulkan
+            | BackendName::WgpuGl
+            | BackendName::WgpuDx12
+            | BackendName::WgpuMetal => ("wgpu", Api::WebGpu),
             BackendName::Webgpu => ("webgpu", Api::WebGpu),
         };
         let adapter = AdapterRecord {

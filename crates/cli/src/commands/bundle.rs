@@ -131,10 +131,10 @@ fn shortest(
     program: impl Fn(Trim) -> Result<Program, Failure>,
     run: impl Fn(&Program) -> Result<Option<ProgramRun>, Failure>,
 ) -> Result<(Program, Option<ProgramRun>), Failure> {
-    let whole = program(Trim::Nothing)?;
+    let untrimmed = program(Trim::Nothing)?;
     for trim in Trim::ALL {
         let shorter = program(trim)?;
-        if shorter != whole || trim == Trim::Nothing {
+        if shorter != untrimmed || trim == Trim::Nothing {
             let ran = run(&shorter)?;
             let shows = ran.as_ref().is_some_and(|ran| ran.status == Some(BUG));
             if shows || trim == Trim::Nothing {
@@ -145,7 +145,7 @@ fn shortest(
             }
         }
     }
-    Ok((whole, None))
+    Ok((untrimmed, None))
 }
 
 /// Returns the case without its variants: the program draws one picture.

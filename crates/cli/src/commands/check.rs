@@ -69,8 +69,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
 fn read(path: &Path) -> Result<Result<CaseFile, CaseError>, Failure> {
     let text = fs::read_to_string(path)
         .map_err(|e| Failure::usage(format!("{}: cannot be read: {e}", path.display())))?;
-    let whole = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    let parts: Vec<String> = whole
+    let absolute = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let parts: Vec<String> = absolute
         .components()
         .map(|c| c.as_os_str().to_string_lossy().into_owned())
         .collect();

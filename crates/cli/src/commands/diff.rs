@@ -3,6 +3,7 @@
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::flags::Format;
 use crate::output::{print, print_json, table_options};
+use crate::saved_run::folder;
 use clap::{Args, ValueEnum};
 use etalon_record::{Bench, FolderKind, Time};
 use etalon_report::runs::{self, RunDiff};
@@ -28,10 +29,10 @@ pub(crate) enum DiffTime {
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// The run or bench folder to compare with
+    /// The run or bench folder to compare with, or a run that the page saved (`*.tar.gz`)
     #[arg(value_name = "BEFORE")]
     pub(crate) before: PathBuf,
-    /// The run or bench folder to judge
+    /// The run or bench folder to judge, or a run that the page saved (`*.tar.gz`)
     #[arg(value_name = "AFTER")]
     pub(crate) after: PathBuf,
     /// Runs only: the adapter of the first run. Default: compare adapters with equal names, or the only one
@@ -54,9 +55,10 @@ pub(crate) struct Arguments {
 
 /// Compares two runs or two benches.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let [before, after] = [&arguments.before, &arguments.after];
-    match [before, after].map(|folder| FolderKind::of(folder)) {
-        [Some(FolderKind::Run), Some(FolderKind::Run)] => of_runs(arguments),
+    let [before, after] = [folder(&arguments.before)?, folder(&arguments.after)?];
+    let [before, after] = [before.as_path(), after.as_path()];
+    match [before, after].map(FolderKind::of) {
+        [Some(FolderKind::Run), Some(FolderKind::Run)] => of_runs(arguments, [before, after]),
         [Some(FolderKind::Bench), Some(FolderKind::Bench)] => of_benches(arguments),
         [Some(FolderKind::Run), Some(FolderKind::Bench)] => Err(mixed(before, after)),
         [Some(FolderKind::Bench), Some(FolderKind::Run)] => Err(mixed(after, before)),
@@ -79,7 +81,7 @@ fn mixed(run: &Path, bench: &Path) -> Failure {
     ))
 }
 
-fn of_runs(arguments: &Arguments) -> Result<u8, Failure> {
+fn of_runs(arguments: &Arguments, folders: [&Path; 2]) -> Result<u8, Failure> {
     if arguments.time.is_some() {
         return Err(Failure::usage(
             "--time is for two benches; the times of a run are single samples taken during other work",
@@ -90,7 +92,6 @@ fn of_runs(arguments: &Arguments) -> Result<u8, Failure> {
         (Some(before), Some(after)) => Some([before.as_str(), after]),
         _ => None,
     };
-    let folders: [&Path; 2] = [&arguments.before, &arguments.after];
     let diff = runs::diff(folders[0], folders[1], adapters).map_err(Failure::usage)?;
     if diff.compared() == 0 && diff.only.is_empty() {
         return Err(Failure::nothing("neither run holds a record"));

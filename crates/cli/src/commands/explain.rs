@@ -5,6 +5,7 @@ use crate::cases::{find, library};
 use crate::failure::{Failure, UNEXPECTED};
 use crate::flags::AdapterFileArguments;
 use crate::output::print;
+use crate::recorded_frame::recorded_frame;
 use clap::Args;
 use etalon_backend::Backend;
 use etalon_case::Case;
@@ -33,6 +34,10 @@ pub(crate) struct Arguments {
     /// Draw the case on this adapter and judge the texel
     #[arg(long, value_name = "NAME")]
     pub(crate) adapter: Option<String>,
+    /// Draw nothing, and judge the texel in the frame that this run keeps: a run folder, or a run that the page saved
+    /// (`*.tar.gz`). If it has several adapters, choose one with --adapter
+    #[arg(long, value_name = "RUN")]
+    pub(crate) run: Option<PathBuf>,
     /// Also compare the texel with the yardstick, the band of good quality within the legal values
     #[arg(long)]
     pub(crate) yardstick: bool,
@@ -48,9 +53,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let case = found.build().map_err(Failure::usage)?;
     let scene = case.judged_scene();
     refuse_outside(scene, arguments)?;
-    let (limits, frames) = match &arguments.adapter {
-        None => (CpuBackend::new("cpu").limits().clone(), Vec::new()),
-        Some(name) => draw(name, arguments.file.adapter_file.as_deref(), &case)?,
+    let (limits, frames) = match (&arguments.run, &arguments.adapter) {
+        (Some(run), adapter) => {
+            let (limits, frame) = recorded_frame(run, adapter.as_deref(), &case)?;
+            (limits, vec![frame])
+        }
+        (None, None) => (CpuBackend::new("cpu").limits().clone(), Vec::new()),
+        (None, Some(name)) => draw(name, arguments.file.adapter_file.as_deref(), &case)?,
     };
     let asked = Asked {
         case: &case,
@@ -256,16 +265,16 @@ impl Asked<'_> {
         for (size, samples) in shapes {
             let from = texels.len();
             for sample in (0..samples).filter(|s| self.sample.is_none_or(|asked| asked == *s)) {
-                let at = Sample {
+                let position = Sample {
                     size,
                     samples,
                     x,
                     y,
                     sample,
                 };
-                let band = band(&at);
+                let band = band(&position);
                 let frame = self.frames.get(index);
-                let story = story_of_sample(self.case, index, by, at, (frame, band));
+                let story = story_of_sample(self.case, index, by, position, (frame, band));
                 match texels[from..]
                     .iter_mut()
                     .find(|other| other.is_alike(&story))

@@ -7,10 +7,11 @@ use crate::flags::Format;
 use crate::news::{NewsArguments, shown};
 use crate::out_folder::Out;
 use crate::output::{print_json, say, summarize, table_options};
+use crate::saved_run::folders;
 use crate::{provenance, report_files};
 use clap::Args;
 use etalon_record::{FolderKind, MISSING_FILE, Merge, Merged, Run};
-use etalon_report::News;
+use etalon_report::{News, OtherFormats};
 use serde_json::json;
 use std::collections::HashSet;
 use std::fs;
@@ -18,7 +19,7 @@ use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Run folders of one selection of cases
+    /// Run folders of one selection of cases, and runs that the page saved (`*.tar.gz`)
     #[arg(value_name = "DIR", required = true)]
     pub(crate) folders: Vec<PathBuf>,
     /// Folder for the merged run
@@ -42,7 +43,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     arguments.news.check()?;
     let out = &arguments.out;
     refuse_part(arguments)?;
-    let mut merge = Merge::read(&arguments.folders).map_err(Failure::usage)?;
+    let mut merge = Merge::read(&folders(&arguments.folders)?).map_err(Failure::usage)?;
     // The case files of a `--cases` folder are not available here.
     let of_folder = |word: &String| word == "--cases" || word.starts_with("--cases=");
     let built_in = !merge.header_mut().command.iter().any(of_folder);
@@ -102,8 +103,8 @@ fn print(
 ) -> Result<(), Failure> {
     let out = &arguments.out;
     let shown = shown(run, news);
-    let written =
-        etalon_report::write_run_with_news(out, &shown, news).map_err(Failure::incomplete)?;
+    let written = etalon_report::write_run_with_news(out, &shown, news, OtherFormats::default())
+        .map_err(Failure::incomplete)?;
     if arguments.format == Format::Json {
         let pair = |(adapter, case): &(String, String)| json!({"adapter": adapter, "case": case});
         return print_json(&json!({

@@ -4,18 +4,34 @@ use crate::expectations;
 use crate::failure::{Failure, IMPROVED, INCOMPLETE, UNEXPECTED};
 use crate::news::{NewsArguments, shown};
 use crate::output::{say, summarize, table_options};
+use crate::saved_run::folders;
 use clap::Args;
 use etalon_record::{Bench, Expectation, FolderKind, Record, Run};
-use etalon_report::TableOptions;
+use etalon_report::{OtherFormats, TableOptions};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Run and bench folders
+    /// Run and bench folders, and runs that the page saved (`*.tar.gz`)
     #[arg(value_name = "DIR", required = true)]
     pub(crate) folders: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) news: NewsArguments,
+    /// Also write `ctrf.json`, in the Common Test Report Format
+    #[arg(long)]
+    pub(crate) ctrf: bool,
+    /// Also write `results/<adapter>.csv`, in deqp-runner's format
+    #[arg(long)]
+    pub(crate) deqp: bool,
+}
+
+impl Arguments {
+    fn formats(&self) -> OtherFormats {
+        OtherFormats {
+            ctrf: self.ctrf,
+            deqp: self.deqp,
+        }
+    }
 }
 
 /// Rebuilds the reports of run and bench folders, and compares runs with the history if one is named. Returns
@@ -24,22 +40,23 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     arguments.news.check()?;
     let options = table_options();
     let mut codes = Vec::new();
-    for folder in &arguments.folders {
+    for folder in &folders(&arguments.folders)? {
         codes.push(match FolderKind::of(folder) {
             Some(FolderKind::Bench) => bench(folder, options)?,
             // A folder that is neither a run nor a bench is reported as a missing run.
-            _ => of_run(folder, &arguments.news, options)?,
+            _ => of_run(folder, arguments, options)?,
         });
     }
     let gravest = [INCOMPLETE, UNEXPECTED, IMPROVED];
     Ok(gravest.into_iter().find(|c| codes.contains(c)).unwrap_or(0))
 }
 
-fn of_run(folder: &Path, news: &NewsArguments, options: TableOptions) -> Result<u8, Failure> {
+fn of_run(folder: &Path, arguments: &Arguments, options: TableOptions) -> Result<u8, Failure> {
     let run = Run::read(folder).map_err(Failure::usage)?;
-    let news = news.news(&run)?;
+    let news = arguments.news.news(&run)?;
     let shown = shown(&run, news.as_ref());
-    let written = etalon_report::write_run_with_news(folder, &shown, news.as_ref())
+    let formats = arguments.formats();
+    let written = etalon_report::write_run_with_news(folder, &shown, news.as_ref(), formats)
         .map_err(Failure::usage)?;
     if let Some(news) = &news {
         summarize(&etalon_report::news_table(news, options));

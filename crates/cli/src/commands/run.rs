@@ -7,7 +7,7 @@ use crate::adapters::{
 use crate::blessing::{bless, to_bless};
 use crate::cases::{all_ids, chosen, leave_measured, left_out, library, round_trips};
 use crate::catalogue::catalogue;
-use crate::expectations::{ExpectArguments, counting, is_built_in};
+use crate::expectations::{ExpectArguments, counting};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::flags::{AdapterFileArguments, CaseArguments, Format, parse_timeout};
 use crate::interruption::{how_to_resume, listen};
@@ -20,12 +20,13 @@ use crate::progress::progress;
 use crate::{provenance, report_files, shard};
 use clap::{Args, ValueEnum};
 use etalon_case::Case;
+use etalon_findings::is_built_in;
 use etalon_history::FrameTimes;
 use etalon_record::{
     AdapterRecord, Dead, DeadKind, Expectations, FolderKind, Header, Run, Settings, Shard, Verdict,
     selection_digest,
 };
-use etalon_report::News;
+use etalon_report::{News, OtherFormats};
 use etalon_runner::{Event, KeptFrames, Launch, Options, Plan, Rechecks, RunError, RunSummary};
 use indicatif::ProgressBar;
 use serde_json::json;
@@ -114,8 +115,9 @@ pub(crate) struct Arguments {
     /// expected. For your own cases
     #[arg(long, conflicts_with = "history")]
     pub(crate) known_by_look: bool,
-    /// Failures whose complete frames are kept
-    #[arg(long, value_enum, default_value = "all")]
+    /// Failures whose complete frames are kept. Except with `all`, one case per finding and adapter keeps the story
+    /// and the wrong texels of a known failure; other records name that case
+    #[arg(long, value_enum, default_value = "examples")]
     pub(crate) keep_frames: KeepFrames,
     /// Enable validation layers and GL debug output; a case that causes messages is an error
     #[arg(long)]
@@ -130,6 +132,8 @@ pub(crate) struct Arguments {
 pub(crate) enum KeepFrames {
     /// All of them
     All,
+    /// Unexpected ones, and one per finding and adapter
+    Examples,
     /// Only unexpected ones
     New,
     /// None
@@ -354,6 +358,7 @@ fn options(arguments: &Arguments) -> Options {
         recheck: arguments.recheck.0,
         frames: match arguments.keep_frames {
             KeepFrames::All => KeptFrames::All,
+            KeepFrames::Examples => KeptFrames::Examples,
             KeepFrames::New => KeptFrames::New,
             KeepFrames::None => KeptFrames::None,
         },
@@ -400,8 +405,13 @@ impl<'a> Results<'a> {
         etalon_report::write_catalogue(folder, &catalogue).map_err(Failure::incomplete)?;
         let news = arguments.news.news(&run)?;
         let shown = shown(&run, news.as_ref());
-        let written = etalon_report::write_run_with_news(folder, &shown, news.as_ref())
-            .map_err(Failure::incomplete)?;
+        let written = etalon_report::write_run_with_news(
+            folder,
+            &shown,
+            news.as_ref(),
+            OtherFormats::default(),
+        )
+        .map_err(Failure::incomplete)?;
         drop(shown);
         Ok(Self {
             arguments,

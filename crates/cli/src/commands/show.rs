@@ -21,6 +21,9 @@ pub(crate) struct Arguments {
     /// Also print how the adapter `cpu` draws the case: the kernels of each draw, or why it has no kernels
     #[arg(long)]
     pub(crate) kernels: bool,
+    /// Also print the link that draws the case in the page that `ci/page` built, hosted at this URL
+    #[arg(long, value_name = "URL")]
+    pub(crate) page: Option<String>,
     /// Read case files from this folder instead of the built-in ones
     #[arg(long, value_name = "DIR")]
     pub(crate) cases: Option<PathBuf>,
@@ -42,6 +45,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         .collect();
     if !needs.is_empty() {
         text.push_str(&format!("needs {}\n", needs.join(", ")));
+    }
+    if let Some(page) = &arguments.page {
+        let id = case.id.replace('%', "%25").replace('&', "%26");
+        text.push_str(&format!("{page}#run={id}&profile=full\n"));
     }
     text.push('\n');
     for line in scene_text::lines(&case.scene) {

@@ -15,6 +15,9 @@ pub(crate) struct Arguments {
     /// benches, hunts, searches over releases
     #[arg(value_name = "FOLDER", required = true)]
     pub(crate) folders: Vec<PathBuf>,
+    /// Include the page that `ci/page` built in this folder, so that visitors can test their own device
+    #[arg(long, value_name = "DIR")]
+    pub(crate) page: Option<PathBuf>,
     /// Replace the site in the folder
     #[arg(long)]
     pub(crate) force: bool,
@@ -22,7 +25,8 @@ pub(crate) struct Arguments {
 
 /// Builds a static site from the pages of recorded folders.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let site = write_site(&arguments.to, &arguments.folders, arguments.force);
+    let page = arguments.page.as_deref();
+    let site = write_site(&arguments.to, &arguments.folders, page, arguments.force);
     let site = site.map_err(|error| match error {
         ReportError::Io { .. } => Failure::incomplete(error),
         other => Failure::usage(other),

@@ -242,17 +242,20 @@ fn another_driver_may_not_answer_for_the_one_that_is_meant() {
 fn the_facts_of_each_adapter_are_there_for_programs() {
     let (_folder, path) =
         file(r#"[{ "name": "mine", "backend": "cpu", "environment": { "A": "b", "C": null } }]"#);
-    let all = facts(&["--adapters", path.to_str().unwrap()]);
-    let names: Vec<&str> = all.iter().map(|a| a["name"].as_str().unwrap()).collect();
-    for due in DUE.iter().chain(&["mine"]) {
-        assert!(names.contains(due), "{due} is not among {names:?}");
+    let adapters = facts(&["--adapters", path.to_str().unwrap()]);
+    let names: Vec<&str> = adapters
+        .iter()
+        .map(|a| a["name"].as_str().unwrap())
+        .collect();
+    for name in DUE.iter().chain(&["mine"]) {
+        assert!(names.contains(name), "{name} is not among {names:?}");
     }
     assert_eq!(
         names.iter().collect::<BTreeSet<_>>().len(),
         names.len(),
         "{names:?}"
     );
-    for adapter in &all {
+    for adapter in &adapters {
         for field in [
             "device",
             "driver",
@@ -277,16 +280,16 @@ fn the_facts_of_each_adapter_are_there_for_programs() {
             "{adapter}"
         );
     }
-    let of = |name: &str| all.iter().find(|a| a["name"] == json!(name)).unwrap();
+    let adapter = |name: &str| adapters.iter().find(|a| a["name"] == json!(name)).unwrap();
     assert_eq!(
-        of("gl:softpipe")["environment"]["GALLIUM_DRIVER"],
+        adapter("gl:softpipe")["environment"]["GALLIUM_DRIVER"],
         json!("softpipe")
     );
-    assert_eq!(of("gl:softpipe")["described_in"], json!("built-in"));
-    assert_eq!(of("mine")["described_in"], json!(path));
-    assert_eq!(of("mine")["environment"]["A"], json!("b"));
-    assert_eq!(of("mine")["environment"]["C"], Value::Null);
-    let lavapipe = of("vulkan:lavapipe");
+    assert_eq!(adapter("gl:softpipe")["described_in"], json!("built-in"));
+    assert_eq!(adapter("mine")["described_in"], json!(path));
+    assert_eq!(adapter("mine")["environment"]["A"], json!("b"));
+    assert_eq!(adapter("mine")["environment"]["C"], Value::Null);
+    let lavapipe = adapter("vulkan:lavapipe");
     let manifest = lavapipe["manifest"].as_str().unwrap();
     assert!(Path::new(manifest).is_file());
     assert_eq!(lavapipe["environment"]["VK_DRIVER_FILES"], json!(manifest));

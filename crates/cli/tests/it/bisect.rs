@@ -60,8 +60,8 @@ fn the_release_that_mended_a_case_is_found() {
         .map(|r| &*r.version)
         .collect();
     assert_eq!(order, ["22.4", "22.10", "25", "26"]);
-    let of = |id: &str| versions.cases.iter().find(|case| case.case == id).unwrap();
-    let (broken, sound) = (of(BROKEN), of(SOUND));
+    let case_of = |id: &str| versions.cases.iter().find(|case| case.case == id).unwrap();
+    let (broken, sound) = (case_of(BROKEN), case_of(SOUND));
     assert_eq!(broken.bad(), [[0, 1]]);
     assert_eq!(
         broken.range(&versions.header.releases).as_deref(),

@@ -408,7 +408,7 @@ fn the_report_says_whether_the_newest_release_has_the_bug() {
         })
     };
     let case = "cull/points/cull=none/front_face=cw";
-    for (newest, told) in [("llvmpipe", "not in 26"), ("softpipe", "still in 26")] {
+    for (newest, phrase) in [("llvmpipe", "not in 26"), ("softpipe", "still in 26")] {
         let file = folder.path().join(format!("{newest}.json"));
         let lines = json!([release("softpipe", "22.4"), release(newest, "26")]);
         fs::write(&file, lines.to_string()).unwrap();
@@ -418,7 +418,7 @@ fn the_report_says_whether_the_newest_release_has_the_bug() {
         assert_eq!(code, 0, "{error}");
         let folder = Path::new(summary["folder"].as_str().unwrap());
         let report = fs::read_to_string(folder.join("report.md")).unwrap();
-        assert!(report.contains(told), "{report}");
+        assert!(report.contains(phrase), "{report}");
     }
 }
 

@@ -144,8 +144,8 @@ fn a_package_shows_the_bug_and_a_page_starts() {
             Some(1),
             "{case} on {adapter}: {line}"
         );
-        let told = report.contains(&format!("ends with 1: `{line}`"));
-        assert!(told, "{line}: {report}");
+        let is_reported = report.contains(&format!("ends with 1: `{line}`"));
+        assert!(is_reported, "{line}: {report}");
         if let Some(other) = other {
             let sound = Command::new(empty.path().join("repro"))
                 .arg(other)

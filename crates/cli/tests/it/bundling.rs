@@ -16,7 +16,7 @@ const FIRST: Duration = Duration::from_secs(600);
 /// Bundles a case. Returns the exit code, the summary and the error output.
 pub(crate) fn bundle(case: &str, adapter: &str, out: &Path, more: &[&str]) -> (i32, Value, String) {
     let out = out.to_str().unwrap();
-    let own = [
+    let base = [
         "bundle",
         case,
         "--adapter",
@@ -26,7 +26,7 @@ pub(crate) fn bundle(case: &str, adapter: &str, out: &Path, more: &[&str]) -> (i
         "--out",
         out,
     ];
-    let output = etalon(&[&own, more].concat())
+    let output = etalon(&[&base, more].concat())
         .env("CARGO_TARGET_DIR", PROGRAMS)
         .timeout(FIRST)
         .output()

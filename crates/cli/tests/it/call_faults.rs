@@ -45,22 +45,25 @@ fn faults_are_found(driver: &str, faults: impl Iterator<Item = CallFault> + Clon
 fn every_fault_of_vulkan_calls_fails() {
     // lavapipe's multiview is wrong even without a fault.
     let view_first = |fault: &CallFault| *fault == CallFault::ViewFirst;
-    let all = CallFault::ALL.iter().copied();
-    let vulkan = all.filter(|fault| fault.is_in(Api::Vulkan));
+    let faults = CallFault::ALL.iter().copied();
+    let vulkan = faults.filter(|fault| fault.is_in(Api::Vulkan));
     faults_are_found("vulkan:lavapipe", vulkan.clone().filter(|f| !view_first(f)));
     faults_are_found("vulkan:swiftshader", vulkan.filter(view_first));
 }
 
 #[test]
 fn every_fault_of_opengl_calls_fails() {
-    let all = CallFault::ALL.iter().copied();
-    faults_are_found("gl:llvmpipe", all.filter(|fault| fault.is_in(Api::OpenGl)));
+    let faults = CallFault::ALL.iter().copied();
+    faults_are_found(
+        "gl:llvmpipe",
+        faults.filter(|fault| fault.is_in(Api::OpenGl)),
+    );
 }
 
 #[test]
 fn every_fault_of_webgpu_lists_fails() {
-    let all = CallFault::ALL.iter().copied();
-    let of_lists = all.filter(|fault| fault.is_in(Api::WebGpu));
+    let faults = CallFault::ALL.iter().copied();
+    let of_lists = faults.filter(|fault| fault.is_in(Api::WebGpu));
     faults_are_found("wgpu:vulkan:lavapipe", of_lists.clone());
     faults_are_found("webgpu:chromium", of_lists);
 }

@@ -51,10 +51,10 @@ fn the_repositorys_own_cases_have_no_warnings() {
         .arg(cases_folder())
         .output()
         .unwrap();
-    let told: Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(told["errors"], 0);
+    let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(summary["errors"], 0);
     let mut warnings = Vec::new();
-    for file in told["files"].as_array().unwrap() {
+    for file in summary["files"].as_array().unwrap() {
         for warning in file["warnings"].as_array().unwrap() {
             warnings.push((
                 file["file"].as_str().unwrap(),
@@ -67,7 +67,7 @@ fn the_repositorys_own_cases_have_no_warnings() {
         !(*file == "sequence/state/indices.json" && message.contains("an edge passes"))
     });
     assert!(warnings.is_empty(), "{warnings:#?}");
-    let judged = told["files"].as_array().unwrap().iter();
+    let judged = summary["files"].as_array().unwrap().iter();
     let judged: usize = judged.map(|f| f["judged"].as_array().unwrap().len()).sum();
     assert!(judged > 2000, "{judged}");
 }
@@ -140,9 +140,9 @@ fn errors_of_all_files_are_told_at_once() {
                 .and(contains("own/file.json:2: axes.n[1]"))
                 .and(contains("own/third.json: 1 cases, 1 judged")),
         );
-    let one = folder.path().join("own/third.json");
+    let path = folder.path().join("own/third.json");
     etalon(&["check"])
-        .arg(&one)
+        .arg(&path)
         .assert()
         .success()
         .stdout(contains("100.0 %     1.00 codes"));

@@ -65,7 +65,7 @@ fn schema(name: &str) -> jsonschema::Validator {
 #[test]
 fn every_file_satisfies_the_schema_of_its_format() {
     // Each file, with a key and a value that its format refuses there.
-    let all = [
+    let files = [
         (
             WORKFLOW,
             "github-workflow.json",
@@ -99,7 +99,7 @@ fn every_file_satisfies_the_schema_of_its_format() {
             json!("ReadWriteMany"),
         ),
     ];
-    for (name, format, pointer, wrong) in all {
+    for (name, format, pointer, wrong) in files {
         let schema = schema(format);
         let mut value = yaml(name);
         let errors: Vec<String> = schema

@@ -177,9 +177,9 @@ impl<'a> Crate<'a> {
     /// Returns pairs of files in which the first uses the second, with the path of that use.
     fn edges(&self) -> BTreeMap<[String; 2], String> {
         let mut edges = BTreeMap::new();
-        for (at, module) in &self.modules {
+        for (name, module) in &self.modules {
             for path in &module.paths {
-                if let Some(Target::File(file)) = self.find(at, path, 16)
+                if let Some(Target::File(file)) = self.find(name, path, 16)
                     && file != module.file
                 {
                     edges.insert([module.file.clone(), file], path.join("::"));

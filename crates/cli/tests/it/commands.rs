@@ -19,8 +19,11 @@ fn tells_what_is_left_out(text: &str) -> bool {
 }
 
 fn lines(arguments: &[&str]) -> Vec<String> {
-    let told = predicates::function::function(tells_what_is_left_out);
-    let output = etalon(arguments).assert().success().stderr(told);
+    let says_what_is_left_out = predicates::function::function(tells_what_is_left_out);
+    let output = etalon(arguments)
+        .assert()
+        .success()
+        .stderr(says_what_is_left_out);
     let text = String::from_utf8(output.get_output().stdout.clone()).unwrap();
     text.lines().map(str::to_owned).collect()
 }
@@ -85,20 +88,20 @@ fn a_list_says_what_a_run_would_leave_out() {
     assert_eq!(measured(&lines(&["list"])), 0);
     let named = lines(&["list", "depth", "perf"]);
     assert!(measured(&named) > 0 && measured(&named) < named.len());
-    let told = etalon(&["list"]).assert().code(0);
-    let told = String::from_utf8_lossy(&told.get_output().stderr).into_owned();
+    let output = etalon(&["list"]).assert().code(0);
+    let stderr = String::from_utf8_lossy(&output.get_output().stderr).into_owned();
     let full = lines(&["list", "--profile", "full"]).len();
     let left = full - lines(&["list"]).len();
-    assert!(told.contains(" cases that are measured"), "{told}");
+    assert!(stderr.contains(" cases that are measured"), "{stderr}");
     let by_profile = format!("left out: {left} cases that --profile full has");
-    assert!(told.contains(&by_profile), "{told}");
+    assert!(stderr.contains(&by_profile), "{stderr}");
 }
 
 #[test]
 fn globs_choose_cases() {
-    let all = lines(&["list"]);
+    let ids = lines(&["list"]);
     let chosen = |keep: &dyn Fn(&str) -> bool| -> Vec<String> {
-        all.iter().filter(|id| keep(id)).cloned().collect()
+        ids.iter().filter(|id| keep(id)).cloned().collect()
     };
     let depth = chosen(&|id| id.starts_with("depth/"));
     assert!(!depth.is_empty());
@@ -279,7 +282,7 @@ fn broken_case_files_are_named_with_line_and_key() {
             ":24: ",
         ),
     ];
-    for (what, from, to, due) in breaks {
+    for (what, from, to, words) in breaks {
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join("area")).unwrap();
         fs::write(folder.path().join("area/fine.json"), FINE).unwrap();
@@ -299,10 +302,10 @@ fn broken_case_files_are_named_with_line_and_key() {
                 message.starts_with("etalon: area/odd.json:"),
                 "{what}: {message}"
             );
-            assert!(message.contains(due), "{what}: {message}");
+            assert!(message.contains(words), "{what}: {message}");
             assert_eq!(message.lines().count(), 1, "{what}: {message}");
             assert!(!out.exists(), "{what}");
-            if due.contains("depth.") {
+            if words.contains("depth.") {
                 assert!(message.contains(draw), "{what}: {message}");
             }
         }
@@ -323,8 +326,8 @@ fn unreadable_case_files_are_named() {
     fs::create_dir(folder.path().join("old")).unwrap();
     let records = folder.path().join("old/run.jsonl");
     fs::write(&records, "").unwrap();
-    let due = ["old/run.jsonl", "belongs to a run", "move its folder"];
-    refused(&["list", "--cases", path], &due);
+    let words = ["old/run.jsonl", "belongs to a run", "move its folder"];
+    refused(&["list", "--cases", path], &words);
     fs::remove_file(&records).unwrap();
     fs::write(folder.path().join("a b.json"), FINE).unwrap();
     refused(&["list", "--cases", path], &["a b.json"]);
@@ -509,14 +512,14 @@ fn explain_tells_samples_apart() {
         let output = command.assert().code(0).stderr(is_empty());
         String::from_utf8(output.get_output().stdout.clone()).unwrap()
     };
-    let all = explained(&[]);
-    insta::assert_snapshot!("explain_samples", all);
-    let one = explained(&["--sample", "1"]);
+    let every_sample = explained(&[]);
+    insta::assert_snapshot!("explain_samples", every_sample);
+    let second = explained(&["--sample", "1"]);
     assert!(
-        one.starts_with("sample 1 of texel 2,1 must be red"),
-        "{one}"
+        second.starts_with("sample 1 of texel 2,1 must be red"),
+        "{second}"
     );
-    assert!(!one.contains("sample 0"), "{one}");
+    assert!(!second.contains("sample 0"), "{second}");
     refused(
         &["explain", id, "--texel", "2,1", "--sample", "4"],
         &["no sample 4", "color has 4 samples, 0 to 3"],
@@ -555,17 +558,17 @@ fn adapters_tells_programs_who_is_there() {
         ("open-gl-es", "By the rules of OpenGL ES"),
         ("web-gpu", "By the rules of WebGPU"),
     ] {
-        let due = found
+        let expected = found
             .iter()
             .filter(|adapter| adapter["limits"]["api"] == api);
-        let due: Vec<&str> = due.map(|a| a["name"].as_str().unwrap()).collect();
-        if due.is_empty() {
+        let expected: Vec<&str> = expected.map(|a| a["name"].as_str().unwrap()).collect();
+        if expected.is_empty() {
             continue;
         }
         let lines = text.lines().skip_while(|line| *line != head);
         let lines = lines.skip(1).take_while(|line| line.starts_with("  "));
         let names = lines.map(|line| line.trim_start().split("  ").next().unwrap());
-        assert_eq!(names.collect::<Vec<_>>(), due, "{text}");
+        assert_eq!(names.collect::<Vec<_>>(), expected, "{text}");
         heads.push(text.find(&format!("{head}\n")).unwrap());
     }
     assert!(heads.len() > 1 && heads.is_sorted(), "{text}");
@@ -576,20 +579,23 @@ fn list_tells_programs_what_a_case_is() {
     let output = etalon(&["list", CLEARED, "early-z/shaderless", "--format", "json"])
         .output()
         .unwrap();
-    let all: Vec<Value> = serde_json::from_slice(&output.stdout).unwrap();
-    let one = all.iter().find(|case| case["id"] == CLEARED).unwrap();
+    let cases: Vec<Value> = serde_json::from_slice(&output.stdout).unwrap();
+    let cleared = cases.iter().find(|case| case["id"] == CLEARED).unwrap();
     assert_eq!(
-        (&one["area"], &one["file"]),
+        (&cleared["area"], &cleared["file"]),
         (&"depth".into(), &"depth/clear".into())
     );
     assert_eq!(
-        one["axes"],
+        cleared["axes"],
         serde_json::json!({ "clear": "1", "format": "depth32float" })
     );
-    assert!(one["about"].as_str().unwrap().ends_with('.'), "{one}");
-    assert!(!one["spec"].as_array().unwrap().is_empty());
+    assert!(
+        cleared["about"].as_str().unwrap().ends_with('.'),
+        "{cleared}"
+    );
+    assert!(!cleared["spec"].as_array().unwrap().is_empty());
     let features = |case: &Value| case["features"].as_array().unwrap().len();
-    assert!(all.iter().any(|case| features(case) > 0), "{all:?}");
+    assert!(cases.iter().any(|case| features(case) > 0), "{cases:?}");
 }
 
 #[test]
@@ -650,8 +656,8 @@ fn show_tells_the_kernels_of_a_case() {
         String::from_utf8(output.stdout).unwrap()
     };
     let blended = shown("perf/blended-layers/size=256x256");
-    let due = "pass 0, draw 0: tiles; flat colours of vertices, a linear function of each code";
-    assert!(blended.contains(due), "{blended}");
+    let mesh = "pass 0, draw 0: tiles; flat colours of vertices, a linear function of each code";
+    assert!(blended.contains(mesh), "{blended}");
     let lines = shown("stencil/masks-zero/compare=less/format=depth24plus-stencil8");
     assert!(
         lines.contains("kernels\n  spans, since there is no kernel for "),

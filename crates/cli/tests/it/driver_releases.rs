@@ -156,9 +156,9 @@ fn a_release_of_chromium_is_unpacked_once() {
     let swiftshader = ["libvk_swiftshader.so", "version", "vk_swiftshader_icd.json"];
     // ANGLE loads Vulkan only from its own folder.
     let angle = ["libEGL.so", "libGLESv2.so", "libvulkan.so.1"];
-    let mut all = [angle, swiftshader].concat();
-    all.sort_unstable();
-    assert_eq!(place.files("new"), all);
+    let mut expected = [angle, swiftshader].concat();
+    expected.sort_unstable();
+    assert_eq!(place.files("new"), expected);
     assert_eq!(place.version("new"), "123.0.1");
     says(&place.run("chromium", &["123.0.1", "new"]), 0, &["already"]);
     assert_eq!(place.calls(), 1);
@@ -179,7 +179,7 @@ fn a_release_of_chromium_is_unpacked_once() {
     assert_eq!(place.files("new"), [&angle[..], &["version"]].concat());
 
     says(&place.run("angle", &["angle"]), 0, &["ETALON_ANGLE="]);
-    assert_eq!(place.files("angle"), all);
+    assert_eq!(place.files("angle"), expected);
     assert_eq!(place.version("angle"), "123.0.1");
 }
 

@@ -119,9 +119,9 @@ fn blessing_expects_what_was_seen_and_takes_away_what_is_better() {
     let work = Work::new();
     let file = work.path("e.json");
     let bless = |arguments: &[&str]| {
-        let mut all = arguments.to_vec();
-        all.push("--bless");
-        work.run(&all, &file)
+        let mut blessing = arguments.to_vec();
+        blessing.push("--bless");
+        work.run(&blessing, &file)
     };
     bless(&CRASHING).code(0).stderr(contains("entries added"));
     let crashed = work.records();
@@ -256,15 +256,15 @@ fn lists_of_deqp_runner_go_in_and_out() {
         let text = fs::read_to_string(lists.join(name)).unwrap();
         text.lines().map(str::to_owned).collect()
     };
-    let mut due = vec![
+    let mut expected = vec![
         format!("{},Crash", ids[0]),
         format!("{},Fail", ids[1]),
         format!("{},Timeout", ids[2]),
     ];
-    due.sort();
+    expected.sort();
     let mut found = lines("fails.txt");
     found.sort();
-    assert_eq!(found, due);
+    assert_eq!(found, expected);
     assert_eq!(lines("flakes.txt").len(), count(Verdict::Flaky));
     assert_eq!(lines("skips.txt").len(), count(Verdict::Skipped));
     // The results of a run can become the expectations of the next.
@@ -427,12 +427,12 @@ fn a_folder_of_findings_is_read_and_blessed() {
     assert!(named.clone().count() > 0);
     assert!(named.clone().all(|e| titles.contains(&e.reason.as_str())));
     // A single finding excuses only its own cases.
-    let one = &read.all()[0].path;
-    work.run(&CRASHING, one)
+    let path = &read.all()[0].path;
+    work.run(&CRASHING, path)
         .code(if titles.len() == 1 { 0 } else { 1 });
     // A finding is removed once all its cases improved.
-    let text = fs::read_to_string(one).unwrap();
-    fs::write(one, text.replace("fault=abort", "fault=lost")).unwrap();
+    let text = fs::read_to_string(path).unwrap();
+    fs::write(path, text.replace("fault=abort", "fault=lost")).unwrap();
     let cpu = ["run", "cull/triangle-list/*", "--adapter", "cpu"];
     let fixed = json!({
         "title": "t", "adapters": ["cpu"], "driver": "*", "cases": ["cull/triangle-list/*"],

@@ -21,8 +21,8 @@ fn root() -> PathBuf {
 
 /// The findings by the names of their files.
 fn findings() -> Vec<(String, Finding)> {
-    let all = Expectations::read(&root().join("ci/findings")).unwrap();
-    let each = all.all().iter().map(|known| {
+    let expectations = Expectations::read(&root().join("ci/findings")).unwrap();
+    let each = expectations.all().iter().map(|known| {
         let Source::Finding(finding) = &known.source else {
             panic!("{}: no finding", known.place());
         };
@@ -40,9 +40,9 @@ fn is_numbered(name: &str) -> bool {
 
 #[test]
 fn every_finding_has_a_clause_and_a_second_reader() {
-    let all = findings();
-    assert!(all.len() > 20);
-    for (name, finding) in &all {
+    let findings = findings();
+    assert!(findings.len() > 20);
+    for (name, finding) in &findings {
         assert_ne!(
             finding.grade,
             Grade::Unread,
@@ -59,7 +59,7 @@ fn every_finding_has_a_clause_and_a_second_reader() {
         );
         if is_numbered(name) {
             let (first, _) = name.rsplit_once('-').unwrap();
-            assert!(all.iter().any(|(other, _)| other == first), "{name}");
+            assert!(findings.iter().any(|(other, _)| other == first), "{name}");
         }
     }
 }
@@ -98,7 +98,10 @@ fn driver_page(driver: &str, bugs: &[(String, Finding)]) -> String {
     let rows = bugs.iter().map(|(name, finding)| {
         let grade = finding.grade.name().replace('-', " ");
         let releases = releases(finding);
-        format!("| [{}]({name}.json) | {releases} | {grade} |\n", finding.title)
+        format!(
+            "| [{}]({name}.json) | {releases} | {grade} |\n",
+            finding.title
+        )
     });
     format!(
         "# Bugs of {driver}\n\n{BEGIN}\n| bug | releases | grade |\n|---|---|---|\n{}\n[All drivers](../findings.md)\n",
@@ -111,7 +114,10 @@ fn table_of_drivers() -> String {
     let rows = by_driver().into_iter().map(|(driver, bugs)| {
         let is_open = |(_, finding): &&(String, Finding)| is_in_newest_release(finding);
         let open = bugs.iter().filter(is_open).count();
-        format!("| [{driver}](findings/{driver}.md) | {} | {open} |\n", bugs.len())
+        format!(
+            "| [{driver}](findings/{driver}.md) | {} | {open} |\n",
+            bugs.len()
+        )
     });
     format!(
         "| driver | bugs | in the newest release that was drawn |\n|---|---|---|\n{}",
@@ -130,13 +136,16 @@ fn is_in_newest_release(finding: &Finding) -> bool {
 /// The release that the finding's driver name ends with, if it names one.
 fn single_release(finding: &Finding) -> Option<&str> {
     let last = finding.driver.trim_matches('*').rsplit(' ').next()?;
-    last.starts_with(|c: char| c.is_ascii_digit()).then_some(last)
+    last.starts_with(|c: char| c.is_ascii_digit())
+        .then_some(last)
 }
 
 /// Returns the releases that a finding is about, in words.
 fn releases(finding: &Finding) -> String {
     match &finding.versions {
-        None => single_release(finding).unwrap_or("all that were drawn").to_owned(),
+        None => single_release(finding)
+            .unwrap_or("all that were drawn")
+            .to_owned(),
         Some(range) => {
             let ends = range.split(", ").map(|end| match end.split_at(1) {
                 (">", rest) => format!("from {}", rest.trim_start_matches('=')),
@@ -155,7 +164,12 @@ fn check_page(path: &Path, expected: &str) {
         return;
     }
     let page = fs::read_to_string(path).unwrap_or_default();
-    assert_eq!(page, expected, "{}: set {WRITE} to write the page anew", path.display());
+    assert_eq!(
+        page,
+        expected,
+        "{}: set {WRITE} to write the page anew",
+        path.display()
+    );
 }
 
 #[test]
@@ -164,7 +178,10 @@ fn the_pages_list_the_findings() {
     let text = fs::read_to_string(&path).unwrap();
     let (before, rest) = text.split_once(BEGIN).unwrap();
     let (_, after) = rest.split_once(END).unwrap();
-    check_page(&path, &format!("{before}{BEGIN}\n{}\n{END}{after}", table_of_drivers()));
+    check_page(
+        &path,
+        &format!("{before}{BEGIN}\n{}\n{END}{after}", table_of_drivers()),
+    );
     let drivers = by_driver();
     for (driver, bugs) in &drivers {
         let path = root().join(format!("ci/findings/{driver}.md"));
@@ -174,7 +191,11 @@ fn the_pages_list_the_findings() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|extension| extension == "md") {
             let driver = path.file_stem().unwrap().to_str().unwrap();
-            assert!(drivers.contains_key(driver), "{}: no finding of this driver", path.display());
+            assert!(
+                drivers.contains_key(driver),
+                "{}: no finding of this driver",
+                path.display()
+            );
         }
     }
 }

@@ -13,7 +13,7 @@ use tempfile::TempDir;
 /// Draws random scenes. Returns the exit code, the summary and the error output.
 fn fuzz(adapter: &str, out: &Path, more: &[&str]) -> (i32, Value, String) {
     let out = out.to_str().unwrap();
-    let own = [
+    let base = [
         "fuzz",
         "--adapter",
         adapter,
@@ -22,7 +22,7 @@ fn fuzz(adapter: &str, out: &Path, more: &[&str]) -> (i32, Value, String) {
         "--out",
         out,
     ];
-    let arguments: Vec<&str> = own.iter().chain(more).copied().collect();
+    let arguments: Vec<&str> = base.iter().chain(more).copied().collect();
     let output = etalon(&arguments).output().unwrap();
     let summary = serde_json::from_slice(&output.stdout).unwrap_or(Value::Null);
     let error = String::from_utf8(output.stderr).unwrap();
@@ -44,41 +44,41 @@ fn found(out: &Path) -> BTreeMap<String, String> {
 fn groups(out: &Path) -> Vec<Value> {
     let text = fs::read_to_string(out.join("fuzz.jsonl")).unwrap();
     let lines = text.lines().map(|line| serde_json::from_str(line).unwrap());
-    let mut all: Vec<Value> = lines
+    let mut groups: Vec<Value> = lines
         .filter(|l: &Value| l.get("violation").is_some())
         .collect();
-    for group in &mut all {
+    for group in &mut groups {
         let file = group["file"].as_str().unwrap().rsplit('/').next().unwrap();
         group["file"] = file.into();
     }
-    all
+    groups
 }
 
 #[test]
 fn what_fails_is_kept_once_and_fails_again_whatever_the_number_of_workers() {
     let folder = TempDir::new().unwrap();
-    let [one, other] = ["one", "three"].map(|name| folder.path().join(name));
+    let [first, other] = ["one", "three"].map(|name| folder.path().join(name));
     let adapter = "gl:softpipe";
     // Without findings, all groups are new.
     let search = |out: &Path, jobs: &str| {
         let more = ["--count", "120", "--jobs", jobs, "--expect-only"];
         fuzz(adapter, out, &more)
     };
-    let (code, summary, error) = search(&one, "1");
+    let (code, summary, error) = search(&first, "1");
     assert_eq!(code, 1, "{error}");
     let adapters = summary["adapters"].as_array().unwrap();
     assert_eq!(adapters[0]["scenes"], 120);
     assert!(adapters[0]["pairs"].as_u64().unwrap() > 10_000, "{summary}");
     let (code, _, error) = search(&other, "3");
     assert_eq!(code, 1, "{error}");
-    assert_eq!(groups(&one), groups(&other));
-    assert_eq!(found(&one), found(&other));
+    assert_eq!(groups(&first), groups(&other));
+    assert_eq!(found(&first), found(&other));
 
-    let groups = groups(&one);
+    let groups = groups(&first);
     let count = |key: &str| -> u64 { groups.iter().map(|g| g[key].as_u64().unwrap()).sum() };
     assert_eq!(Value::from(count("count")), adapters[0]["failing"]);
     // Each is a case file that fails.
-    let [cases, run] = [one.join("found"), folder.path().join("run")];
+    let [cases, run] = [first.join("found"), folder.path().join("run")];
     let arguments = [
         "run",
         "--profile",
@@ -113,15 +113,15 @@ fn known_bugs_are_named_by_their_findings() {
     let out = folder.path().join("out");
     let adapter = "gl:softpipe";
     let search = |count: &str, more: &[&str]| {
-        let own = ["--seed", "604", "--count", count, "--force"];
-        fuzz(adapter, &out, &[&own, more].concat())
+        let base = ["--seed", "604", "--count", count, "--force"];
+        fuzz(adapter, &out, &[&base, more].concat())
     };
     // The fifth scene shows that depths are clamped to the wrong range, as the finding's cases do.
     let (code, summary, error) = search("5", &[]);
     assert_eq!(code, 0, "{error}\n{summary}");
     let counts = |summary: &Value| {
-        let of = |key: &str| summary["adapters"][0][key].as_u64().unwrap();
-        ["new", "alike", "known"].map(of)
+        let count_of = |key: &str| summary["adapters"][0][key].as_u64().unwrap();
+        ["new", "alike", "known"].map(count_of)
     };
     assert_eq!(counts(&summary), [0, 0, 1]);
     let group = &summary["groups"][0];
@@ -167,7 +167,7 @@ fn known_bugs_are_named_by_their_findings() {
         assert!(groups.iter().all(|g| g["known"].is_null()), "{groups:?}");
     }
 
-    let own = [
+    let base = [
         "fuzz",
         "--adapter",
         adapter,
@@ -178,14 +178,14 @@ fn known_bugs_are_named_by_their_findings() {
         "--force",
     ];
     let out = ["--out", out.to_str().unwrap()];
-    let output = etalon(&[&own[..], &out].concat()).output().unwrap();
+    let output = etalon(&[&base[..], &out].concat()).output().unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
-    for due in [
+    for expected in [
         "in 2 groups (0 new, 1 like a finding, 1 known)",
         "\n  known: softpipe-depth-clamp: softpipe takes 2n - f for the near depth when it clamps depth under the clip control ZERO_TO_ONE: 1 scene in 1 group\n",
         "\n  looks like: softpipe-stencil-points",
     ] {
-        assert!(text.contains(due), "{text}");
+        assert!(text.contains(expected), "{text}");
     }
     let places = ["\n  looks like: ", "\n  known: "].map(|word| text.find(word));
     assert!(places.is_sorted(), "{text}");
@@ -195,7 +195,7 @@ fn known_bugs_are_named_by_their_findings() {
 fn the_commonest_groups_are_told_and_the_others_counted() {
     let folder = TempDir::new().unwrap();
     let out = folder.path().to_str().unwrap();
-    let own = [
+    let base = [
         "fuzz",
         "--adapter",
         "gl:softpipe",
@@ -208,7 +208,7 @@ fn the_commonest_groups_are_told_and_the_others_counted() {
         out,
         "--force",
     ];
-    let output = etalon(&own).output().unwrap();
+    let output = etalon(&base).output().unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
     let lines = fs::read_to_string(folder.path().join("fuzz.jsonl")).unwrap();
     let lines = lines
@@ -216,15 +216,15 @@ fn the_commonest_groups_are_told_and_the_others_counted() {
         .map(|line| serde_json::from_str::<Value>(line).unwrap());
     let counts: Vec<u64> = lines.filter_map(|line| line["count"].as_u64()).collect();
     assert!(counts.is_sorted_by(|a, b| a >= b), "{counts:?}");
-    let (told, others) = counts.split_at(20);
+    let (listed, others) = counts.split_at(20);
     let scenes: u64 = others.iter().sum();
     assert!(others.len() > 1, "{counts:?}");
-    let due = format!(
+    let rest = format!(
         "\n  and {} more groups of {scenes} scenes, in fuzz.jsonl\n",
         others.len()
     );
-    assert!(text.contains(&due), "{due}{text}");
-    assert_eq!(text.matches(" × ").count(), told.len(), "{text}");
+    assert!(text.contains(&rest), "{rest}{text}");
+    assert_eq!(text.matches(" × ").count(), listed.len(), "{text}");
 }
 
 #[test]
@@ -350,9 +350,9 @@ fn random_scenes_catch_bugs_and_pass_what_is_legal() {
     let mut numbers = line
         .split(' ')
         .filter_map(|w| w.trim_matches(',').parse::<f64>().ok());
-    let [caught, all] = [(); 2].map(|()| numbers.next().unwrap());
+    let [caught, total] = [(); 2].map(|()| numbers.next().unwrap());
     assert!(
-        all >= 99.5 && caught > 0.75 * all && caught < all - 0.5,
+        total >= 99.5 && caught > 0.75 * total && caught < total - 0.5,
         "{line}"
     );
 }

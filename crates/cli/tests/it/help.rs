@@ -28,10 +28,10 @@ fn listed(help: &str) -> Vec<&str> {
 
 #[test]
 fn help_texts_are_the_recorded_ones() {
-    let all = stdout(&["--help"]);
-    insta::assert_snapshot!("help", all);
-    assert_eq!(stdout(&["help"]), all);
-    let commands = listed(&all);
+    let overview = stdout(&["--help"]);
+    insta::assert_snapshot!("help", overview);
+    assert_eq!(stdout(&["help"]), overview);
+    let commands = listed(&overview);
     assert!(commands.len() >= 13, "{commands:?}");
     assert!(!commands.contains(&"worker"), "{commands:?}");
     for command in commands {
@@ -75,7 +75,7 @@ fn manual_pages_are_printed_and_written() {
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
         .collect();
     let help = stdout(&["--help"]);
-    let mut due: BTreeSet<String> = [
+    let mut expected: BTreeSet<String> = [
         "etalon",
         "etalon-expectations-import",
         "etalon-expectations-export",
@@ -88,8 +88,8 @@ fn manual_pages_are_printed_and_written() {
     .iter()
     .map(|name| format!("{name}.1"))
     .collect();
-    due.extend(listed(&help).iter().map(|name| format!("etalon-{name}.1")));
-    assert_eq!(found, due);
+    expected.extend(listed(&help).iter().map(|name| format!("etalon-{name}.1")));
+    assert_eq!(found, expected);
     let run = fs::read_to_string(folder.join("etalon-run.1")).unwrap();
     assert!(run.contains("shader\\-cache"), "{run}");
     let file = work.path().join("file");

@@ -248,8 +248,8 @@ fn a_case_is_told_with_what_happened_and_between_which_versions() {
             .and(contains("fixed at run 5"))
             .and(contains("now pass")),
     );
-    let told = place.json(&["show", CASE, "--adapter", "cpu"]);
-    let of_cpu = &told["adapters"][0];
+    let shown = place.json(&["show", CASE, "--adapter", "cpu"]);
+    let of_cpu = &shown["adapters"][0];
     let verdicts = of_cpu["records"].as_array().unwrap().iter();
     let verdicts: Vec<&str> = verdicts.map(|r| r["verdict"].as_str().unwrap()).collect();
     assert_eq!(verdicts, ["pass", "pass", "fail", "fail", "pass"]);
@@ -329,26 +329,26 @@ fn hostile_labels_are_kept_and_give_no_orders_to_a_terminal() {
 #[test]
 fn a_run_that_lacks_records_is_refused_and_then_taken() {
     let place = Place::new();
-    let whole = place.run(1, "1", &GOOD);
-    let file = Path::new(&whole).join("run.jsonl");
+    let folder = place.run(1, "1", &GOOD);
+    let file = Path::new(&folder).join("run.jsonl");
     let text = fs::read_to_string(&file).unwrap();
     fs::write(&file, &text[..text.len() - 40]).unwrap();
-    let refused = place.history(&["add", &whole]).code(3);
+    let refused = place.history(&["add", &folder]).code(3);
     let line = String::from_utf8(refused.get_output().stderr.clone()).unwrap();
     assert_eq!(line.lines().count(), 1, "{line}");
     assert!(
         line.contains("lacks 1 record;") && line.contains("--resume"),
         "{line}"
     );
-    assert!(line.contains(&whole), "{line}");
+    assert!(line.contains(&folder), "{line}");
     assert_eq!(place.json(&["show"]), json!([]));
     place
-        .history(&["add", &whole, "--incomplete"])
+        .history(&["add", &folder, "--incomplete"])
         .code(0)
         .stdout(contains("1 missing"));
     // The resumed run replaces the part that was already there.
     fs::write(&file, &text).unwrap();
-    place.history(&["add", &whole]).code(0);
+    place.history(&["add", &folder]).code(0);
     place
         .history(&["show"])
         .stdout(contains("resumed as run 2"));
@@ -506,7 +506,7 @@ fn a_writer_that_is_killed_loses_nothing() {
         // Only complete runs are there.
         let runs = place.json(&["show"]);
         let last = runs.as_array().unwrap().len();
-        let told = etalon(&[
+        let assert = etalon(&[
             "history",
             "show",
             "depth/made/n=3999",
@@ -517,17 +517,17 @@ fn a_writer_that_is_killed_loses_nothing() {
         .arg(place.db())
         .assert();
         if last > 0 {
-            let told: Value = serde_json::from_slice(&told.code(0).get_output().stdout).unwrap();
+            let shown: Value = serde_json::from_slice(&assert.code(0).get_output().stdout).unwrap();
             assert_eq!(
-                told["adapters"][0]["records"].as_array().unwrap().len(),
+                shown["adapters"][0]["records"].as_array().unwrap().len(),
                 last
             );
         }
     }
     assert!(killed > 0, "no writer was killed while it wrote");
-    let mut all = vec!["add"];
-    all.extend(folders.iter().map(String::as_str));
-    place.history(&all).code(0);
+    let mut arguments = vec!["add"];
+    arguments.extend(folders.iter().map(String::as_str));
+    place.history(&arguments).code(0);
     assert_eq!(place.json(&["show"]).as_array().unwrap().len(), 40);
     let file = Connection::open(place.db()).unwrap();
     let sound: String = file
@@ -573,8 +573,8 @@ fn steps_of_times_are_found_told_and_settled() {
     place
         .history(&add.iter().map(String::as_str).collect::<Vec<_>>())
         .code(0);
-    let told = place.json(&["show", "perf/made"]);
-    let series = &told["adapters"][0]["series"][0];
+    let shown = place.json(&["show", "perf/made"]);
+    let series = &shown["adapters"][0]["series"][0];
     let changes = series["changes"].as_array().unwrap();
     let places: Vec<_> = changes
         .iter()
@@ -666,7 +666,7 @@ fn what_is_bad_is_open_until_somebody_says_what_it_is() {
     .stdout(contains("ignored: known").and(contains("\u{1b}").not()));
     let left = place.json(&["triage"]);
     assert_eq!(left, json!({"verdicts": [], "steps": []}));
-    let all = place.json(&["triage", "--all"]);
-    assert_eq!(all["verdicts"][0]["state"], "ignored");
-    assert_eq!(all["verdicts"][0]["since"], 2);
+    let triage = place.json(&["triage", "--all"]);
+    assert_eq!(triage["verdicts"][0]["state"], "ignored");
+    assert_eq!(triage["verdicts"][0]["since"], 2);
 }

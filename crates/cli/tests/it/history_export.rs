@@ -46,8 +46,8 @@ fn a_folder_that_cannot_be_used_is_named() {
         assert!(line.contains("full is not empty; name another"), "{line}");
         for out in ["file", "file/below"] {
             let line = export(&place, out, &["--format", format], 3);
-            let due = format!("cannot write {}", place.path(out).display());
-            assert!(line.contains(&due), "{line}");
+            let expected = format!("cannot write {}", place.path(out).display());
+            assert!(line.contains(&expected), "{line}");
         }
     }
     assert_eq!(fs::read_dir(place.path("full")).unwrap().count(), 1);
@@ -81,7 +81,7 @@ fn a_selection_of_no_run_writes_nothing() {
 #[test]
 fn a_part_of_the_runs_is_selected() {
     let place = three_days();
-    for (at, (flags, files)) in [
+    for (index, (flags, files)) in [
         (&[][..], 3),
         (&["--since", "2024-01-03"], 2),
         (&["--since", "2024-01-03T12:00:00Z"], 1),
@@ -91,11 +91,11 @@ fn a_part_of_the_runs_is_selected() {
     .into_iter()
     .enumerate()
     {
-        let out = format!("out-{at}");
+        let out = format!("out-{index}");
         let line = export(&place, &out, &[&["--format", "parquet"], flags].concat(), 0);
-        let of = if files == 1 { "file" } else { "files" };
-        let due = format!("{} rows in {files} {of} in", files * 2);
-        assert!(line.contains(&due), "{flags:?}: {line}");
+        let noun = if files == 1 { "file" } else { "files" };
+        let expected = format!("{} rows in {files} {noun} in", files * 2);
+        assert!(line.contains(&expected), "{flags:?}: {line}");
     }
     let line = export(&place, "times", &["--format", "otava"], 0);
     assert!(line.contains("0 rows in 1 file in"), "{line}");

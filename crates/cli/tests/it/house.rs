@@ -9,7 +9,7 @@ use std::process::Command;
 
 /// The folder of each crate, the crates of the workspace that it may use, and the graphics APIs. Development dependencies
 /// are not restricted.
-const TABLE: [(&str, &[&str], &[&str]); 29] = [
+const TABLE: [(&str, &[&str], &[&str]); 32] = [
     ("frame", &[], &[]),
     ("stats", &[], &[]),
     ("scene", &["frame"], &[]),
@@ -32,7 +32,8 @@ const TABLE: [(&str, &[&str], &[&str]); 29] = [
         &["glow", "khronos-egl", "naga"],
     ),
     ("webgpu", &["backend", "frame", "scene"], &[]),
-    ("keeper", &[], &[]),
+    ("process", &[], &[]),
+    ("keeper", &["process"], &[]),
     (
         "browser",
         &["backend", "frame", "keeper", "scene", "webgpu"],
@@ -54,16 +55,25 @@ const TABLE: [(&str, &[&str], &[&str]); 29] = [
         &["case", "frame", "record", "reference", "scene"],
         &[],
     ),
+    ("findings", &["record"], &[]),
     ("diagnose", &["frame", "record"], &[]),
     (
         "runner",
         &[
-            "backend", "case", "diagnose", "explore", "frame", "judge", "mutants", "record",
-            "scene", "stats", "truth",
+            "backend", "case", "diagnose", "explore", "frame", "judge", "mutants", "process",
+            "record", "scene", "stats", "truth",
         ],
         &[],
     ),
     ("bundle", &["backend", "frame", "webgpu"], &[]),
+    (
+        "page",
+        &[
+            "backend", "case", "diagnose", "findings", "frame", "judge", "record", "report",
+            "webgpu",
+        ],
+        &[],
+    ),
     ("explore", &["case", "frame", "scene"], &[]),
     ("history", &["frame", "record", "stats"], &[]),
     ("dashboards", &["record"], &[]),
@@ -92,6 +102,7 @@ const TABLE: [(&str, &[&str], &[&str]); 29] = [
             "diagnose",
             "explore",
             "export",
+            "findings",
             "frame",
             "gl",
             "history",
@@ -99,6 +110,7 @@ const TABLE: [(&str, &[&str], &[&str]); 29] = [
             "keeper",
             "mutants",
             "pipeline",
+            "process",
             "record",
             "reference",
             "report",
@@ -164,7 +176,7 @@ fn package_name(folder: &str) -> String {
 }
 
 /// Returns the names of a package and of everything that it links.
-fn closure<'m>(metadata: &'m Metadata, of: &'m PackageId) -> BTreeSet<&'m str> {
+fn closure<'m>(metadata: &'m Metadata, package: &'m PackageId) -> BTreeSet<&'m str> {
     let nodes: BTreeMap<&PackageId, &Node> = metadata
         .resolve
         .as_ref()
@@ -173,8 +185,8 @@ fn closure<'m>(metadata: &'m Metadata, of: &'m PackageId) -> BTreeSet<&'m str> {
         .iter()
         .map(|node| (&node.id, node))
         .collect();
-    let mut seen = BTreeSet::from([of]);
-    let mut todo = vec![of];
+    let mut seen = BTreeSet::from([package]);
+    let mut todo = vec![package];
     while let Some(id) = todo.pop() {
         for dependency in &nodes[id].deps {
             let normal = |k: &cargo_metadata::DepKindInfo| k.kind == DependencyKind::Normal;
@@ -213,9 +225,9 @@ fn every_crate_uses_what_the_table_allows() {
             }
         }
         // Nor through an external crate.
-        let all = closure(&metadata, &package.id);
+        let linked = closure(&metadata, &package.id);
         if graphics.is_empty() && folder != &"cli" {
-            let found: Vec<_> = GRAPHICS.iter().filter(|g| all.contains(**g)).collect();
+            let found: Vec<_> = GRAPHICS.iter().filter(|g| linked.contains(**g)).collect();
             assert!(found.is_empty(), "{folder} links {found:?}");
         }
     }
@@ -302,13 +314,13 @@ pub(crate) fn files() -> Vec<String> {
         .unwrap();
     assert!(output.status.success(), "git ls-files: {output:?}");
     let text = String::from_utf8(output.stdout).unwrap();
-    let all: Vec<String> = text
+    let files: Vec<String> = text
         .split_terminator('\0')
         .filter(|name| root().join(name).is_file())
         .map(str::to_owned)
         .collect();
-    assert!(all.len() > 100, "{all:?}");
-    all
+    assert!(files.len() > 100, "{files:?}");
+    files
 }
 
 #[test]
@@ -321,7 +333,7 @@ fn the_top_level_holds_what_belongs_there() {
         .collect();
     // Git keeps no empty folders.
     found.insert("reports".to_owned());
-    let due = [
+    let expected = [
         "CHANGELOG.md",
         "CONTRIBUTING.md",
         "Cargo.lock",
@@ -335,7 +347,7 @@ fn the_top_level_holds_what_belongs_there() {
         "reports",
         "shaders",
     ];
-    assert_eq!(found, due.map(str::to_owned).into());
+    assert_eq!(found, expected.map(str::to_owned).into());
 }
 
 /// Returns the link targets of a Markdown text, and the code in it that begins with a folder of the

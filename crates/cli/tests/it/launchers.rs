@@ -211,11 +211,11 @@ fn an_adapter_says_how_it_is_launched() {
     );
     let mut command = etalon(&["adapters", "--format", "json", "--adapters"]);
     let assert = command.arg(file).assert().code(0);
-    let all: Value = serde_json::from_slice(&assert.get_output().stdout).unwrap();
-    let one = all
+    let adapters: Value = serde_json::from_slice(&assert.get_output().stdout).unwrap();
+    let adapter = adapters
         .as_array()
         .unwrap()
         .iter()
         .find(|a| a["name"] == "there");
-    assert_eq!(one.unwrap()["launcher"], json!(["env"]));
+    assert_eq!(adapter.unwrap()["launcher"], json!(["env"]));
 }

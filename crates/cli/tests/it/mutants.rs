@@ -4,10 +4,10 @@
 
 use assert_cmd::Command;
 use etalon_backend::Backend;
-use etalon_case::{Case, Library, Profile};
+use etalon_case::{Case, Library, Profile, select};
 use etalon_mutants::{MutantBackend, mutants};
 use etalon_record::{Catch, Hunt, MutantInfo};
-use etalon_runner::{HuntPlan, hunt, select};
+use etalon_runner::{HuntPlan, hunt};
 
 /// Caught and legal mutants, in scenes, steps and frames, and two with state that persists.
 const FEW: [&str; 10] = [
@@ -95,8 +95,8 @@ fn an_unknown_bug_is_broken_and_ends_nothing() {
     assert!(found[0].complaint().is_some());
     assert_eq!(found[1].outcome, Catch::Caught);
     let tally = &found[1].areas[0];
-    let all = tally.pass + tally.imprecise + tally.fail + tally.broken;
-    assert_eq!(all, cases.len() as u64);
+    let judged = tally.pass + tally.imprecise + tally.fail + tally.broken;
+    assert_eq!(judged, cases.len() as u64);
 }
 
 fn etalon(arguments: &[&str]) -> assert_cmd::assert::Assert {

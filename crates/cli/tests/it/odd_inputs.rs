@@ -305,17 +305,17 @@ fn another_wrong_value_of_an_expected_case_is_news() {
 fn expectations_add_up_and_say_when_they_are_over() {
     let work = tempfile::tempdir().unwrap();
     let out = work.path().join("run");
-    let [one, two] = ["one.json", "two.json"].map(|name| work.path().join(name));
+    let [first, second] = ["one.json", "two.json"].map(|name| work.path().join(name));
     let write = |path: &Path, more: Value| {
         fs::write(path, json!([entry(more)]).to_string()).unwrap();
     };
-    write(&one, json!({ "case": "depth/*" }));
-    write(&two, json!({}));
-    let [one_arg, two_arg] = [&one, &two].map(|path| path.to_str().unwrap());
-    with_fault("zero-channel", &["--expect", one_arg], &out, 1);
+    write(&first, json!({ "case": "depth/*" }));
+    write(&second, json!({}));
+    let [first_path, second_path] = [&first, &second].map(|path| path.to_str().unwrap());
+    with_fault("zero-channel", &["--expect", first_path], &out, 1);
     with_fault(
         "zero-channel",
-        &["--expect", one_arg, "--expect", two_arg],
+        &["--expect", first_path, "--expect", second_path],
         &out,
         0,
     );
@@ -328,7 +328,7 @@ fn expectations_add_up_and_say_when_they_are_over() {
             "gl:softpipe",
             "--force",
             "--expect",
-            one_arg,
+            first_path,
         ];
         let mut command = etalon(&known);
         command.args(more).arg("--out").arg(&out).assert()
@@ -336,17 +336,17 @@ fn expectations_add_up_and_say_when_they_are_over() {
     softpipe(&[]).code(0);
     softpipe(&["--expect-only"]).code(1);
 
-    write(&two, json!({ "expires": "2020-02-29" }));
+    write(&second, json!({ "expires": "2020-02-29" }));
     let mut command = etalon(&["run", "cull/points", "--adapter", "cpu", "--force"]);
     command
-        .args(["--expect", two_arg, "--out"])
+        .args(["--expect", second_path, "--out"])
         .arg(&out)
         .assert()
         .code(0)
         .stderr(contains("expired").and(contains("2020-02-29")));
-    write(&two, json!({ "expires": "2027-02-30" }));
-    with_bad_day(&two, &out);
-    assert!(Expectations::read(&two).is_err());
+    write(&second, json!({ "expires": "2027-02-30" }));
+    with_bad_day(&second, &out);
+    assert!(Expectations::read(&second).is_err());
 }
 
 fn with_bad_day(file: &Path, out: &Path) {

@@ -41,9 +41,13 @@ fn keys(records: &[Record]) -> BTreeSet<(String, String, Verdict)> {
 #[test]
 fn shards_merge_into_the_undivided_run() {
     let work = tempfile::tempdir().unwrap();
-    let whole = work.path().join("whole");
-    etalon(&RUN).arg("--out").arg(&whole).assert().code(0);
-    let whole = Run::read(&whole).unwrap();
+    let undivided_folder = work.path().join("whole");
+    etalon(&RUN)
+        .arg("--out")
+        .arg(&undivided_folder)
+        .assert()
+        .code(0);
+    let undivided = Run::read(&undivided_folder).unwrap();
     let parts: Vec<PathBuf> = (1..=4).map(|i| shard(work.path(), i, 4)).collect();
     let mut sizes = 0;
     for part in &parts {
@@ -51,18 +55,18 @@ fn shards_merge_into_the_undivided_run() {
         assert_eq!(run.missing(), 0);
         assert_eq!(
             run.header.settings.selection,
-            whole.header.settings.selection
+            undivided.header.settings.selection
         );
         sizes += run.records.len();
     }
-    assert_eq!(sizes, whole.records.len());
+    assert_eq!(sizes, undivided.records.len());
     let out = work.path().join("merged");
     merge(&parts, &out).assert().code(0);
     let merged = Run::read(&out).unwrap();
     assert_eq!(merged.missing(), 0);
     assert_eq!(merged.header.settings.shard, None);
-    assert_eq!(keys(&merged.records), keys(&whole.records));
-    assert_eq!(merged.records.len(), whole.records.len());
+    assert_eq!(keys(&merged.records), keys(&undivided.records));
+    assert_eq!(merged.records.len(), undivided.records.len());
     // In the order of the list, with every frame.
     let order: Vec<&String> = merged.records.iter().map(|r| &r.case).collect();
     let listed = fs::read_to_string(out.join("cases.txt")).unwrap();
@@ -73,7 +77,7 @@ fn shards_merge_into_the_undivided_run() {
         Run::read_frame(&out, frame).unwrap();
     }
     let again = said(&merge(&parts, &out).assert().code(64), work.path());
-    let count = whole.records.len().to_string();
+    let count = undivided.records.len().to_string();
     insta::assert_snapshot!("merge-again", again.replace(&count, "[count]"));
     merge(&parts, &out).arg("--force").assert().code(0);
     // A merged run can be merged again.
@@ -188,8 +192,8 @@ fn a_record_of_which_parts_disagree_is_flaky() {
     )
     .unwrap();
     let out = work.path().join("merged");
-    let all = [parts[0].clone(), parts[1].clone(), twice];
-    let assert = merge(&all, &out).assert().code(1);
+    let folders = [parts[0].clone(), parts[1].clone(), twice];
+    let assert = merge(&folders, &out).assert().code(1);
     let stderr = said(&assert, work.path());
     let count = Run::read(&parts[1]).unwrap().records.len() - 1;
     let stderr = stderr.replacen(&count.to_string(), "[count]", 1);
@@ -213,7 +217,7 @@ fn a_record_of_which_parts_disagree_is_flaky() {
 #[test]
 fn the_variables_of_four_systems_choose_the_same_shard() {
     let work = tempfile::tempdir().unwrap();
-    let due = Run::read(&shard(work.path(), 2, 3)).unwrap();
+    let expected = Run::read(&shard(work.path(), 2, 3)).unwrap();
     let status = work.path().join("bazel-status");
     let bazel = status.to_str().unwrap();
     for variables in [
@@ -238,13 +242,14 @@ fn the_variables_of_four_systems_choose_the_same_shard() {
             .arg(out.path());
         command.assert().code(0).stderr(contains("shard 2/3"));
         let run = Run::read(out.path()).unwrap();
-        assert_eq!(keys(&run.records), keys(&due.records), "{variables:?}");
+        assert_eq!(keys(&run.records), keys(&expected.records), "{variables:?}");
         // A flag overrides the variables.
-        let mut all = etalon(&["run", "cull/lines", "--adapter", "cpu", "--shard", "1/1"]);
-        all.envs(variables.iter().copied())
+        let mut unsharded = etalon(&["run", "cull/lines", "--adapter", "cpu", "--shard", "1/1"]);
+        unsharded
+            .envs(variables.iter().copied())
             .arg("--out")
             .arg(out.path());
-        all.arg("--force").assert().code(0);
+        unsharded.arg("--force").assert().code(0);
         let listed = etalon(&["list", "cull/lines"]).assert();
         let lines = String::from_utf8_lossy(&listed.get_output().stdout)
             .lines()

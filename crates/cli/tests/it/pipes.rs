@@ -41,7 +41,7 @@ fn shell(line: &str) -> Output {
 fn verdicts(folder: &Path) -> Vec<(String, String, Verdict, bool)> {
     let run = Run::read(folder).unwrap();
     assert_eq!(run.missing(), 0);
-    let mut all: Vec<_> = run
+    let mut rows: Vec<_> = run
         .records
         .into_iter()
         .map(|r| {
@@ -49,20 +49,23 @@ fn verdicts(folder: &Path) -> Vec<(String, String, Verdict, bool)> {
             (r.adapter, r.case, r.verdict, bad)
         })
         .collect();
-    all.sort();
-    all
+    rows.sort();
+    rows
 }
 
 #[test]
 fn nobody_reads_what_a_run_prints_and_nothing_changes() {
     let folder = tempfile::tempdir().unwrap();
-    let due = folder.path().join("due");
+    let expected_folder = folder.path().join("due");
     let line =
         |out: &Path, more: &str| format!("\"$0\" run {RED} --force --out {} {more}", out.display());
-    let output = shell(&line(&due, ""));
+    let output = shell(&line(&expected_folder, ""));
     assert_eq!(output.status.code(), Some(1), "{output:?}");
-    let due = verdicts(&due);
-    assert!(due.iter().filter(|(.., bad)| *bad).count() >= 4, "{due:?}");
+    let expected = verdicts(&expected_folder);
+    assert!(
+        expected.iter().filter(|(.., bad)| *bad).count() >= 4,
+        "{expected:?}"
+    );
     let rounds = sample::count("rounds of red runs that nobody reads", 2, 25);
     for (sink, format) in SINKS
         .iter()
@@ -75,7 +78,7 @@ fn nobody_reads_what_a_run_prints_and_nothing_changes() {
         let lost = !format.is_empty() && sink.starts_with(">/dev/full");
         let code = if lost { 3 } else { 1 };
         assert_eq!(output.status.code(), Some(code), "{sink}: {output:?}");
-        assert_eq!(verdicts(out.path()), due, "{sink}: {output:?}");
+        assert_eq!(verdicts(out.path()), expected, "{sink}: {output:?}");
         for file in ["index.html", "junit.xml", "summary.md"] {
             assert!(out.path().join(file).is_file(), "{sink}: {file}");
         }
@@ -104,15 +107,15 @@ fn nobody_reads_what_a_bench_prints_and_nothing_changes() {
 #[test]
 fn a_reader_that_goes_away_turns_nothing_green() {
     let folder = tempfile::tempdir().unwrap();
-    let at = |name: &str| folder.path().join(name).display().to_string();
+    let path = |name: &str| folder.path().join(name).display().to_string();
     for (adapter, name, code) in [("cpu", "good", 0), ("cpu:fault=refused", "bad", 1)] {
         let output = shell(&format!(
             "\"$0\" run cull/* --adapter {adapter} --out {}",
-            at(name)
+            path(name)
         ));
         assert_eq!(output.status.code(), Some(code), "{output:?}");
     }
-    let (good, bad, merged) = (at("good"), at("bad"), at("merged"));
+    let (good, bad, merged) = (path("good"), path("bad"), path("merged"));
     let compared = format!("--adapter-before cpu --adapter-after cpu:fault=refused {good} {bad}");
     for (command, code) in [
         (format!("diff {compared}"), 1),
@@ -138,9 +141,11 @@ fn a_reader_that_goes_away_turns_nothing_green() {
 #[test]
 fn output_that_is_the_product_must_be_written() {
     let folder = tempfile::tempdir().unwrap();
-    let at = folder.path().join("run").display().to_string();
-    shell(&format!("\"$0\" run cull/* --adapter cpu --out {at}"));
-    let diff = format!("diff {at} {at}");
+    let folder_path = folder.path().join("run").display().to_string();
+    shell(&format!(
+        "\"$0\" run cull/* --adapter cpu --out {folder_path}"
+    ));
+    let diff = format!("diff {folder_path} {folder_path}");
     for command in [
         "list",
         "schema",
@@ -166,8 +171,8 @@ fn output_that_is_the_product_must_be_written() {
         assert_eq!(fine.status.code(), Some(0), "{command}: {fine:?}");
         let full = shell(&format!("\"$0\" {command} >/dev/full"));
         assert_eq!(full.status.code(), Some(3), "{command}: {full:?}");
-        let told = String::from_utf8(full.stderr).unwrap();
-        assert!(!told.contains("panicked"), "{command}: {told}");
+        let stderr = String::from_utf8(full.stderr).unwrap();
+        assert!(!stderr.contains("panicked"), "{command}: {stderr}");
     }
 }
 

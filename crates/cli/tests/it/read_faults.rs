@@ -24,13 +24,13 @@ fn run(adapter: &str, code: i32) -> (BTreeSet<String>, BTreeSet<String>) {
     command.arg(out.path()).assert().code(code);
     let run = Run::read(out.path()).unwrap();
     assert!(!run.records.is_empty(), "{adapter}");
-    let of = |verdicts: &[Verdict]| {
-        let all = run.records.iter();
-        let all = all.filter(|r| verdicts.contains(&r.verdict));
-        all.map(|r| r.case.clone()).collect()
+    let cases_with = |verdicts: &[Verdict]| {
+        let records = run.records.iter();
+        let records = records.filter(|r| verdicts.contains(&r.verdict));
+        records.map(|r| r.case.clone()).collect()
     };
     let wrong = [Verdict::Fail, Verdict::Blocked];
-    (of(&[Verdict::NotSupported]), of(&wrong))
+    (cases_with(&[Verdict::NotSupported]), cases_with(&wrong))
 }
 
 /// Every fault turns the run of a driver red, and makes no supported case unsupported.

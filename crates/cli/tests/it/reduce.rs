@@ -16,7 +16,7 @@ fn reduce(case: &str, adapter: &str, out: &Path) -> (i32, Value, String) {
 /// The same with further arguments.
 fn reduce_with(case: &str, adapter: &str, out: &Path, more: &[&str]) -> (i32, Value, String) {
     let out = out.to_str().unwrap();
-    let own = [
+    let base = [
         "reduce",
         case,
         "--adapter",
@@ -26,7 +26,7 @@ fn reduce_with(case: &str, adapter: &str, out: &Path, more: &[&str]) -> (i32, Va
         "--out",
         out,
     ];
-    let arguments = [&own, more].concat();
+    let arguments = [&base, more].concat();
     let output = etalon(&arguments).output().unwrap();
     let summary = serde_json::from_slice(&output.stdout).unwrap_or(Value::Null);
     let error = String::from_utf8(output.stderr).unwrap();
@@ -42,7 +42,7 @@ fn reduced(case: &str, adapter: &str) -> (Value, Value) {
     let text = fs::read_to_string(summary["file"].as_str().unwrap()).unwrap();
     let document: Value = serde_json::from_str(&text).unwrap();
 
-    let number = |key: &str, at: usize| summary[key][at].as_u64().unwrap();
+    let number = |key: &str, index: usize| summary[key][index].as_u64().unwrap();
     assert!(number("keys", 1) <= number("keys", 0), "{summary}");
     assert!(number("values", 1) <= number("values", 0), "{summary}");
     assert!(summary["draws"].as_u64().unwrap() <= 1000, "{summary}");
@@ -84,25 +84,25 @@ fn reduced(case: &str, adapter: &str) -> (Value, Value) {
     ];
     etalon(&arguments).output().unwrap();
     let run = Run::read(&out).unwrap();
-    let own: Vec<_> = run.records.iter().collect();
-    assert_eq!(own.len(), 1, "{case}");
-    assert_eq!(own[0].verdict, Verdict::Fail, "{case} on {adapter}");
+    let records: Vec<_> = run.records.iter().collect();
+    assert_eq!(records.len(), 1, "{case}");
+    assert_eq!(records[0].verdict, Verdict::Fail, "{case} on {adapter}");
     (summary, document)
 }
 
 /// Returns the draws of a document.
 fn draws(document: &Value) -> Vec<&Value> {
     let passes = document["scene"]["passes"].as_array().unwrap();
-    let all = passes.iter().map(|p| p["draws"].as_array().unwrap());
-    all.flatten().collect()
+    let lists = passes.iter().map(|p| p["draws"].as_array().unwrap());
+    lists.flatten().collect()
 }
 
 #[test]
 fn a_random_scene_becomes_the_one_state_that_the_driver_has_wrong() {
     let (summary, document) = reduced("combined/extended/seed=16", "gl:softpipe");
-    let all = draws(&document);
-    assert_eq!(all.len(), 1, "{document}");
-    let keys: Vec<&String> = all[0].as_object().unwrap().keys().collect();
+    let left = draws(&document);
+    assert_eq!(left.len(), 1, "{document}");
+    let keys: Vec<&String> = left[0].as_object().unwrap().keys().collect();
     assert_eq!(keys, ["logic", "mesh", "shader"]);
     assert_eq!(
         summary["violation"],
@@ -121,7 +121,7 @@ fn a_random_scene_becomes_the_one_state_that_the_driver_has_wrong() {
 
 #[test]
 fn a_reduction_is_deterministic() {
-    let [one, other] = [(); 2].map(|()| {
+    let [first, other] = [(); 2].map(|()| {
         let folder = TempDir::new().unwrap();
         let (code, summary, error) =
             reduce("combined/extended/seed=16", "gl:es:softpipe", folder.path());
@@ -131,7 +131,7 @@ fn a_reduction_is_deterministic() {
         let text = fs::read_to_string(summary["file"].as_str().unwrap()).unwrap();
         (json!(text), summary["draws"].clone())
     });
-    assert_eq!(one, other);
+    assert_eq!(first, other);
 }
 
 #[test]
@@ -168,9 +168,12 @@ fn every_kind_of_violation_is_kept() {
 fn the_state_that_a_driver_gets_wrong_stays() {
     let case = "sequence/state/scissor/across=draw/first=none/then=left";
     let (_, document) = reduced(case, "gl:softpipe:call-fault=scissor-kept");
-    let all = draws(&document);
-    assert!(all.iter().any(|d| d.get("scissor").is_some()), "{document}");
-    assert!(all.iter().all(|d| d.get("blend").is_none()), "{document}");
+    let left = draws(&document);
+    assert!(
+        left.iter().any(|d| d.get("scissor").is_some()),
+        "{document}"
+    );
+    assert!(left.iter().all(|d| d.get("blend").is_none()), "{document}");
 }
 
 #[test]
@@ -199,17 +202,17 @@ fn a_case_that_ends_its_worker_is_reduced_to_what_ends_it() {
         let (code, summary, error) = reduce_with(case, &adapter, &cases, more);
         assert_eq!(code, 0, "{fault}: {error}");
         for key in ["first_violation", "violation"] {
-            let told = summary[key].as_str().unwrap();
-            assert!(told.contains(symptom), "{fault}: {told}");
+            let violation = summary[key].as_str().unwrap();
+            assert!(violation.contains(symptom), "{fault}: {violation}");
         }
         assert!(summary["draws"].as_u64().unwrap() <= 200, "{summary}");
         let text = fs::read_to_string(summary["file"].as_str().unwrap()).unwrap();
         let document: Value = serde_json::from_str(&text).unwrap();
         let about = document["about"].as_str().unwrap();
         assert!(about.contains(&format!("Ends by {verdict}")), "{about}");
-        let all = draws(&document);
-        assert_eq!(all.len(), 1, "{fault}: {document}");
-        let keys: Vec<&String> = all[0].as_object().unwrap().keys().collect();
+        let left = draws(&document);
+        assert_eq!(left.len(), 1, "{fault}: {document}");
+        let keys: Vec<&String> = left[0].as_object().unwrap().keys().collect();
         assert_eq!(keys, ["mesh", "scissor", "shader"], "{fault}");
     }
 }

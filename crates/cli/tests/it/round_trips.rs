@@ -39,14 +39,14 @@ fn leans(record: &Record) -> bool {
 /// Returns the records in order, without what differs between runs.
 fn plain(run: &Run) -> Vec<String> {
     let records = run.records.iter().cloned();
-    let mut all: Vec<String> = records
+    let mut texts: Vec<String> = records
         .map(|mut record| {
             record.seconds = Default::default();
             serde_json::to_string(&record).unwrap()
         })
         .collect();
-    all.sort_unstable();
-    all
+    texts.sort_unstable();
+    texts
 }
 
 /// Globs of the dependents and of all round trips.
@@ -60,10 +60,10 @@ fn with_trips() -> Vec<&'static str> {
 fn what_came_through_a_wrong_read_back_is_blocked_and_the_rest_is_drawn() {
     let work = tempfile::tempdir().unwrap();
     let alone = run(&work.path().join("alone"), &DEPENDENTS, &[], 1);
-    let whole = run(&work.path().join("whole"), &with_trips(), &[], 1);
+    let full = run(&work.path().join("whole"), &with_trips(), &[], 1);
     let blocked = |run: &Run| run.records.iter().filter(|r| leans(r)).count();
     assert!(blocked(&alone) > 2 && alone.records.len() > blocked(&alone) + 20);
-    for record in alone.records.iter().chain(&whole.records) {
+    for record in alone.records.iter().chain(&full.records) {
         if record.case == TRIP {
             assert_eq!(record.verdict, Verdict::Fail, "{record:?}");
             // A recheck that confirms the verdict leaves no trace in the record.
@@ -71,8 +71,9 @@ fn what_came_through_a_wrong_read_back_is_blocked_and_the_rest_is_drawn() {
         } else if leans(record) {
             assert_eq!(record.verdict, Verdict::Blocked, "{record:?}");
             assert_eq!(record.blocked_by, [TRIP]);
-            let due = format!("not drawn: {TRIP} is fail: texel 0,0 of color: channel 0 holds 1");
-            assert!(record.message.starts_with(&due), "{record:?}");
+            let message =
+                format!("not drawn: {TRIP} is fail: texel 0,0 of color: channel 0 holds 1");
+            assert!(record.message.starts_with(&message), "{record:?}");
             assert!(record.unexpected());
             assert_eq!(record.texels.total, 0, "it was not drawn");
         } else {
@@ -87,13 +88,13 @@ fn what_came_through_a_wrong_read_back_is_blocked_and_the_rest_is_drawn() {
             .filter(|r| r.area() == "capabilities")
             .count()
     };
-    assert_eq!((trips(&alone), trips(&whole)), (0, 14));
+    assert_eq!((trips(&alone), trips(&full)), (0, 14));
 }
 
 #[test]
 fn parts_of_a_run_hold_the_same_records_as_the_whole() {
     let work = tempfile::tempdir().unwrap();
-    let whole = run(&work.path().join("whole"), &with_trips(), &[], 1);
+    let undivided = run(&work.path().join("whole"), &with_trips(), &[], 1);
     let trip = |run: &Run| run.records.iter().any(|r| r.case == TRIP);
     let mut holders = 0;
     let parts: Vec<PathBuf> = (1..=3)
@@ -114,21 +115,21 @@ fn parts_of_a_run_hold_the_same_records_as_the_whole() {
     let out = work.path().join("merged");
     let mut merge = etalon(&["merge"]);
     merge.args(&parts).arg("--out").arg(&out).assert().code(1);
-    assert_eq!(plain(&Run::read(&out).unwrap()), plain(&whole));
+    assert_eq!(plain(&Run::read(&out).unwrap()), plain(&undivided));
 }
 
 #[test]
 fn a_run_that_was_stopped_goes_on_with_the_same_records() {
     let work = tempfile::tempdir().unwrap();
     let out = work.path().join("run");
-    let due = plain(&run(&out, &with_trips(), &[], 1));
+    let expected = plain(&run(&out, &with_trips(), &[], 1));
     let text = fs::read_to_string(out.join("run.jsonl")).unwrap();
     let lines: Vec<&str> = text.lines().collect();
     // Before, between and after the round trips, and with nothing left to draw.
     for kept in [0, 1, 6, 14, 15, 40, lines.len() - 1] {
         fs::write(out.join("run.jsonl"), lines[..=kept].join("\n") + "\n").unwrap();
         let resumed = run(&out, &with_trips(), &["--resume"], 1);
-        assert_eq!(plain(&resumed), due, "after {kept} records");
+        assert_eq!(plain(&resumed), expected, "after {kept} records");
     }
 }
 

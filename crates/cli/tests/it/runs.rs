@@ -77,7 +77,9 @@ fn every_selftest_fails_for_a_stated_reason() {
     let out = folder();
     let adapters = ["cpu", "vulkan:lavapipe", "gl:softpipe"];
     for adapter in adapters {
-        run(out.path(), &["selftest/*", "--adapter", adapter]).code(0);
+        let whole_records = ["--keep-frames", "all"];
+        let drawn = ["selftest/*", "--adapter", adapter];
+        run(out.path(), &[&drawn[..], &whole_records].concat()).code(0);
         let run = whole(out.path());
         assert_eq!(run.records.len(), count(&["selftest"]));
         for record in &run.records {
@@ -165,8 +167,8 @@ fn every_adapter_that_is_found_draws_a_bit_of_everything() {
         .iter()
         .map(|a| a["name"].as_str().unwrap().to_owned())
         .collect();
-    for due in DUE {
-        assert!(found.contains(due), "{due} is not here, only {found:?}");
+    for name in DUE {
+        assert!(found.contains(name), "{name} is not here, only {found:?}");
     }
     let globs = [
         "depth/clear*",
@@ -534,8 +536,8 @@ fn a_machine_without_drivers_still_has_the_cpu() {
         .stderr(contains("unavailable: gl:softpipe: ").and(contains("apt-get install")));
     let run = whole(out);
     assert_eq!(run.records.len(), count(&["depth/clear"]));
-    for due in DUE.iter().filter(|name| **name != "cpu") {
-        let absent = run.header.absent.iter().find(|a| a.name == *due).unwrap();
+    for name in DUE.iter().filter(|name| **name != "cpu") {
+        let absent = run.header.absent.iter().find(|a| a.name == *name).unwrap();
         assert!(
             !absent.reason.is_empty() && !absent.remedy.is_empty(),
             "{absent:?}"

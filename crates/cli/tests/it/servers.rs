@@ -124,16 +124,17 @@ fn the_end_of_a_server_is_told() {
         .assert()
         .code(1);
     let run = Run::read(&out).unwrap();
-    let told = run
+    let stderrs = run
         .records
         .iter()
         .filter_map(|record| record.process.as_ref());
-    let told: Vec<&str> = told.map(|end| end.stderr.as_str()).collect();
-    let due = "the server sh has ended: exit status: 3";
+    let stderrs: Vec<&str> = stderrs.map(|end| end.stderr.as_str()).collect();
+    let message = "the server sh has ended: exit status: 3";
     assert!(
-        told.iter()
-            .any(|text| text.contains("broken") && text.contains(due)),
-        "{told:?}"
+        stderrs
+            .iter()
+            .any(|text| text.contains("broken") && text.contains(message)),
+        "{stderrs:?}"
     );
 }
 

@@ -150,8 +150,8 @@ fn the_worlds_of_an_edge_are_told_apart() {
     let case = scene("", "", &format!("{{{half},{RED}}}"), "");
     // On the diagonal both outcomes are legal, but not a third one.
     let (limits, mut frames) = frames("scissor/ignored", &case);
-    let at = (2 * 4 + 1) * 4;
-    frames[0].images[0].codes[at..at + 4].copy_from_slice(&[9, 0, 0, 255]);
+    let offset = (2 * 4 + 1) * 4;
+    frames[0].images[0].codes[offset..offset + 4].copy_from_slice(&[9, 0, 0, 255]);
     let judged = Judge::default().judge(0, &case, "cpu", &limits, &frames);
     insta::assert_snapshot!("story_edge", story_text(&judged.record.story.unwrap()));
 }

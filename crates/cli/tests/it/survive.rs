@@ -21,7 +21,7 @@ fn folder() -> tempfile::TempDir {
 }
 
 /// Runs cases on one adapter with a planted fault. Some must have this verdict, all others pass.
-fn with_fault(fault: &str, due: Verdict, more: &[&str]) -> Vec<Record> {
+fn with_fault(fault: &str, verdict: Verdict, more: &[&str]) -> Vec<Record> {
     let out = folder();
     let adapter = format!("cpu:fault={fault}");
     etalon(&["run", "cull/*", "--adapter", &adapter, "--out"])
@@ -38,15 +38,15 @@ fn with_fault(fault: &str, due: Verdict, more: &[&str]) -> Vec<Record> {
     }
     assert!(fine.len() > 20 && !bad.is_empty(), "{fault}");
     for record in &bad {
-        assert_eq!(record.verdict, due, "{fault}: {record:?}");
+        assert_eq!(record.verdict, verdict, "{fault}: {record:?}");
         assert!(record.unexpected());
     }
     bad
 }
 
 /// The same for processes that are lost, with the way in which they ended.
-fn lost(fault: &str, due: Verdict, kind: LossKind, more: &[&str]) -> Vec<Record> {
-    let records = with_fault(fault, due, more);
+fn lost(fault: &str, verdict: Verdict, kind: LossKind, more: &[&str]) -> Vec<Record> {
+    let records = with_fault(fault, verdict, more);
     for record in &records {
         let end = record.process.as_ref().unwrap();
         assert_eq!(end.kind, kind, "{record:?}");
@@ -274,7 +274,7 @@ fn plain(folder: &Path) -> Vec<String> {
     let run = Run::read(folder).unwrap();
     assert!(!run.truncated);
     assert_eq!(run.missing(), 0);
-    let mut all: Vec<String> = run
+    let mut texts: Vec<String> = run
         .records
         .into_iter()
         .map(|mut record| {
@@ -285,8 +285,8 @@ fn plain(folder: &Path) -> Vec<String> {
             serde_json::to_string(&record).unwrap()
         })
         .collect();
-    all.sort_unstable();
-    all
+    texts.sort_unstable();
+    texts
 }
 
 /// Returns all files below a folder with their contents.
@@ -355,7 +355,7 @@ fn killed_at_random_moments_a_run_ends_as_if_nothing_had_happened() {
     let first = began.elapsed();
     assert_eq!(child.wait().unwrap().code(), Some(1));
     let all_records = records_in(undisturbed.path());
-    let due = plain(undisturbed.path());
+    let expected = plain(undisturbed.path());
     let due_frames: Vec<Vec<u8>> = files(&undisturbed.path().join("frames"))
         .into_values()
         .collect();
@@ -408,7 +408,7 @@ fn killed_at_random_moments_a_run_ends_as_if_nothing_had_happened() {
                 inside += usize::from(!run.records.is_empty() && run.missing() > 0);
             }
         }
-        assert!(plain(out.path()) == due, "after {kills} kills");
+        assert!(plain(out.path()) == expected, "after {kills} kills");
         let frames: Vec<Vec<u8>> = files(&out.path().join("frames")).into_values().collect();
         assert!(frames == due_frames, "after {kills} kills");
     }
@@ -559,15 +559,15 @@ fn results_do_not_depend_on_order_or_the_number_of_workers() {
         .code(0);
         plain(out.path())
     };
-    let due = verdicts(&["--jobs", "1"]);
+    let expected = verdicts(&["--jobs", "1"]);
     for more in [
         &["--jobs", "4"][..],
         &["--jobs", "3", "--shuffle", "5"],
         &["--jobs", "1", "--shuffle", "6", "--shader-cache", "cold"],
     ] {
         // Of imprecise pictures the first few keep their frames, and which those are is order.
-        let bare = |all: &[String]| -> Vec<(String, String, String)> {
-            let mut bare: Vec<_> = all
+        let bare = |texts: &[String]| -> Vec<(String, String, String)> {
+            let mut bare: Vec<_> = texts
                 .iter()
                 .map(|text| {
                     let r: Record = serde_json::from_str(text).unwrap();
@@ -581,7 +581,7 @@ fn results_do_not_depend_on_order_or_the_number_of_workers() {
             bare.sort();
             bare
         };
-        assert_eq!(bare(&verdicts(more)), bare(&due), "{more:?}");
+        assert_eq!(bare(&verdicts(more)), bare(&expected), "{more:?}");
     }
 }
 
@@ -615,16 +615,22 @@ fn so_many_of_a_kind_are_checked_again_and_the_output_says_so() {
             .filter(|r| r.verdict == Verdict::Crash)
             .count() as u64
     };
-    let (told, all) = run("2", "abort");
-    let crashed = crashes(&all);
+    let (summary, rechecked) = run("2", "abort");
+    let crashed = crashes(&rechecked);
     assert!(crashed > 8, "{crashed}");
     assert_eq!(
-        (told["rechecked"].as_u64(), told["not_rechecked"].as_u64()),
+        (
+            summary["rechecked"].as_u64(),
+            summary["not_rechecked"].as_u64()
+        ),
         (Some(2), Some(crashed - 2))
     );
-    let (told, none) = run("off", "abort");
+    let (summary, unchecked) = run("off", "abort");
     assert_eq!(
-        (told["rechecked"].as_u64(), told["not_rechecked"].as_u64()),
+        (
+            summary["rechecked"].as_u64(),
+            summary["not_rechecked"].as_u64()
+        ),
         (Some(0), Some(crashed))
     );
     // The number changes no record.
@@ -634,23 +640,29 @@ fn so_many_of_a_kind_are_checked_again_and_the_output_says_so() {
             .map(|r| (r.case, r.verdict, r.repeats))
             .collect()
     };
-    assert_eq!(plain(all), plain(none));
+    assert_eq!(plain(rechecked), plain(unchecked));
     // What is refuted does not use the number up. A process goes wrong by chance, and the next one as well: that no run
     // of these holds both has a chance of 1 to 10^9.
-    let of = |run: &Run, verdict| -> Vec<Record> {
-        let all = run.records.iter().filter(|r| r.verdict == verdict);
-        all.cloned().collect()
+    let records_of = |run: &Run, verdict| -> Vec<Record> {
+        let records = run.records.iter().filter(|r| r.verdict == verdict);
+        records.cloned().collect()
     };
-    let (told, flaky, failed) = (0..32)
+    let (summary, flaky, failed) = (0..32)
         .map(|_| run("1", "flaky"))
-        .map(|(told, run)| (told, of(&run, Verdict::Flaky), of(&run, Verdict::Fail)))
+        .map(|(summary, run)| {
+            (
+                summary,
+                records_of(&run, Verdict::Flaky),
+                records_of(&run, Verdict::Fail),
+            )
+        })
         .find(|(_, flaky, failed)| !flaky.is_empty() && !failed.is_empty())
         .unwrap();
     let kinds: BTreeSet<_> = failed.iter().map(|r| Symptom::of(r).broad()).collect();
     assert_eq!(
-        told["rechecked"].as_u64(),
+        summary["rechecked"].as_u64(),
         Some((flaky.len() + kinds.len()) as u64),
-        "{told}"
+        "{summary}"
     );
 
     let text = etalon(&[
@@ -695,14 +707,14 @@ fn a_bad_verdict_is_told_once_with_its_reason() {
         .filter(|r| r.verdict == Verdict::Crash)
         .collect();
     assert!(!crashed.is_empty());
-    let told = |record: &&&Record| {
+    let lines_of = |record: &&&Record| {
         let line = format!(
             "{}: the worker died of signal 6 (abort); stderr ends with: about to abort, as planted",
             record.case
         );
         text.matches(&line).count()
     };
-    let counts: Vec<usize> = crashed.iter().map(|record| told(&record)).collect();
+    let counts: Vec<usize> = crashed.iter().map(|record| lines_of(&record)).collect();
     assert!(counts.iter().all(|n| *n <= 1), "{text}");
     assert_eq!(
         counts.iter().sum::<usize>(),
@@ -720,12 +732,12 @@ fn a_bad_verdict_is_told_once_with_its_reason() {
         "--out",
     ];
     let output = etalon(&arguments).arg(folder().path()).output().unwrap();
-    let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    let counts = &told["verdicts"]["cpu:fault=abort"];
+    let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let counts = &summary["verdicts"]["cpu:fault=abort"];
     assert_eq!(
         counts["crash"].as_u64(),
         Some(crashed.len() as u64),
-        "{told:#}"
+        "{summary:#}"
     );
     assert_eq!(
         counts["pass"].as_u64(),

@@ -61,7 +61,7 @@ impl BenchWriter {
     /// # Errors
     /// If the folder holds no bench, a damaged one, or a bench that does not match the header.
     pub fn resume(folder: &Path, header: &BenchHeader) -> Result<(Self, Bench), RecordError> {
-        let (mut bench, whole) = Bench::read_prefix(folder)?;
+        let (mut bench, length) = Bench::read_prefix(folder)?;
         if let Some(reason) = bench_conflict(&bench.header, header) {
             return Err(RecordError::Another {
                 path: folder.to_owned(),
@@ -69,7 +69,7 @@ impl BenchWriter {
             });
         }
         let path = folder.join(BENCH_FILE);
-        let file = reopen(&path, whole)?;
+        let file = reopen(&path, length)?;
         bench.truncated = false;
         Ok((Self { path, file }, bench))
     }

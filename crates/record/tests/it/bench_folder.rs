@@ -134,13 +134,13 @@ fn a_killed_bench_is_a_readable_prefix() {
     ];
     written(folder.path(), &lines).unwrap();
     let path = folder.path().join("bench.jsonl");
-    let whole = fs::read(&path).unwrap();
-    fs::write(&path, &whole[..whole.len() - 30]).unwrap();
+    let complete = fs::read(&path).unwrap();
+    fs::write(&path, &complete[..complete.len() - 30]).unwrap();
     let bench = Bench::read(folder.path()).unwrap();
     assert!(bench.truncated);
     assert_eq!(bench.records[0].rounds.len(), 1);
     // A damaged line in the middle is an error.
-    let mut more = whole[..whole.len() - 30].to_vec();
+    let mut more = complete[..complete.len() - 30].to_vec();
     more.push(b'\n');
     more.extend_from_slice(b"{}\n");
     fs::write(&path, more).unwrap();
@@ -151,7 +151,7 @@ fn a_killed_bench_is_a_readable_prefix() {
 #[test]
 fn impossible_lines_are_told_with_file_and_line() {
     let pass = || picture(Verdict::Pass);
-    let of = |change: &dyn Fn(&mut Round)| {
+    let lines_with = |change: &dyn Fn(&mut Round)| {
         let mut round = round(0);
         change(&mut round);
         vec![pass(), BenchLine::Round(round)]
@@ -171,7 +171,7 @@ fn impossible_lines_are_told_with_file_and_line() {
         }),
         other => other,
     };
-    for (lines, at, words) in [
+    for (lines, line_number, words) in [
         (vec![BenchLine::Round(round(0))], 2, "no picture"),
         (
             vec![picture(Verdict::Fail), BenchLine::Round(round(0))],
@@ -195,16 +195,23 @@ fn impossible_lines_are_told_with_file_and_line() {
             4,
             "already ended",
         ),
-        (of(&|r| r.wall[1] = 0.0), 3, "a time of 0 s"),
-        (of(&|r| r.ruler[0] = -1.0), 3, "a time of -1 s"),
-        (of(&|r| r.cpu.truncate(1)), 3, "2 wall times, 1 cpu times"),
-        (of(&|r| r.gpu.push(0.1)), 3, "1 gpu times"),
-        (of(&|r| r.wall.clear()), 3, "without a sample"),
-        (of(&|r| r.at = -1.0), 3, "began at -1 s"),
+        (lines_with(&|r| r.wall[1] = 0.0), 3, "a time of 0 s"),
+        (lines_with(&|r| r.ruler[0] = -1.0), 3, "a time of -1 s"),
+        (
+            lines_with(&|r| r.cpu.truncate(1)),
+            3,
+            "2 wall times, 1 cpu times",
+        ),
+        (lines_with(&|r| r.gpu.push(0.1)), 3, "1 gpu times"),
+        (lines_with(&|r| r.wall.clear()), 3, "without a sample"),
+        (lines_with(&|r| r.at = -1.0), 3, "began at -1 s"),
     ] {
         let folder = tempfile::tempdir().unwrap();
         let error = written(folder.path(), &lines).unwrap_err().to_string();
-        assert!(error.contains(&format!("bench.jsonl:{at}:")), "{error}");
+        assert!(
+            error.contains(&format!("bench.jsonl:{line_number}:")),
+            "{error}"
+        );
         assert!(error.contains(words), "{words}: {error}");
     }
 }

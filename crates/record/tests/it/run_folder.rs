@@ -172,6 +172,7 @@ prop_compose! {
                 object: rest.chars().take(20).collect(), code: improves.map(|v| v.name().to_owned()),
             }),
             look: said.first().cloned(),
+            example: said.last().cloned(),
             validation: said.clone(),
             after: said.clone(),
             blocked_by: said,
@@ -206,7 +207,7 @@ proptest! {
 
     #[test]
     fn a_run_cut_anywhere_keeps_its_whole_records(
-        records in prop::collection::vec(record(), 1..5), at in any::<prop::sample::Index>()
+        records in prop::collection::vec(record(), 1..5), cut_index in any::<prop::sample::Index>()
     ) {
         let folder = tempfile::tempdir().unwrap();
         let mut writer = RunWriter::create(folder.path(), &header()).unwrap();
@@ -214,7 +215,7 @@ proptest! {
         let path = folder.path().join("run.jsonl");
         let bytes = fs::read(&path).unwrap();
         let first = bytes.iter().position(|b| *b == b'\n').unwrap() + 1;
-        let end = first + at.index(bytes.len() - first);
+        let end = first + cut_index.index(bytes.len() - first);
         fs::write(&path, &bytes[..end]).unwrap();
         let run = Run::read(folder.path()).unwrap();
         let newlines = bytes[first..end].iter().filter(|b| **b == b'\n').count();
@@ -228,7 +229,7 @@ proptest! {
     #[test]
     fn a_run_cut_anywhere_goes_on_and_ends_as_if_nothing_had_happened(
         records in prop::collection::vec(record(), 1..5),
-        at in any::<prop::sample::Index>(),
+        cut_index in any::<prop::sample::Index>(),
         zeros in 0_usize..3,
     ) {
         let folder = tempfile::tempdir().unwrap();
@@ -236,17 +237,17 @@ proptest! {
         records.iter().for_each(|r| writer.append(r).unwrap());
         drop(writer);
         let path = folder.path().join("run.jsonl");
-        let due = fs::read(&path).unwrap();
-        let first = due.iter().position(|b| *b == b'\n').unwrap() + 1;
-        let end = first + at.index(due.len() - first);
+        let complete = fs::read(&path).unwrap();
+        let first = complete.iter().position(|b| *b == b'\n').unwrap() + 1;
+        let end = first + cut_index.index(complete.len() - first);
         // Some file systems leave zeros in place of what a power cut took.
-        let mut cut = due[..end].to_vec();
+        let mut cut = complete[..end].to_vec();
         cut.extend(vec![0; zeros]);
         fs::write(&path, cut).unwrap();
         let (mut writer, run) = RunWriter::resume(folder.path(), &header()).unwrap();
         prop_assert!(!run.truncated);
         records[run.records.len()..].iter().for_each(|r| writer.append(r).unwrap());
-        prop_assert_eq!(fs::read(&path).unwrap(), due);
+        prop_assert_eq!(fs::read(&path).unwrap(), complete);
     }
 }
 
@@ -392,6 +393,7 @@ fn runs_of_every_older_format_are_read_and_not_gone_on_with() {
         (1, include_str!("../../../report/tests/data/methods.jsonl")),
         (2, include_str!("../data/format-2.jsonl")),
         (3, include_str!("../data/format-3.jsonl")),
+        (4, include_str!("../data/format-4.jsonl")),
     ];
     assert_eq!(samples.len() as u32, FORMAT - 1, "a sample of each");
     for (format, text) in samples {
@@ -406,10 +408,12 @@ fn runs_of_every_older_format_are_read_and_not_gone_on_with() {
             assert_eq!(adapter.limits.version == unknown, format < 3);
         }
         for story in run.records.iter().filter_map(|r| r.story.as_ref()) {
-            assert!(story.events.is_empty() && !story.told.is_empty());
+            assert_eq!(story.told.is_empty(), format > 3);
+            assert_eq!(story.events.is_empty(), format < 4);
         }
         let stories = run.records.iter().filter(|r| r.story.is_some()).count();
-        assert!(format < 3 || stories > 0, "a story as sentences");
+        assert!(format < 3 || stories > 0, "a story");
+        assert!(run.records.iter().all(|r| r.example.is_none()));
         assert!(run.records.iter().all(|r| r.blocked_by.is_empty()));
         // Records of this format must not follow a header of another.
         let mut now = run.header.clone();
@@ -418,6 +422,25 @@ fn runs_of_every_older_format_are_read_and_not_gone_on_with() {
         let said = refused.to_string();
         assert!(said.contains(&format!("format is {format}")), "{said}");
     }
+}
+
+#[test]
+fn numbers_that_say_nothing_new_are_left_out() {
+    let mut record = Record::new("a/b", "cpu", Verdict::Pass);
+    record.texels.total = 16;
+    record.assertions = vec![Assertion {
+        aspect: Aspect::Color,
+        channels: 64,
+        asserted: 64,
+        exact: 60,
+        codes: 68,
+        yardstick_exact: 64,
+        yardstick_codes: 64,
+        yardstick_asserted: 64,
+    }];
+    let expected = r#"{"case":"a/b","adapter":"cpu","verdict":"pass","texels":{"total":16},"assertions":[{"aspect":"color","channels":64,"exact":60,"codes":68}]}"#;
+    assert_eq!(serde_json::to_string(&record).unwrap(), expected);
+    assert_eq!(serde_json::from_str::<Record>(expected).unwrap(), record);
 }
 
 #[test]

@@ -75,15 +75,15 @@ pub(crate) struct Spoiling {
 
 /// Any spoiling.
 pub(crate) fn spoilings() -> impl Strategy<Value = Spoiling> {
-    let at = any::<Index>;
+    let any_index = any::<Index>;
     let change = prop_oneof![
-        6 => (at(), at()).prop_map(|(a, b)| Change::Token(a, b)),
-        2 => (at(), at()).prop_map(|(a, b)| Change::Insert(a, b)),
-        2 => (at(), any::<u8>()).prop_map(|(a, b)| Change::Byte(a, b)),
-        1 => (at(), at()).prop_map(|(a, b)| Change::Cut(a, b)),
-        1 => (at(), at(), at()).prop_map(|(a, b, c)| Change::Copy(a, b, c)),
-        1 => (at(), 1..2000_u16).prop_map(|(a, n)| Change::Nest(a, n)),
-        1 => at().prop_map(Change::Truncate),
+        6 => (any_index(), any_index()).prop_map(|(a, b)| Change::Token(a, b)),
+        2 => (any_index(), any_index()).prop_map(|(a, b)| Change::Insert(a, b)),
+        2 => (any_index(), any::<u8>()).prop_map(|(a, b)| Change::Byte(a, b)),
+        1 => (any_index(), any_index()).prop_map(|(a, b)| Change::Cut(a, b)),
+        1 => (any_index(), any_index(), any_index()).prop_map(|(a, b, c)| Change::Copy(a, b, c)),
+        1 => (any_index(), 1..2000_u16).prop_map(|(a, n)| Change::Nest(a, n)),
+        1 => any_index().prop_map(Change::Truncate),
     ];
     let noise = prop::option::weighted(0.05, prop::collection::vec(any::<u8>(), 0..200));
     (prop::collection::vec(change, 0..5), noise)
@@ -93,25 +93,25 @@ pub(crate) fn spoilings() -> impl Strategy<Value = Spoiling> {
 /// The ranges of tokens: numbers, words, strings.
 fn tokens(text: &[u8]) -> Vec<(usize, usize)> {
     let mut found = Vec::new();
-    let mut at = 0;
-    while at < text.len() {
-        let start = at;
-        if text[at] == b'"' {
-            at += 1;
-            while at < text.len() && text[at] != b'"' {
-                at += 1 + usize::from(text[at] == b'\\');
+    let mut position = 0;
+    while position < text.len() {
+        let start = position;
+        if text[position] == b'"' {
+            position += 1;
+            while position < text.len() && text[position] != b'"' {
+                position += 1 + usize::from(text[position] == b'\\');
             }
-            at = (at + 1).min(text.len());
-        } else if text[at].is_ascii_alphanumeric() || text[at] == b'-' {
+            position = (position + 1).min(text.len());
+        } else if text[position].is_ascii_alphanumeric() || text[position] == b'-' {
             let inside = |b: u8| b.is_ascii_alphanumeric() || b"+-.".contains(&b);
-            while at < text.len() && inside(text[at]) {
-                at += 1;
+            while position < text.len() && inside(text[position]) {
+                position += 1;
             }
         } else {
-            at += 1;
+            position += 1;
             continue;
         }
-        found.push((start, at));
+        found.push((start, position));
     }
     found
 }
@@ -139,42 +139,42 @@ impl Change {
             (from, (from + length.index(64)).min(bytes.len()))
         };
         match self {
-            Self::Token(at, word) => {
-                let all = tokens(bytes);
-                if !all.is_empty() {
-                    let (from, to) = *at.get(&all);
+            Self::Token(index, word) => {
+                let ranges = tokens(bytes);
+                if !ranges.is_empty() {
+                    let (from, to) = *index.get(&ranges);
                     bytes.splice(from..to, word.get(&WORDS).bytes());
                 }
             }
-            Self::Insert(at, word) => {
-                let at = place(at, bytes);
-                bytes.splice(at..at, word.get(&WORDS).bytes());
+            Self::Insert(index, word) => {
+                let offset = place(index, bytes);
+                bytes.splice(offset..offset, word.get(&WORDS).bytes());
             }
-            Self::Byte(at, byte) => {
+            Self::Byte(index, byte) => {
                 if !bytes.is_empty() {
-                    let at = at.index(bytes.len());
-                    bytes[at] = *byte;
+                    let offset = index.index(bytes.len());
+                    bytes[offset] = *byte;
                 }
             }
             Self::Cut(from, length) => {
                 let (from, to) = piece(from, length, bytes);
                 bytes.drain(from..to);
             }
-            Self::Copy(from, length, at) => {
+            Self::Copy(from, length, index) => {
                 let (from, to) = piece(from, length, bytes);
                 let copy = bytes[from..to].to_vec();
-                let at = place(at, bytes);
-                bytes.splice(at..at, copy);
+                let offset = place(index, bytes);
+                bytes.splice(offset..offset, copy);
             }
-            Self::Nest(at, depth) => {
+            Self::Nest(index, depth) => {
                 let depth = usize::from(*depth);
-                let at = place(at, bytes);
+                let offset = place(index, bytes);
                 let nest = "[".repeat(depth) + &"]".repeat(depth);
-                bytes.splice(at..at, nest.bytes());
+                bytes.splice(offset..offset, nest.bytes());
             }
-            Self::Truncate(at) => {
-                let at = place(at, bytes);
-                bytes.truncate(at);
+            Self::Truncate(index) => {
+                let offset = place(index, bytes);
+                bytes.truncate(offset);
             }
         }
     }

@@ -32,8 +32,8 @@ pub(super) fn drift(bench: &Bench) -> Option<Markup> {
         zero: 0.0,
     };
     let mut places: Vec<Vec<f64>> = vec![Vec::new(); PLACES];
-    for (at, time) in &points {
-        let place = (at / end * (PLACES - 1) as f64) as usize;
+    for (moment, time) in &points {
+        let place = (moment / end * (PLACES - 1) as f64) as usize;
         if let Some(values) = places.get_mut(place.min(PLACES - 1)) {
             values.push(time / median);
         }

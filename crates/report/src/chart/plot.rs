@@ -99,7 +99,7 @@ pub(crate) fn n(value: f64) -> String {
     let text = format!("{value:.1}");
     match text.strip_suffix(".0") {
         Some("-0") => "0".to_owned(),
-        Some(whole) => whole.to_owned(),
+        Some(integer) => integer.to_owned(),
         None => text,
     }
 }

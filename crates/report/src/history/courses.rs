@@ -119,14 +119,14 @@ impl Courses {
         }
         // For each list of gaps, whether the list contains a complete run.
         let mut holed: HashMap<u32, bool> = HashMap::new();
-        let whole = |run: &u32| line.runs[*run as usize].whole;
+        let is_complete = |run: &u32| line.runs[*run as usize].whole;
         let runs = line.runs.len() as u32;
-        let first = (0..runs).find(whole).unwrap_or(0);
-        let last = (0..runs).rfind(whole).unwrap_or(0);
+        let first = (0..runs).find(is_complete).unwrap_or(0);
+        let last = (0..runs).rfind(is_complete).unwrap_or(0);
         for course in course_of.iter_mut().flatten() {
             let holed = *holed.entry(course.gaps).or_insert_with(|| {
                 let mut list = gaps.list(course.gaps).into_iter();
-                list.any(|(from, runs)| (from..from + runs).any(|run| whole(&run)))
+                list.any(|(from, runs)| (from..from + runs).any(|run| is_complete(&run)))
             });
             course.is_common = !holed && course.first <= first && course.last >= last;
             if course.spans.len() > 1 || !course.is_common {
@@ -143,14 +143,14 @@ impl Courses {
 impl Course {
     /// Returns the classes of a case by run, without undecided ones.
     fn classes(&self, gaps: &Gaps, line: &Line<'_>, looks: &Looks) -> Vec<(u32, Class)> {
-        let mut all: Vec<Option<u32>> = vec![None; line.runs.len()];
+        let mut looks_by_run: Vec<Option<u32>> = vec![None; line.runs.len()];
         for (from, end, look) in self.ended() {
-            all[from as usize..end as usize].fill(Some(look));
+            looks_by_run[from as usize..end as usize].fill(Some(look));
         }
         for (from, runs) in gaps.list(self.gaps) {
-            all[from as usize..(from + runs) as usize].fill(None);
+            looks_by_run[from as usize..(from + runs) as usize].fill(None);
         }
-        let each = all.iter().zip(&line.runs).zip(0..);
+        let each = looks_by_run.iter().zip(&line.runs).zip(0..);
         each.filter_map(|((look, run), index)| match look {
             Some(look) if looks.is_undecided(*look) => None,
             Some(look) => Some((index, looks.class(*look))),

@@ -110,7 +110,7 @@ pub(super) fn runs(model: &Model<'_>) -> Value {
 /// before, and the rest.
 pub(super) fn cases(cases: &[Rc<str>], order: &[usize]) -> Value {
     let mut before: Vec<char> = Vec::new();
-    let all = order.iter().map(|case| {
+    let entries = order.iter().map(|case| {
         let id: Vec<char> = cases[*case].chars().collect();
         let shared = id.iter().zip(&before).take_while(|(a, b)| a == b).count();
         let ending: String = id[shared..].iter().collect();
@@ -119,7 +119,7 @@ pub(super) fn cases(cases: &[Rc<str>], order: &[usize]) -> Value {
         before = id;
         json!([shared, ending])
     });
-    all.collect()
+    entries.collect()
 }
 
 /// Files of case histories. Most cases of a file have the same history, and share its text.
@@ -233,13 +233,18 @@ fn entry_data(entry: &TriageEntry) -> Value {
 pub(super) fn times(id: &str, history: &History, series: &[&Series]) -> String {
     let series_data: Vec<Value> = series
         .iter()
-        .map(|one| {
+        .map(|series| {
             let on = history
-                .machine(one.machine)
+                .machine(series.machine)
                 .map(machine)
                 .unwrap_or_default();
-            let times: Vec<Value> = one.times.iter().map(timed).collect();
-            json!([one.line, on, one.ruler.clone().unwrap_or_default(), times])
+            let times: Vec<Value> = series.times.iter().map(timed).collect();
+            json!([
+                series.line,
+                on,
+                series.ruler.clone().unwrap_or_default(),
+                times
+            ])
         })
         .collect();
     json!([id, series_data]).to_string()
@@ -314,7 +319,7 @@ fn number(value: f64) -> Value {
     let digits = usize::try_from(digits.min(12)).unwrap_or(0);
     let short = trimmed(format!("{value:.digits$}"));
     match short.parse::<i64>() {
-        Ok(whole) => json!(whole),
+        Ok(integer) => json!(integer),
         Err(_) => short.parse::<f64>().map_or(json!(0), |n| json!(n)),
     }
 }

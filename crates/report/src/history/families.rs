@@ -44,7 +44,7 @@ fn area(id: &str) -> &str {
 fn family(id: &str) -> &str {
     match before_axes(id) {
         None | Some("") => area(id),
-        Some(all) if all == id => id.rsplit_once('/').map_or(id, |(family, _)| family),
+        Some(before) if before == id => id.rsplit_once('/').map_or(id, |(family, _)| family),
         Some(some) => some,
     }
 }

@@ -16,16 +16,16 @@ const COLUMNS: usize = 8;
 /// Returns the runs that represent the versions: the last complete run of each version, or all complete runs
 /// if the driver never changed.
 fn columns(line: &Line<'_>) -> Vec<usize> {
-    let whole: Vec<usize> = (0..line.runs.len())
+    let complete_runs: Vec<usize> = (0..line.runs.len())
         .filter(|run| line.runs[*run].whole)
         .collect();
     let version = |run: &usize| line.runs[*run].part.adapter.shown_version();
-    let stretches = whole.chunk_by(|a, b| version(a) == version(b));
+    let stretches = complete_runs.chunk_by(|a, b| version(a) == version(b));
     let last: Vec<usize> = stretches
         .filter_map(|stretch| stretch.last().copied())
         .collect();
     match last.len() {
-        1 => whole,
+        1 => complete_runs,
         _ => last,
     }
 }
@@ -128,13 +128,13 @@ fn shade(score: Score) -> Option<String> {
 /// Returns the scores of all complete runs for the script, newest first: the run's index in the timeline,
 /// then four numbers for each area: good cases and all cases, first of the common set and then of the run.
 pub(super) fn data(families: &Families, timeline: &Timeline<'_>) -> Value {
-    let whole = (0..timeline.line.runs.len())
+    let complete_runs = (0..timeline.line.runs.len())
         .rev()
         .filter(|run| timeline.line.runs[*run].whole);
     let areas: Vec<Vec<usize>> = (0..families.areas.len())
         .map(|area| of_area(families, area))
         .collect();
-    let rows = whole.map(|run| {
+    let rows = complete_runs.map(|run| {
         let cells = areas.iter().map(|family| {
             let both = timeline.scores.sum(family.iter().copied(), run);
             match both.own.of {

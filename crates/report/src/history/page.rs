@@ -143,9 +143,9 @@ fn families(model: &Model<'_>) -> Markup {
     let scores: Vec<Vec<Vec<Score>>> = (0..model.families.names.len())
         .map(|family| {
             let scores_of = |timeline: &Timeline<'_>| {
-                let whole =
+                let complete_runs =
                     (0..timeline.line.runs.len()).filter(|index| timeline.line.runs[*index].whole);
-                whole
+                complete_runs
                     .map(|index| timeline.scores.common(family, index))
                     .collect()
             };

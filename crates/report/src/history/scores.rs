@@ -37,13 +37,13 @@ impl Scores {
         families: &Families,
         looks: &Looks,
     ) {
-        let whole = |run: u32| line.runs[run as usize].whole;
+        let is_complete = |run: u32| line.runs[run as usize].whole;
         for (course, family) in courses.of.iter().zip(&families.of) {
             let Some(course) = course.as_ref().filter(|course| course.is_common) else {
                 continue;
             };
             let decided = |(from, end, look): (u32, u32, u32)| {
-                looks.class(look) != Class::Missing || !(from..end).any(whole)
+                looks.class(look) != Class::Missing || !(from..end).any(is_complete)
             };
             if course.ended().all(decided) {
                 for (from, end, look) in course.ended() {

@@ -26,8 +26,8 @@ pub(super) fn sparkline(scores: &[Score]) -> Markup {
     let span = (high - low).max(1) as f64;
     let points: Vec<usize> = match scores.len() {
         0..=POINTS => scores.iter().map(good).collect(),
-        all => (0..POINTS)
-            .map(|i| &scores[i * all / POINTS..(i + 1) * all / POINTS])
+        count => (0..POINTS)
+            .map(|i| &scores[i * count / POINTS..(i + 1) * count / POINTS])
             .map(|part| part.iter().map(good).min().unwrap_or(0))
             .collect(),
     };

@@ -44,7 +44,7 @@ pub(super) fn read(
     places: &Places<'_>,
     states: &TriageStates,
 ) -> Result<Vec<Series>, HistoryError> {
-    let mut all: Vec<Series> = Vec::new();
+    let mut series_list: Vec<Series> = Vec::new();
     let mut measured = Vec::new();
     for key in history.series_keys()? {
         let line = places.timelines.iter().position(|l| l.name == key.timeline);
@@ -54,10 +54,10 @@ pub(super) fn read(
             for time in TIMES {
                 let point = |p: &TimePoint| Some((places.of(p.run)?, p.times.point(time)?));
                 let (runs, points): (Vec<_>, Vec<_>) = points.iter().filter_map(point).unzip();
-                let said = said.iter().filter(|(of, ..)| *of == time);
+                let said = said.iter().filter(|(kind, ..)| *kind == time);
                 if !points.is_empty() {
                     measured.push(Measured {
-                        series: all.len(),
+                        series: series_list.len(),
                         time,
                         runs,
                         points,
@@ -65,7 +65,7 @@ pub(super) fn read(
                     });
                 }
             }
-            all.push(Series {
+            series_list.push(Series {
                 case: key.case.number() as usize - 1,
                 line,
                 machine: key.machine,
@@ -77,10 +77,10 @@ pub(super) fn read(
     // Finding the changes takes nearly all of the time. All points were checked, so no error can occur.
     let found = on_threads(&measured, Measured::timed);
     for (key, timed) in measured.iter().zip(found) {
-        all[key.series].times.extend(timed);
+        series_list[key.series].times.extend(timed);
     }
-    all.retain(|series| !series.times.is_empty());
-    Ok(all)
+    series_list.retain(|series| !series.times.is_empty());
+    Ok(series_list)
 }
 
 /// One kind of time of a series.
@@ -111,7 +111,7 @@ impl Measured<'_> {
     /// Returns the entry about the first run after a change, else the entry about the last run within its
     /// bounds.
     fn state(&self, change: &ChangePoint) -> Option<TriageEntry> {
-        let [after, by] = change.between.map(|at| self.runs.get(at).copied());
+        let [after, by] = change.between.map(|index| self.runs.get(index).copied());
         let first = self.runs.get(change.index).copied();
         let ranked = self.said.iter().filter_map(|(place, entry)| {
             let is_first = first == Some(*place);

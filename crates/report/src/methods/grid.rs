@@ -120,13 +120,13 @@ mod tests {
         let methods = Methods::of(&run).expect("it has methods");
         let shown = methods.shown();
         let html = picture(&shown).into_string();
-        for due in [
+        for expected in [
             "class=\"e0\" title=\"alpha 0.1",
             "class=\"e2\" title=\"alpha 0.2: 0.5",
             "class=\"e3 turn\" title=\"alpha 0.4",
             "class=\"e4\" title=\"alpha 0.8",
         ] {
-            assert!(html.contains(due), "{due}: {html}");
+            assert!(html.contains(expected), "{expected}: {html}");
         }
         assert_eq!(html.matches(" turn\" title").count(), 1);
         assert_eq!(

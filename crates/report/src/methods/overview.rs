@@ -85,9 +85,9 @@ impl<'s, 'a> Answer<'s, 'a> {
     /// The scene in which the most methods were timed, with these methods; `None` if no method was timed.
     fn fullest(&self) -> Option<(&'s Shown<'s, 'a>, &[Timed<'a>])> {
         let timed = self.timed.iter().enumerate();
-        let fullest = timed.max_by_key(|(place, all)| (all.len(), std::cmp::Reverse(*place)));
-        let (place, all) = fullest.filter(|(_, all)| !all.is_empty())?;
-        Some((self.scenes[place], all))
+        let fullest = timed.max_by_key(|(place, points)| (points.len(), std::cmp::Reverse(*place)));
+        let (place, points) = fullest.filter(|(_, points)| !points.is_empty())?;
+        Some((self.scenes[place], points))
     }
 }
 
@@ -124,8 +124,9 @@ fn card(methods: &Methods<'_>, number: usize, found: &Answer<'_, '_>) -> Markup 
         .timed
         .iter()
         .enumerate()
-        .flat_map(|(scene, all)| {
-            all.iter()
+        .flat_map(|(scene, timed)| {
+            timed
+                .iter()
                 .map(move |t| json!([t.method, scene, t.adapter, t.time, t.error]))
         })
         .collect();
@@ -134,11 +135,11 @@ fn card(methods: &Methods<'_>, number: usize, found: &Answer<'_, '_>) -> Markup 
         article.card data-points=(json!(points)) {
             h3 { a href={ "#q" (number) } { (super::name::title(found.question.name)) } }
             @match fullest {
-                Some((scene, all)) => {
+                Some((scene, points)) => {
                     @for (adapter, _) in methods.adapters.iter().enumerate() {
                         div class=(if adapter == 0 { "on" } else { "on off" }) data-on=(adapter) {
-                            (chart(found.question, scene, all, adapter))
-                            p.answer { (answer(all, adapter)) }
+                            (chart(found.question, scene, points, adapter))
+                            p.answer { (answer(points, adapter)) }
                         }
                     }
                 }
@@ -176,14 +177,14 @@ fn timed<'a>(shown: &Shown<'_, 'a>) -> Vec<Timed<'a>> {
 fn chart(
     question: &Question<'_>,
     shown: &Shown<'_, '_>,
-    all: &[Timed<'_>],
+    points: &[Timed<'_>],
     adapter: usize,
 ) -> Markup {
-    let positive = all.iter().map(|t| t.error).filter(|error| *error > 0.0);
+    let positive = points.iter().map(|t| t.error).filter(|error| *error > 0.0);
     let plot = Plot {
-        x: Scale::log(all.iter().map(|t| t.time)),
+        x: Scale::log(points.iter().map(|t| t.time)),
         y: Scale::log(positive.chain([super::breaks::LIMIT])),
-        zero: zero_band(all.iter().map(|t| t.error)),
+        zero: zero_band(points.iter().map(|t| t.error)),
     };
     let small = |(x, y): (f64, f64)| {
         let [width, height] = SIZE;
@@ -192,7 +193,7 @@ fn chart(
             (y - TOP) / (BOTTOM - TOP) * height,
         )
     };
-    let here: Vec<&Timed<'_>> = all.iter().filter(|t| t.adapter == adapter).collect();
+    let here: Vec<&Timed<'_>> = points.iter().filter(|t| t.adapter == adapter).collect();
     let costs: Vec<(f64, f64)> = here.iter().map(|t| (t.time, t.error)).collect();
     let line: Vec<(f64, f64)> = steps(&plot, &costs).into_iter().map(small).collect();
     let (_, level) = small((LEFT, plot.y(super::breaks::LIMIT)));
@@ -206,7 +207,7 @@ fn chart(
     );
     html! {
         svg.chart.small viewBox=(view) role="img" {
-            title { (shown.scene.name) ": " (answer(all, adapter)) }
+            title { (shown.scene.name) ": " (answer(points, adapter)) }
             rect.box x="0" y="0" width=(n(width)) height=(n(height)) {}
             path.level.one d={ "M0 " (n(level)) "H" (n(width)) } {}
             @if costs.len() > 1 { path.front d=(polyline(&line)) {} }
@@ -226,8 +227,8 @@ fn chart(
 
 /// Returns the recommended methods: the most accurate one within a short time, and the most accurate one
 /// overall.
-fn answer(all: &[Timed<'_>], adapter: usize) -> String {
-    let here: Vec<&Timed<'_>> = all.iter().filter(|t| t.adapter == adapter).collect();
+fn answer(points: &[Timed<'_>], adapter: usize) -> String {
+    let here: Vec<&Timed<'_>> = points.iter().filter(|t| t.adapter == adapter).collect();
     let costs: Vec<(f64, f64)> = here.iter().map(|t| (t.time, t.error)).collect();
     let leaders: Vec<&Timed<'_>> = front(&costs).into_iter().map(|i| here[i]).collect();
     let (Some(fastest), Some(best)) = (leaders.first(), leaders.last()) else {
@@ -268,13 +269,13 @@ mod tests {
 
     #[test]
     fn the_answer_is_what_no_other_method_beats() {
-        let all = [
+        let points = [
             timed("rough", 0.0002, 0.2),
             timed("sorted", 0.0009, 0.0018),
             timed("slow", 0.02, 0.1),
             timed("lists", 0.01, 0.0),
         ];
-        let text = answer(&all, 0);
+        let text = answer(&points, 0);
         assert_eq!(
             text,
             format!(
@@ -283,9 +284,9 @@ mod tests {
                 duration(0.01)
             )
         );
-        assert_eq!(answer(&all, 1), "Not timed on this adapter.");
-        assert!(answer(&all[3..], 0).starts_with("exact: lists"));
-        assert!(answer(&all[2..], 0).starts_with("exact: lists"));
+        assert_eq!(answer(&points, 1), "Not timed on this adapter.");
+        assert!(answer(&points[3..], 0).starts_with("exact: lists"));
+        assert!(answer(&points[2..], 0).starts_with("exact: lists"));
         let slow = [timed("a", 0.002, 0.5), timed("b", 0.004, 0.1)];
         assert!(answer(&slow, 0).starts_with("fastest: a, "));
     }

@@ -203,8 +203,8 @@ fn beside(shown: &Shown<'_, '_>, between: &[[Setting<'_>; 2]]) -> Markup {
 
 /// Returns how each method of a question works, and where and why it fails.
 fn explained(question: &Question<'_>) -> Markup {
-    let of = |method: &&str| lessons(question.name).iter().find(|l| l.method == *method);
-    let known: Vec<&Lesson> = question.methods.iter().filter_map(of).collect();
+    let lesson_of = |method: &&str| lessons(question.name).iter().find(|l| l.method == *method);
+    let known: Vec<&Lesson> = question.methods.iter().filter_map(lesson_of).collect();
     html! {
         @if !known.is_empty() {
             details open {

@@ -143,15 +143,15 @@ fn at_setting(
         .iter()
         .map(|d| d.point.measured.method.as_str())
         .collect();
-    let at = setting.at();
+    let setting_text = setting.at();
     let about = match names.as_slice() {
-        [] => format!("No method was timed{at}."),
+        [] => format!("No method was timed{setting_text}."),
         [one] if line.len() == 1 => {
-            format!("Only {one} was timed{at}: there is nothing to compare.")
+            format!("Only {one} was timed{setting_text}: there is nothing to compare.")
         }
-        [name] => format!("No method is faster or more accurate than {name}{at}."),
+        [name] => format!("No method is faster or more accurate than {name}{setting_text}."),
         several => format!(
-            "The front{at}, from fast to accurate: {}.",
+            "The front{setting_text}, from fast to accurate: {}.",
             several.join(", ")
         ),
     };
@@ -197,7 +197,7 @@ fn at_setting(
                         path.spread d={ "M" (n(from)) " " (n(y - 3.0)) "v6M" (n(from)) " " (n(y)) "H" (n(to)) "M" (n(to)) " " (n(y - 3.0)) "v6" } {}
                     }
                 }
-                (marker(dot.style, place(dot), false, &format!("{}{at}: RMSE {}, {}", m.method, share(dot.error), with_interval(dot.time, interval))))
+                (marker(dot.style, place(dot), false, &format!("{}{setting_text}: RMSE {}, {}", m.method, share(dot.error), with_interval(dot.time, interval))))
                 @if let Some((x, y)) = label {
                     text.label x=(n(*x)) y=(n(*y)) { (m.method) }
                 }

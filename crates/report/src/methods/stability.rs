@@ -56,9 +56,9 @@ pub(super) fn found<'a>(shown: &Shown<'_, 'a>) -> Vec<CurveBreak<'a>> {
     let (methods, scene) = (shown.methods, shown.scene);
     let mut result: Vec<CurveBreak<'a>> = Vec::new();
     for parameter in parameters(scene) {
-        let all = curves(scene, parameter);
-        let log = matches!(scale(&all), Scale::Log(..));
-        for series in all {
+        let series_list = curves(scene, parameter);
+        let log = matches!(scale(&series_list), Scale::Log(..));
+        for series in series_list {
             let first = result.len();
             for (index, adapter) in methods.adapters.iter().enumerate() {
                 let curve = series.curve(index);

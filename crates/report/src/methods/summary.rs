@@ -44,8 +44,8 @@ fn best<'a>(methods: &Methods<'a>) -> Vec<Best<'a>> {
             continue;
         };
         for kind in methods.kinds() {
-            let all: Vec<_> = candidates(methods, shown.scene, &setting, kind).collect();
-            let Some((series, _, error)) = accurate(&all) else {
+            let timed: Vec<_> = candidates(methods, shown.scene, &setting, kind).collect();
+            let Some((series, _, error)) = accurate(&timed) else {
                 continue;
             };
             found.push(Best {
@@ -54,7 +54,7 @@ fn best<'a>(methods: &Methods<'a>) -> Vec<Best<'a>> {
                 setting: setting.clone(),
                 kind,
                 accurate: (series.method, *error),
-                fast: fast(methods, &all),
+                fast: fast(methods, &timed),
             });
         }
     }

@@ -11,7 +11,7 @@ mod causes;
 mod changed;
 mod consensus;
 mod data;
-mod detail;
+pub(crate) mod detail;
 mod facts;
 mod findings;
 mod matrix;

@@ -30,11 +30,11 @@ pub struct RunReports {
     pub methods: Option<PathBuf>,
     /// The JUnit file, for continuous integration.
     pub junit: PathBuf,
-    /// The run in the Common Test Report Format.
-    pub ctrf: PathBuf,
+    /// The run in the Common Test Report Format, if asked for.
+    pub ctrf: Option<PathBuf>,
     /// The summary in Markdown for a job's page, of less than 1,000,000 bytes.
     pub summary: PathBuf,
-    /// deqp-runner's `results.csv`, one per adapter.
+    /// deqp-runner's `results.csv`, one per adapter, if asked for.
     pub results: Vec<PathBuf>,
 }
 
@@ -45,7 +45,7 @@ impl RunReports {
             Some(&self.html),
             self.methods.as_ref(),
             Some(&self.junit),
-            Some(&self.ctrf),
+            self.ctrf.as_ref(),
             Some(&self.summary),
         ];
         let files = single.into_iter().flatten().chain(&self.results);
@@ -53,17 +53,42 @@ impl RunReports {
     }
 }
 
-/// Reads the run in a folder and writes its reports as [`write_run_with_news`] does.
+/// Files for other test systems. They repeat what `junit.xml` says, and are as large as a quarter of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct OtherFormats {
+    /// `ctrf.json`, in the Common Test Report Format.
+    pub ctrf: bool,
+    /// `results/<adapter>.csv`, in deqp-runner's format.
+    pub deqp: bool,
+}
+
+impl OtherFormats {
+    /// Every format.
+    pub const ALL: Self = Self {
+        ctrf: true,
+        deqp: true,
+    };
+
+    /// These formats and any that the folder already has, so that no file in it is older than the others.
+    fn with_those_of(self, folder: &Path) -> Self {
+        Self {
+            ctrf: self.ctrf || folder.join(CTRF).exists(),
+            deqp: self.deqp || folder.join(deqp::FOLDER).exists(),
+        }
+    }
+}
+
+/// Reads the run in a folder and writes its reports in every format, as [`write_run_with_news`] does.
 ///
 /// # Errors
 /// Returns an error if the folder holds no readable run, or cannot be written to.
 pub fn write(folder: &Path) -> Result<RunReports, ReportError> {
-    write_run_with_news(folder, &Run::read(folder)?, None)
+    write_run_with_news(folder, &Run::read(folder)?, None, OtherFormats::ALL)
 }
 
-/// Writes the reports of a run into its folder: `index.html`, `junit.xml`, `ctrf.json`, `summary.md`,
-/// `results/<adapter>.csv`, and `methods.html` if the run has records of methods. Each is written to a
-/// temporary file and then renamed, so that a reader never sees half a report.
+/// Writes the reports of a run into its folder: `index.html`, `junit.xml`, `summary.md`, `methods.html` if the
+/// run has records of methods, and the other formats that are asked for or already there. Each is written to
+/// a temporary file and then renamed, so that a reader never sees half a report.
 ///
 /// The page and the summary of a run that was compared with the last run tell news first. [`News::settle`] gives the run in
 /// which what triage settled does not count.
@@ -75,6 +100,7 @@ pub fn write_run_with_news(
     folder: &Path,
     run: &Run,
     news: Option<&News>,
+    formats: OtherFormats,
 ) -> Result<RunReports, ReportError> {
     let found = Methods::of(run);
     let dead = Dead::read(folder)?;
@@ -84,7 +110,15 @@ pub fn write_run_with_news(
             let page = index::page(folder, run, &dead, found.as_ref(), news);
             replace(folder, HTML, page.as_bytes())
         },
-        || others(folder, run, found.as_ref(), news),
+        || {
+            others(
+                folder,
+                run,
+                found.as_ref(),
+                news,
+                formats.with_those_of(folder),
+            )
+        },
     );
     Ok(RunReports {
         html: html?,
@@ -98,6 +132,7 @@ fn others(
     run: &Run,
     found: Option<&Methods<'_>>,
     news: Option<&News>,
+    formats: OtherFormats,
 ) -> Result<RunReports, ReportError> {
     let methods = match found {
         Some(found) => {
@@ -108,9 +143,17 @@ fn others(
     };
     let grid = Grid::new(run);
     let junit = replace(folder, JUNIT, junit::xml(run, &grid)?.as_bytes())?;
-    let ctrf = replace(folder, CTRF, &ctrf::json(run, &grid)?)?;
+    let ctrf = if formats.ctrf {
+        Some(replace(folder, CTRF, &ctrf::json(run, &grid)?)?)
+    } else {
+        None
+    };
     let summary = replace(folder, SUMMARY, markdown::summary(run, news).as_bytes())?;
-    let results = lists(folder, run, &grid)?;
+    let results = if formats.deqp {
+        lists(folder, run, &grid)?
+    } else {
+        Vec::new()
+    };
     Ok(RunReports {
         html: folder.join(HTML),
         methods,

@@ -173,8 +173,8 @@ fn files(folder: &Path) -> Result<BTreeSet<PathBuf>, ReportError> {
 
 /// Returns a folder's name in the site, which is unique and has only plain letters.
 fn name(folder: &Path, taken: &mut BTreeSet<String>) -> String {
-    let whole = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
-    let last = whole
+    let absolute = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
+    let last = absolute
         .file_name()
         .map_or_else(String::new, |n| n.to_string_lossy().into_owned());
     file_name(&last, "", taken)

@@ -5,10 +5,12 @@ use crate::page::Page;
 use crate::table::Table;
 use maud::{Markup, html};
 
+/// The folder of the page that tests the visitor's device.
+pub(super) const PAGE: &str = "page";
 const STYLE: &str = include_str!("site.css");
 
 /// Returns the page.
-pub(super) fn page(runs: &[Recorded]) -> String {
+pub(super) fn page(runs: &[Recorded], tests_visitor: bool) -> String {
     let shown = runs.iter().find(|run| !run.galleries().is_empty());
     let main = html! {
         header {
@@ -16,7 +18,8 @@ pub(super) fn page(runs: &[Recorded]) -> String {
             p.lead { "Conformance, speed and accuracy of graphics drivers' per-fragment operations." }
             nav aria-label="Parts of the page" {
                 a href="#reports" { "Reports" } " "
-                @if shown.is_some() { a href="#cases" { "Cases" } }
+                @if shown.is_some() { a href="#cases" { "Cases" } " " }
+                @if tests_visitor { a href={ (PAGE) "/index.html" } { "Test this device" } }
             }
         }
         (reports(runs))

@@ -1,7 +1,7 @@
 //! Writes a site into a temporary folder, and renames the folder when it is complete.
 
 use super::runs;
-use super::start;
+use super::start::{self, PAGE};
 use crate::error::ReportError;
 use crate::staged::{Kind, Staged, WrittenFolder};
 use etalon_record::overlap;
@@ -14,11 +14,14 @@ pub const SITE_FILE: &str = "site.json";
 /// The kind of a site's folder. Earlier versions wrote `docs`.
 const FOLDER: Kind = Kind {
     mark: SITE_FILE,
-    top: &["index.html", "runs", "docs"],
+    top: &["index.html", "runs", "docs", PAGE],
     names: ["site", "site"],
 };
 
-/// Writes a site of recorded folders. If `replace` is true, an earlier site in the folder is replaced, unless
+/// The file that shows that a folder is such a page.
+const MODULE: &str = "etalon.wasm";
+
+/// Writes a site of recorded folders, and of a page for the visitor's device if there is one. If `replace` is true, an earlier site in the folder is replaced, unless
 /// an error is returned.
 ///
 /// # Errors
@@ -27,6 +30,7 @@ const FOLDER: Kind = Kind {
 pub fn write_site(
     to: &Path,
     folders: &[PathBuf],
+    page: Option<&Path>,
     replace: bool,
 ) -> Result<WrittenFolder, ReportError> {
     let mut site = Staged::begin(to, &FOLDER, replace)?;
@@ -40,8 +44,14 @@ pub fn write_site(
             site.write(to, &read(&run.folder.join(file))?)?;
         }
     }
+    if let Some(page) = page {
+        apart(to, page)?;
+        for file in page_files(page)? {
+            site.write(Path::new(PAGE).join(&file), &read(&page.join(&file))?)?;
+        }
+    }
     let about = json!({ "etalon": "site", "format": 1 });
-    site.finish(start::page(&runs).as_bytes(), about)
+    site.finish(start::page(&runs, page.is_some()).as_bytes(), about)
 }
 
 /// Refuses a site that contains one of its sources or is inside it: replacing the site would delete the source.
@@ -53,6 +63,25 @@ fn apart(to: &Path, folder: &Path) -> Result<(), ReportError> {
         });
     }
     Ok(())
+}
+
+/// Returns the names of the files of a page that `ci/page` built.
+fn page_files(page: &Path) -> Result<Vec<PathBuf>, ReportError> {
+    if !page.join(MODULE).is_file() {
+        return Err(ReportError::NoPage {
+            path: page.to_owned(),
+        });
+    }
+    let mut names = Vec::new();
+    for entry in fs::read_dir(page).map_err(ReportError::unread(page))? {
+        let name = PathBuf::from(entry.map_err(ReportError::unread(page))?.file_name());
+        let extension = name.extension().and_then(|extension| extension.to_str());
+        if extension.is_some_and(|e| ["css", "html", "js", "wasm"].contains(&e)) {
+            names.push(name);
+        }
+    }
+    names.sort();
+    Ok(names)
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, ReportError> {

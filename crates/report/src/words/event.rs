@@ -467,8 +467,8 @@ fn primitives(event: &Event, count: usize, viewport: Option<[f32; 4]>) -> String
                 .unwrap_or_default()
                 .map(|v| v.to_string())
                 .join(",");
-            let whole = primitives.len() == count;
-            let who = if whole {
+            let is_complete = primitives.len() == count;
+            let who = if is_complete {
                 String::new()
             } else {
                 format!(" with {who}")

@@ -24,10 +24,20 @@ pub(crate) fn process_end(end: &ProcessEnd) -> String {
         }
     }
     if let Some(exit) = end.exit {
-        text += &format!(", exit status {exit}");
+        text += &format!(", exit status {}", exit_status(exit));
     }
     text += &format!(", after {}.", duration(end.seconds));
     text
+}
+
+/// Returns an exit status as its system writes it: Windows exceptions are negative, and known by their
+/// hexadecimal codes.
+fn exit_status(exit: i32) -> String {
+    if exit < 0 {
+        format!("0x{exit:08X}")
+    } else {
+        exit.to_string()
+    }
 }
 
 /// Returns the name of a signal that ends processes, by its number on most Linux machines.
@@ -90,6 +100,9 @@ mod tests {
         (end.kind, end.signal) = (LossKind::Garbage, Some(-7));
         (end.exit, end.seconds) = (Some(3), 20.0);
         let text = "The process wrote an invalid message, ended by signal -7, exit status 3, after 20.00 s.";
+        assert_eq!(process_end(&end), text);
+        (end.signal, end.exit) = (None, Some(0xC000_0005_u32 as i32));
+        let text = "The process wrote an invalid message, exit status 0xC0000005, after 20.00 s.";
         assert_eq!(process_end(&end), text);
         end.seconds = 1e300;
         assert!(process_end(&end).len() < 120);

@@ -46,9 +46,9 @@ pub(crate) fn operations(story: &Story) -> Vec<ToldLine> {
     lines
 }
 
-fn line(at: String, operation: &str, detail: String) -> ToldLine {
+fn line(place: String, operation: &str, detail: String) -> ToldLine {
     ToldLine {
-        at,
+        at: place,
         operation: operation.to_owned(),
         detail,
         citation: None,

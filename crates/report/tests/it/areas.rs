@@ -3,7 +3,7 @@
 use crate::synthetic::{self, adapter, header};
 use etalon_frame::Api;
 use etalon_record::{Expected, Record, Run, RunWriter, Verdict};
-use etalon_report::{News, NewsEntry, Since, write, write_run_with_news};
+use etalon_report::{News, NewsEntry, OtherFormats, Since, write, write_run_with_news};
 use roxmltree::{Document, Node};
 use std::fs;
 use std::path::Path;
@@ -31,8 +31,8 @@ fn adapters() -> Vec<(String, Api)> {
 /// 4 cases that it draws right, 5 that it cannot draw, in each of three areas.
 pub(crate) fn write_twenty(folder: &Path) {
     let names = adapters();
-    let of = names.iter().map(|(name, api)| adapter(name, *api));
-    let mut writer = RunWriter::create(folder, &header(3 * 14, of.collect())).unwrap();
+    let adapters = names.iter().map(|(name, api)| adapter(name, *api));
+    let mut writer = RunWriter::create(folder, &header(3 * 14, adapters.collect())).unwrap();
     for (name, _) in &names {
         for area in ["blend", "depth", "multisample"] {
             for number in 0..14 {
@@ -57,8 +57,8 @@ pub(crate) fn write_twenty(folder: &Path) {
 /// The tables of a class, as XML.
 fn tables(html: &str, class: &str) -> Vec<String> {
     let start = format!("<table class=\"{class}");
-    let tables = html.match_indices(&start).map(|(at, _)| {
-        let (table, _) = html[at..].split_once("</table>").unwrap();
+    let tables = html.match_indices(&start).map(|(offset, _)| {
+        let (table, _) = html[offset..].split_once("</table>").unwrap();
         format!("{}</table>", table.replace("<wbr>", ""))
     });
     tables.collect()
@@ -220,7 +220,8 @@ fn a_page_tells_what_changed_what_is_new_what_is_known_and_what_was_not_drawn() 
             .collect(),
         ..News::default()
     };
-    let written = write_run_with_news(folder.path(), &run, Some(&news)).unwrap();
+    let written =
+        write_run_with_news(folder.path(), &run, Some(&news), OtherFormats::default()).unwrap();
     let html = fs::read_to_string(written.html).unwrap();
     let (_, body) = html.split_once("</style>").unwrap();
     let places = ORDER.map(|part| body.find(part).unwrap_or_else(|| panic!("{part}")));

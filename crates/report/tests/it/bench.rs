@@ -133,9 +133,9 @@ pub(crate) fn pages(folder: &Path) -> [PathBuf; 2] {
     let before = write(&folder.join("before"), &header(), 2e-3, Verdict::Pass);
     let after = write(&folder.join("after"), &header(), 2.2e-3, Verdict::Fail);
     let found = diff(&before, &after, Time::Wall);
-    let own = write_bench(&folder.join("after")).unwrap();
+    let page = write_bench(&folder.join("after")).unwrap();
     [
-        own.html,
+        page.html,
         write_diff(&folder.join("diff.html"), &found).unwrap(),
     ]
 }
@@ -188,16 +188,17 @@ fn files_for_dashboards_have_the_published_shape() {
     write(folder.path(), &header(), 2e-3, Verdict::Fail);
     let written = write_bench(folder.path()).unwrap();
     let text = fs::read(&written.bencher).unwrap();
-    let all: BTreeMap<String, BTreeMap<String, Metric>> = serde_json::from_slice(&text).unwrap();
-    assert_eq!(all.len(), 6, "a wrong picture has no time");
-    let metrics = &all["perf/clear/size=256 vulkan:lavapipe"];
+    let metrics_of: BTreeMap<String, BTreeMap<String, Metric>> =
+        serde_json::from_slice(&text).unwrap();
+    assert_eq!(metrics_of.len(), 6, "a wrong picture has no time");
+    let metrics = &metrics_of["perf/clear/size=256 vulkan:lavapipe"];
     let latency = &metrics["latency"];
     assert!((latency.value - 3e6).abs() < 1.0, "{}", latency.value);
     let (low, high) = (latency.lower_value.unwrap(), latency.upper_value.unwrap());
     assert!(low < latency.value && latency.value < high && high < 3.1e6);
     assert!(!metrics.contains_key("gpu-time"));
-    assert!(all["perf/clear/size=256 vulkan:card"].contains_key("gpu-time"));
-    for (name, measures) in &all {
+    assert!(metrics_of["perf/clear/size=256 vulkan:card"].contains_key("gpu-time"));
+    for (name, measures) in &metrics_of {
         assert!(name.len() <= 1024 && measures.keys().all(|m| m.len() <= 64));
     }
 

@@ -27,12 +27,12 @@ fn pages_work_in_a_browser() {
         check();
         println!("{name}: {:.1?}", start.elapsed());
     };
-    for (name, of) in index::CHECKS {
-        check(name, &|| of(&chromium, &path));
+    for (name, run) in index::CHECKS {
+        check(name, &|| run(&chromium, &path));
     }
     let methods_page = methods::write(folder.path());
-    for (name, of) in methods::CHECKS {
-        check(name, &|| of(&chromium, &methods_page));
+    for (name, run) in methods::CHECKS {
+        check(name, &|| run(&chromium, &methods_page));
     }
     check("hostile names", &|| {
         hostile::hostile_names_stay_text(&chromium)

@@ -6,9 +6,9 @@ use crate::synthetic::{self, adapter, header};
 use crate::verdicts::{every_verdict, record_all};
 use etalon_frame::{Api, Aspect};
 use etalon_record::{
-    Assertion, LossKind, ProcessEnd, Record, RunWriter, Verdict, selection_digest,
+    Assertion, LossKind, ProcessEnd, Record, Run, RunWriter, Verdict, selection_digest,
 };
-use etalon_report::{RunReports, write};
+use etalon_report::{OtherFormats, RunReports, write, write_run_with_news};
 use pulldown_cmark::{Event, Parser};
 use serde_json::Value;
 use std::fs;
@@ -96,7 +96,27 @@ fn text(path: &Path) -> String {
 }
 
 fn ctrf(written: &RunReports) -> Value {
-    serde_json::from_slice(&fs::read(&written.ctrf).unwrap()).unwrap()
+    serde_json::from_slice(&fs::read(written.ctrf.as_ref().unwrap()).unwrap()).unwrap()
+}
+
+#[test]
+fn files_for_other_systems_are_written_on_request_and_kept_up_to_date() {
+    let folder = tempfile::tempdir().unwrap();
+    every_verdict(folder.path());
+    let run = Run::read(folder.path()).unwrap();
+    let written = |formats| {
+        let written = write_run_with_news(folder.path(), &run, None, formats).unwrap();
+        (written.ctrf.is_some(), !written.results.is_empty())
+    };
+    assert_eq!(written(OtherFormats::default()), (false, false));
+    assert!(!folder.path().join("ctrf.json").exists());
+    let ctrf = OtherFormats {
+        ctrf: true,
+        deqp: false,
+    };
+    assert_eq!(written(ctrf), (true, false));
+    assert_eq!(written(OtherFormats::default()), (true, false));
+    assert_eq!(written(OtherFormats::ALL), (true, true));
 }
 
 #[test]
@@ -147,8 +167,8 @@ fn junit_is_read_by_another_parser() {
         }
         let complete = &report.suites.last().unwrap().cases[0];
         assert_eq!(complete.original_name, "the run is complete");
-        let whole = matches!(name, "every verdict" | "hostile" | "believable" | "methods");
-        assert_eq!(complete.status.is_success(), whole, "{name}");
+        let is_complete = matches!(name, "every verdict" | "hostile" | "believable" | "methods");
+        assert_eq!(complete.status.is_success(), is_complete, "{name}");
     }
 }
 
@@ -159,8 +179,8 @@ fn junit_tells_what_became_of_processes_and_repetitions() {
     let written = write(folder.path()).unwrap();
     let report = junit_parser::from_reader(Cursor::new(text(&written.junit))).unwrap();
     let case = |name: &str| {
-        let all = report.suites.iter().flat_map(|s| &s.cases);
-        let mut found = all.filter(|c| c.original_name == name);
+        let cases = report.suites.iter().flat_map(|s| &s.cases);
+        let mut found = cases.filter(|c| c.original_name == name);
         found.next().unwrap().clone()
     };
     let lost = case("depth/lost");
@@ -169,20 +189,20 @@ fn junit_tells_what_became_of_processes_and_repetitions() {
         lost.system_err.as_deref(),
         Some("LLVM ERROR\nout of registers")
     );
-    let told = &lost.status.error_as_ref().text;
-    assert!(told.contains("signal 6"), "{told}");
+    let error = &lost.status.error_as_ref().text;
+    assert!(error.contains("signal 6"), "{error}");
     assert!(
-        told.contains("only after depth/first, then depth/second"),
-        "{told}"
+        error.contains("only after depth/first, then depth/second"),
+        "{error}"
     );
     let repeated = case("depth/repeated");
     assert!(repeated.status.is_success());
-    let told = repeated.system_out.unwrap();
+    let output = repeated.system_out.unwrap();
     assert!(
-        told.contains("repeated in fresh processes: 4 × pass"),
-        "{told}"
+        output.contains("repeated in fresh processes: 4 × pass"),
+        "{output}"
     );
-    assert!(told.contains("validation: VUID-1: something"), "{told}");
+    assert!(output.contains("validation: VUID-1: something"), "{output}");
     assert!(case("depth/all/verdict=skipped").status.is_skipped());
     assert!(case("depth/all/verdict=not-supported").status.is_skipped());
 }
@@ -228,14 +248,14 @@ fn ctrf_statuses_are_those_of_the_table() {
     let tests = document["results"]["tests"].as_array().unwrap();
     for record in &records {
         let test = tests.iter().find(|t| t["name"] == record.case).unwrap();
-        let due = match record.verdict {
+        let status = match record.verdict {
             _ if record.unexpected() => "failed",
             Verdict::NotSupported | Verdict::Skipped => "skipped",
             Verdict::Measured => "other",
             _ if record.expected.is_some() => "other",
             _ => "passed",
         };
-        assert_eq!(test["status"], due, "{record:?}");
+        assert_eq!(test["status"], status, "{record:?}");
         assert_eq!(test["rawStatus"], record.verdict.name());
         assert_eq!(test["suite"][0], "gl:a");
         let flaky = record.verdict == Verdict::Flaky;
@@ -264,14 +284,14 @@ fn deqp_runner_reads_its_lists() {
         }
         // One test of the other format stands for the run itself.
         let tests = document["results"]["tests"].as_array().unwrap().len() - 1;
-        let due = match name {
+        let expected = match name {
             // deqp-runner cannot read two of the three ids, nor the third, which is empty.
             "hostile" => 0,
             // Two missing ones are listed as missing.
             "truncated" => 3,
             _ => tests,
         };
-        assert_eq!(lines, due, "{name}");
+        assert_eq!(lines, expected, "{name}");
     }
 }
 
@@ -283,7 +303,7 @@ fn deqp_runner_understands_every_status() {
     assert!(written.results[0].ends_with("results/gl_a.csv"));
     let list = text(&written.results[0]);
     assert_eq!(list, deqp::LIST, "the list that deqp-runner read");
-    let own = deqp::read(&list).unwrap();
+    let read = deqp::read(&list).unwrap();
     for record in &records {
         let plain = match record.verdict {
             Verdict::Pass => "Pass",
@@ -300,7 +320,7 @@ fn deqp_runner_understands_every_status() {
             Verdict::Crash | Verdict::DeviceLost => "Crash",
             Verdict::Timeout => "Timeout",
         };
-        let due = match record.case.as_str() {
+        let expected = match record.case.as_str() {
             "blend/expected/verdict=flaky" => "KnownFlake",
             case if case.starts_with("blend/expected") => "ExpectedFail",
             "blend/better/verdict=pass" => "UnexpectedImprovement(Pass)",
@@ -310,8 +330,8 @@ fn deqp_runner_understands_every_status() {
             _ => plain,
         };
         let Line { status, regression } = deqp::recorded(&record.case);
-        assert_eq!(status, due, "{record:?}");
-        assert_eq!(own[record.case.as_str()], due, "{record:?}");
+        assert_eq!(status, expected, "{record:?}");
+        assert_eq!(read[record.case.as_str()], expected, "{record:?}");
         // Everything that fails the run fails it there too, except flakes, which deqp-runner passes.
         let flake = record.verdict == Verdict::Flaky;
         assert_eq!(regression, record.unexpected() && !flake);
@@ -378,11 +398,11 @@ fn the_summary_tells_counts_records_and_commands() {
     let mut records = every_verdict(folder.path());
     let header = header(records.len() as u64, vec![adapter("gl:a", Api::OpenGl)]);
     let writer = RunWriter::create(folder.path(), &header).unwrap();
-    let at = records
+    let index = records
         .iter()
         .position(|r| r.case == "depth/all/verdict=fail")
         .unwrap();
-    records[at] = synthetic::record(&writer, "depth/all/verdict=fail", "gl:a", Verdict::Fail, 1);
+    records[index] = synthetic::record(&writer, "depth/all/verdict=fail", "gl:a", Verdict::Fail, 1);
     record_all(folder.path(), &header, &records);
     let summary = text(&write(folder.path()).unwrap().summary);
     let read = read_markdown(&summary);
@@ -392,8 +412,8 @@ fn the_summary_tells_counts_records_and_commands() {
     assert_eq!(*adapters.last().unwrap(), unexpected.to_string());
     // Each unexpected record and each improvement, and the adapter that is absent.
     assert_eq!(read.items, unexpected + 2 + 1);
-    let (x, y) = (records[at].wrong[0].x, records[at].wrong[0].y);
-    for due in [
+    let (x, y) = (records[index].wrong[0].x, records[index].wrong[0].y);
+    for words in [
         format!("{unexpected} unexpected records"),
         format!("etalon explain depth/all/verdict=fail --texel {x},{y} --adapter gl:a"),
         "etalon run depth/lost --adapter gl:a".to_owned(),
@@ -401,8 +421,8 @@ fn the_summary_tells_counts_records_and_commands() {
         "2 improvements".to_owned(),
         "What was asserted".to_owned(),
     ] {
-        let told = read.text.replace('\u{2060}', "");
-        assert!(told.contains(&due), "{due}: {told}");
+        let text = read.text.replace('\u{2060}', "");
+        assert!(text.contains(&words), "{words}: {text}");
     }
 }
 
@@ -417,8 +437,8 @@ fn files_of_a_huge_run_keep_their_limits() {
     let names: Vec<String> = adapters.iter().map(|a| a.name.clone()).collect();
     let mut writer = RunWriter::create(folder.path(), &header(8000, adapters)).unwrap();
     for case in 0..8000 {
-        for (at, name) in names.iter().enumerate() {
-            let verdict = Verdict::ALL[(case + at) % Verdict::ALL.len()];
+        for (index, name) in names.iter().enumerate() {
+            let verdict = Verdict::ALL[(case + index) % Verdict::ALL.len()];
             let end = if case % 8 == 0 { long.as_str() } else { "x" };
             let mut record = Record::new(format!("a{}/{case}/{end}", case % 700), name, verdict);
             if case % 7 == 0 {

@@ -16,17 +16,17 @@ fn made(folder: &Path) -> History {
 
 /// All files by name.
 fn files(folder: &Path) -> BTreeMap<String, String> {
-    let mut all = BTreeMap::new();
+    let mut files = BTreeMap::new();
     for sub in [folder.to_owned(), folder.join("data")] {
         for entry in fs::read_dir(sub).unwrap() {
             let path = entry.unwrap().path();
             if path.is_file() {
                 let name = path.strip_prefix(folder).unwrap().display().to_string();
-                all.insert(name, fs::read_to_string(&path).unwrap());
+                files.insert(name, fs::read_to_string(&path).unwrap());
             }
         }
     }
-    all
+    files
 }
 
 /// Returns the value that a file hands to the script.
@@ -46,13 +46,16 @@ fn the_worst_news_come_first_and_what_is_known_last() {
     let files = files(&to);
     let news = value(&files, "news");
     let lines = news.as_array().unwrap();
-    let at = |subject: &str| lines.iter().position(|line| line[2] == subject).unwrap();
-    assert_eq!(lines[at(BROKEN)][1], "✗ broken");
-    assert_eq!(lines[at(BROKEN)][4], "✓ pass → ✗ fail on vulkan:first");
-    assert_eq!(lines[at(FLAKY)][1], "⇄ flaky");
-    assert_eq!(lines[at("blend/factors")][1], "+ appeared");
-    assert_eq!(lines[at(IGNORED)][5], "ignored: bug 7");
-    let order = [BROKEN, FLAKY, "blend/factors", IGNORED].map(at);
+    let position = |subject: &str| lines.iter().position(|line| line[2] == subject).unwrap();
+    assert_eq!(lines[position(BROKEN)][1], "✗ broken");
+    assert_eq!(
+        lines[position(BROKEN)][4],
+        "✓ pass → ✗ fail on vulkan:first"
+    );
+    assert_eq!(lines[position(FLAKY)][1], "⇄ flaky");
+    assert_eq!(lines[position("blend/factors")][1], "+ appeared");
+    assert_eq!(lines[position(IGNORED)][5], "ignored: bug 7");
+    let order = [BROKEN, FLAKY, "blend/factors", IGNORED].map(position);
     assert!(order.is_sorted(), "{order:?}");
     // It was fixed two nights before.
     assert!(lines.iter().all(|line| line[2] != FIXED));
@@ -66,14 +69,14 @@ fn every_case_has_its_course_and_every_series_its_changes() {
     write_history(&made(folder.path()), &Labels::new(), &to).unwrap();
     let files = files(&to);
     let mut ids: Vec<String> = Vec::new();
-    for one in value(&files, "cases").as_array().unwrap() {
-        let shared = one[0].as_u64().unwrap() as usize;
+    for entry in value(&files, "cases").as_array().unwrap() {
+        let shared = entry[0].as_u64().unwrap() as usize;
         let start = ids.last().map_or("", |id| &id[..shared]);
-        ids.push(format!("{start}{}", one[1].as_str().unwrap()));
+        ids.push(format!("{start}{}", entry[1].as_str().unwrap()));
     }
     assert_eq!(ids.len(), 11);
     assert!(ids.is_sorted());
-    let place = |id: &str| ids.iter().position(|one| one == id).unwrap();
+    let place = |id: &str| ids.iter().position(|candidate| candidate == id).unwrap();
     let file = value(&files, "case-0");
     let course = |id: &str| file[0][file[1][place(id)].as_u64().unwrap() as usize].clone();
     // Timeline, first and last run, spans, gaps, events: broken in the fifth run, after the fourth.
@@ -102,12 +105,12 @@ fn every_case_has_its_course_and_every_series_its_changes() {
 fn equal_histories_make_equal_pages() {
     let folder = tempfile::tempdir().unwrap();
     let history = made(folder.path());
-    let of = |name: &str| {
+    let files_of = |name: &str| {
         let to = folder.path().join(name);
         write_history(&history, &Labels::new(), &to).unwrap();
         files(&to)
     };
-    assert!(of("a") == of("b"));
+    assert!(files_of("a") == files_of("b"));
 }
 
 #[test]

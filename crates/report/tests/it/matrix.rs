@@ -114,19 +114,19 @@ pub(crate) fn write(folder: &Path) -> Bench {
 
 /// The fields of a line of CSV.
 fn fields(line: &str) -> Vec<String> {
-    let (mut all, mut quoted) = (vec![String::new()], false);
+    let (mut fields, mut quoted) = (vec![String::new()], false);
     let mut letters = line.chars().peekable();
     while let Some(letter) = letters.next() {
         match letter {
             '"' if quoted && letters.peek() == Some(&'"') => {
-                all.last_mut().unwrap().push(letters.next().unwrap())
+                fields.last_mut().unwrap().push(letters.next().unwrap())
             }
             '"' => quoted = !quoted,
-            ',' if !quoted => all.push(String::new()),
-            other => all.last_mut().unwrap().push(other),
+            ',' if !quoted => fields.push(String::new()),
+            other => fields.last_mut().unwrap().push(other),
         }
     }
-    all
+    fields
 }
 
 #[test]
@@ -145,8 +145,9 @@ fn the_csv_gives_the_planted_rates_back() {
         .collect();
     assert_eq!(rows.len(), 2 * (CELLS.len() + 1));
     let find = |cell: &str, adapter: &str| {
-        let mut all = rows.iter();
-        all.find(|r| r["cell"].contains(cell) && r["adapter"] == adapter)
+        let mut candidates = rows.iter();
+        candidates
+            .find(|r| r["cell"].contains(cell) && r["adapter"] == adapter)
             .unwrap()
     };
     let number = |row: &BTreeMap<String, String>, key: &str| row[key].parse::<f64>().unwrap();
@@ -161,9 +162,12 @@ fn the_csv_gives_the_planted_rates_back() {
                 );
                 continue;
             }
-            let due = TEXELS as f64 / (seconds * factor) / 1e9;
+            let expected = TEXELS as f64 / (seconds * factor) / 1e9;
             let rate = number(row, "rate");
-            assert!((rate / due - 1.0).abs() < 0.005, "{cell}: {rate} {due}");
+            assert!(
+                (rate / expected - 1.0).abs() < 0.005,
+                "{cell}: {rate} {expected}"
+            );
             assert!(number(row, "low") <= rate && rate <= number(row, "high"));
             assert_eq!(
                 (row["state"].as_str(), row["unit"].as_str()),

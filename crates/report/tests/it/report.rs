@@ -34,11 +34,11 @@ fn every_verdict(folder: &Path) -> Vec<Record> {
         });
         let mut better = Record::new("blend/better", name, Verdict::Pass);
         better.improves = Some(Verdict::Fail);
-        let mut due = Record::new("selftest/due", name, Verdict::Fail);
-        due.due_fail = true;
+        let mut failing = Record::new("selftest/due", name, Verdict::Fail);
+        failing.due_fail = true;
         let mut missed = Record::new("selftest/missed", name, Verdict::Pass);
         missed.due_fail = true;
-        records.extend([expected, better, due, missed]);
+        records.extend([expected, better, failing, missed]);
     }
     records.iter().for_each(|r| writer.append(r).unwrap());
     records
@@ -76,7 +76,7 @@ fn junit_tells_failures_errors_and_skips_apart() {
         assert_eq!(suite.attribute("errors"), Some("6"));
         for verdict in Verdict::ALL {
             let found = outcome(case(suite, &format!("depth/all/verdict={verdict}")));
-            let due = match verdict {
+            let expected = match verdict {
                 Verdict::Fail
                 | Verdict::RequiredByCts
                 | Verdict::Disputed
@@ -86,7 +86,7 @@ fn junit_tells_failures_errors_and_skips_apart() {
                 v if v.is_bad() => Some("error"),
                 _ => None,
             };
-            assert_eq!(found.as_deref(), due, "{verdict}");
+            assert_eq!(found.as_deref(), expected, "{verdict}");
         }
         assert_eq!(outcome(case(suite, "blend/expected")), None);
         assert_eq!(outcome(case(suite, "selftest/due")), None);

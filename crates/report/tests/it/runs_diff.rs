@@ -243,11 +243,11 @@ fn cases_in_one_run_only_are_worse_when_the_second_was_to_have_them() {
     let ids = ["a/f/c=0", "a/f/c=1", "a/f/c=2"];
     let pass = |id: &&str| Record::new(*id, "gl:a", Verdict::Pass);
     let records: Vec<Record> = ids.iter().map(pass).collect();
-    let mut whole = one_adapter(3);
-    whole.settings.selection = selection_digest(ids);
+    let mut header = one_adapter(3);
+    header.settings.selection = selection_digest(ids);
     let two = Two::new();
-    record_all(&two.before(), &whole, &records);
-    record_all(&two.after(), &whole, &records[..1]);
+    record_all(&two.before(), &header, &records);
+    record_all(&two.after(), &header, &records[..1]);
     let found = two.diff();
     assert!(found.worse());
     assert_eq!(found.lost(), 2);
@@ -632,7 +632,7 @@ fn any_record() -> impl Strategy<Value = Record> {
         any::<f64>(),
     );
     parts.prop_map(
-        |(case, on, verdict, [expected, due, rich_one], wrong, mean)| {
+        |(case, on, verdict, [expected, due_fail, rich_one], wrong, mean)| {
             let id = format!("a/f/c={case}");
             let mut record = if rich_one {
                 rich(&id)
@@ -641,7 +641,7 @@ fn any_record() -> impl Strategy<Value = Record> {
             };
             record.adapter = format!("gl:{on}");
             record.verdict = verdict;
-            record.due_fail = due;
+            record.due_fail = due_fail;
             record.expected = expected.then(|| Expected {
                 reason: "known".to_owned(),
             });
@@ -668,9 +668,9 @@ proptest! {
         let two = Two::new();
         record_all(&two.before(), &one_adapter(12), &old);
         record_all(&two.after(), &one_adapter(12), &new);
-        let own = diff(&two.before(), &two.before(), None).unwrap();
-        prop_assert!(own.changes.is_empty() && own.only.is_empty() && own.unpaired.is_empty());
-        prop_assert!(!own.worse() && !own.only_better());
+        let unchanged = diff(&two.before(), &two.before(), None).unwrap();
+        prop_assert!(unchanged.changes.is_empty() && unchanged.only.is_empty() && unchanged.unpaired.is_empty());
+        prop_assert!(!unchanged.worse() && !unchanged.only_better());
         let found = two.diff();
         for pair in &found.pairs {
             prop_assert_eq!(pair.compared, pair.same + pair.worse + pair.better + pair.other);

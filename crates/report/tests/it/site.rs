@@ -8,7 +8,7 @@ use std::path::{Component, Path, PathBuf};
 
 /// The files below a folder, by path below it.
 fn files(folder: &Path) -> BTreeSet<PathBuf> {
-    let mut all = BTreeSet::new();
+    let mut files = BTreeSet::new();
     let mut coming = vec![folder.to_owned()];
     while let Some(next) = coming.pop() {
         for entry in fs::read_dir(next).unwrap() {
@@ -16,11 +16,11 @@ fn files(folder: &Path) -> BTreeSet<PathBuf> {
             if path.is_dir() {
                 coming.push(path);
             } else {
-                all.insert(path.strip_prefix(folder).unwrap().to_owned());
+                files.insert(path.strip_prefix(folder).unwrap().to_owned());
             }
         }
     }
-    all
+    files
 }
 
 /// The values of an attribute.
@@ -80,7 +80,7 @@ fn a_site_of_a_run_has_whole_links() {
     fs::create_dir(&run).unwrap();
     made::write(&run);
     let to = folder.path().join("site");
-    let written = write_site(&to, std::slice::from_ref(&run), false).unwrap();
+    let written = write_site(&to, std::slice::from_ref(&run), None, false).unwrap();
     assert_eq!(written.html, to.join("index.html"));
     assert_eq!(written.files, files(&to).len() as u64);
     assert!(linked(&to) > 10);
@@ -112,7 +112,7 @@ fn a_site_replaces_nothing_but_a_site() {
     made::write(&run);
     let to = folder.path().join("site");
     let write = |to: &Path, from: &Path, force| {
-        write_site(to, &[from.to_owned()], force).map_err(|error| error.to_string())
+        write_site(to, &[from.to_owned()], None, force).map_err(|error| error.to_string())
     };
     fs::create_dir(&to).unwrap();
     write(&to, &run, false).expect("an empty folder may be filled");

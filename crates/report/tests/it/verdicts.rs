@@ -18,12 +18,12 @@ pub(crate) fn every_verdict(folder: &Path) -> Vec<Record> {
         });
         records.push(record);
     }
-    for (verdict, due) in [
+    for (verdict, expected) in [
         (Verdict::Pass, Verdict::Fail),
         (Verdict::Imprecise, Verdict::Flaky),
     ] {
         let mut record = Record::new(format!("blend/better/verdict={verdict}"), "gl:a", verdict);
-        record.improves = Some(due);
+        record.improves = Some(expected);
         records.push(record);
     }
     // Better than a crash, but still bad.

@@ -86,19 +86,19 @@ impl<'a> Reducer<'a> {
         record: Record,
         symptom: Symptom,
     ) -> Result<Looked, ReductionError> {
-        let whole = |scene: Candidate, record: Record, symptom: Symptom, why| Looked {
+        let unreduced = |scene: Candidate, record: Record, symptom: Symptom, why| Looked {
             key: Key::whole(&scene.document, &symptom, why),
             scene,
             record,
             symptom,
         };
         if self.is_stopped() {
-            return Ok(whole(scene, record, symptom, Unreduced::Stopped));
+            return Ok(unreduced(scene, record, symptom, Unreduced::Stopped));
         }
         let mut oracle = self.oracle(record)?;
         if oracle.first(&mut std::iter::once(scene.clone())).is_none() {
             let (record, _) = self.finish(oracle)?;
-            return Ok(whole(scene, record, symptom, Unreduced::Unsteady));
+            return Ok(unreduced(scene, record, symptom, Unreduced::Unsteady));
         }
         let scene = oracle.reduce(scene, &self.limits, DRAWS).smallest;
         let (record, symptom) = self.finish(oracle)?;

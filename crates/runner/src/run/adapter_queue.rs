@@ -1,12 +1,12 @@
 //! The queue of one adapter's cases, and the state that its workers share.
 
 use super::plan::Rechecks;
-use super::round_trips::RoundTrips;
 use crate::launch::{Launch, START_TIMEOUT};
 use crate::supervisor::FailedStarts;
 use crate::sync::lock;
 use crate::worker::Worker;
 use etalon_diagnose::Symptom;
+use etalon_judge::RoundTrips;
 use etalon_record::AdapterRecord;
 use std::collections::{BTreeSet, HashMap, VecDeque};
 use std::path::PathBuf;
@@ -59,6 +59,8 @@ pub(super) struct First {
 pub(super) struct State {
     /// The number of frame files of imprecise cases, by case file.
     pub(super) imprecise_frames: HashMap<String, u32>,
+    /// The case that is shown in full, by the reason why its failure is expected.
+    examples: HashMap<String, String>,
     /// The number of rechecks that gave the same verdict again, by kind.
     confirmed: HashMap<Symptom, u32>,
     /// The numbers of bad verdicts that were checked again and that were not.
@@ -84,6 +86,12 @@ impl AdapterQueue {
             first,
             ..Self::with(numbers, adapter, launch)
         }
+    }
+
+    /// Sets the cases that are already shown in full, by the reason why their failures are expected.
+    pub(super) fn with_examples(self, examples: HashMap<String, String>) -> Self {
+        self.state().examples = examples;
+        self
     }
 
     /// Returns the queue of an adapter whose driver does not start.
@@ -213,6 +221,17 @@ impl AdapterQueue {
             state.rechecks.left += 1;
         }
         fits
+    }
+
+    /// Returns the case whose record shows an expected failure in full; `None` if this case does:
+    /// the first case of each reason.
+    pub(super) fn example(&self, reason: &str, case: &str) -> Option<String> {
+        let mut state = self.state();
+        if let Some(example) = state.examples.get(reason) {
+            return Some(example.clone()).filter(|example| example != case);
+        }
+        state.examples.insert(reason.to_owned(), case.to_owned());
+        None
     }
 
     /// Records that a recheck gave another verdict, so that further verdicts of its kind are checked.

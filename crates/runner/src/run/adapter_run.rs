@@ -13,19 +13,15 @@ use crate::process::Wait;
 use crate::sync::lock;
 use etalon_case::Case;
 use etalon_frame::Frame;
-use etalon_judge::{Judged, is_due_to_fail, note_requirement};
-use etalon_record::{Expected, FrameFile, MAX_VALIDATION, Record, RecordError, Seconds, Verdict};
+use etalon_judge::{
+    IMPRECISE_FRAMES, Judged, Shown, is_due_to_fail, note_validation, settled, shorten, undrawn,
+};
+use etalon_record::{FrameFile, Record, RecordError, Seconds, Verdict};
 use etalon_truth::TruthPicture;
 use std::time::{Duration, Instant};
 
-/// The number of frame files and stories of imprecise cases that are kept per adapter and case file;
-/// failures keep all.
-const IMPRECISE_FRAMES: u32 = 3;
 /// The factor by which a case that is measured may take longer than other cases.
 const MEASURING: u32 = 4;
-/// The maximum number of bytes of one validation message that a record keeps.
-const MESSAGE_BYTES: usize = 1000;
-
 /// A judged drawing that has not been written yet.
 pub(super) struct Observation {
     pub(super) record: Record,
@@ -83,44 +79,14 @@ impl<'s> AdapterRun<'s, '_> {
 
     /// Returns the record of a case that is not drawn on this adapter; `None` if it must be drawn.
     pub(super) fn undrawn(&self, number: usize) -> Option<Record> {
-        let case = self.case(number);
-        let adapter = &self.queue.adapter;
-        let mut record = if let Some(entry) = self.shared.expectations.skips(adapter, &case.id) {
-            let mut record = Record::new(&case.id, &adapter.name, Verdict::Skipped);
-            record.expected = Some(Expected {
-                reason: entry.reason.clone(),
-            });
-            record.message = format!("not drawn: {}", entry.reason);
-            record
-        } else if let Some(missing) = adapter.limits.missing(&case.requirements()) {
-            let mut record = Record::new(&case.id, &adapter.name, Verdict::NotSupported);
-            record.message = missing.to_string();
-            if case.is_requirement() {
-                note_requirement(&mut record, case, &adapter.limits);
-            }
-            record
-        } else {
-            let round_trips = self.queue.round_trips()?;
-            let blocked = round_trips.blocks(case)?;
-            let mut record = Record::new(&case.id, &adapter.name, Verdict::Blocked);
-            record.message = blocked.message;
-            record.blocked_by = blocked.by;
-            record.expected = blocked.expected.map(|reason| Expected { reason });
-            record
-        };
-        record.due_fail = is_due_to_fail(case, &self.queue.adapter.limits);
-        Some(record)
+        let Shared { expectations, .. } = self.shared;
+        let trips = self.queue.round_trips();
+        undrawn(self.case(number), &self.queue.adapter, expectations, trips)
     }
 
-    /// Returns a record with what the expectations say about it. A case that is not drawn for an expected
-    /// reason is expected itself.
-    pub(super) fn settled(&self, mut record: Record) -> Record {
-        if record.verdict != Verdict::Skipped {
-            let inherited = record.expected.take();
-            record.expect(self.shared.expectations, &self.queue.adapter);
-            record.expected = record.expected.take().or(inherited);
-        }
-        record
+    /// Returns a record with what the expectations say about it.
+    pub(super) fn settled(&self, record: Record) -> Record {
+        settled(record, self.shared.expectations, &self.queue.adapter)
     }
 
     /// Judges a drawing. `report` makes the report if drawing failed.
@@ -161,10 +127,8 @@ impl<'s> AdapterRun<'s, '_> {
         let record = &mut observed.record;
         record.due_fail = is_due_to_fail(case, &self.queue.adapter.limits);
         let lost = record.process.is_some();
-        record.seconds = Seconds {
-            draw: if lost { drawing.since } else { drawing.working }.as_secs_f64(),
-            judge: judging.as_secs_f64(),
-        };
+        let drawing_time = if lost { drawing.since } else { drawing.working };
+        record.seconds = Seconds::new(drawing_time, judging);
         note_validation(record, drawing.messages);
         observed
     }
@@ -179,28 +143,13 @@ impl<'s> AdapterRun<'s, '_> {
             return Ok(());
         }
         let record = &mut observed.record;
-        if let Some(note) = self
-            .queue
-            .round_trips()
-            .and_then(|r| r.note(self.case(number)))
-        {
-            record.message = match record.message.as_str() {
-                "" => note,
-                message => format!("{message}; {note}"),
-            };
+        if let Some(trips) = self.queue.round_trips() {
+            trips.annotate(self.case(number), record);
         }
-        let kept = observed.frame.take().filter(|_| self.keeps_frame(record));
-        if record.due_fail && record.verdict.is_violation() {
-            // The frame file shows the rest of an expected failure.
-            record.wrong.truncate(4);
-        }
-        if record.verdict == Verdict::Imprecise {
-            // There can be hundreds of legal deviations, and one texel shows what kind they are.
-            record.wrong.truncate(if kept.is_some() { 16 } else { 1 });
-            if kept.is_none() {
-                record.story = None;
-            }
-        }
+        let shown = self.shown(record);
+        let frame = observed.frame.take();
+        let kept = frame.filter(|_| self.keeps_frame(record, &shown));
+        shorten(record, shown, kept.is_some());
         if let Some(file) = kept {
             record.frame = Some(self.shared.frames.write_frame(&file)?);
         }
@@ -241,9 +190,25 @@ impl<'s> AdapterRun<'s, '_> {
         Ok(())
     }
 
-    fn keeps_frame(&self, record: &Record) -> bool {
-        match self.shared.options.frames {
+    /// Returns how much the record of a failure shows.
+    fn shown(&self, record: &Record) -> Shown {
+        if self.shared.options.frames == KeptFrames::All || !record.verdict.is_bad() {
+            return Shown::Whole;
+        }
+        let settled = self.settled(record.clone());
+        let Some(reason) = settled.excuse() else {
+            return Shown::Whole;
+        };
+        let example = self.queue.example(reason, &record.case);
+        example.map_or(Shown::Example, Shown::By)
+    }
+
+    fn keeps_frame(&self, record: &Record, shown: &Shown) -> bool {
+        let frames = self.shared.options.frames;
+        match frames {
             KeptFrames::All => {}
+            KeptFrames::Examples if matches!(shown, Shown::By(_)) => return false,
+            KeptFrames::Examples => {}
             KeptFrames::New if self.settled(record.clone()).unexpected() => {}
             KeptFrames::New | KeptFrames::None => return false,
         }
@@ -256,7 +221,11 @@ impl<'s> AdapterRun<'s, '_> {
             .entry(record.case_file().to_owned())
             .or_default();
         *kept += 1;
-        *kept <= IMPRECISE_FRAMES
+        let most = match frames {
+            KeptFrames::All => IMPRECISE_FRAMES,
+            _ => 1,
+        };
+        *kept <= most
     }
 
     /// Writes a record. An error ends the run.
@@ -274,30 +243,4 @@ impl<'s> AdapterRun<'s, '_> {
             });
         }
     }
-}
-
-/// Records the messages of validation. Calls that break the API's rules are an error of the suite: their
-/// result says nothing about the driver.
-fn note_validation(record: &mut Record, messages: Vec<String>) {
-    let Some(first) = messages.first() else {
-        return;
-    };
-    if record.verdict.is_judged() || record.verdict == Verdict::Measured {
-        record.message = format!(
-            "validation, {} messages (the picture would be {}): {first}",
-            messages.len(),
-            record.verdict
-        );
-        record.verdict = Verdict::InternalError;
-    }
-    let short = |mut text: String| {
-        let end = text.floor_char_boundary(MESSAGE_BYTES);
-        text.truncate(end);
-        text
-    };
-    record.validation = messages
-        .into_iter()
-        .take(MAX_VALIDATION)
-        .map(short)
-        .collect();
 }

@@ -33,12 +33,20 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
     }
     // By adapter: the round trips that a resumed run has already recorded.
     let mut drawn: HashMap<String, Vec<(usize, Record)>> = HashMap::new();
+    // By adapter and reason: the cases that the resumed run shows in full.
+    let mut examples: HashMap<String, HashMap<String, String>> = HashMap::new();
     let writer = if plan.resume {
         let (writer, run) =
             RunWriter::resume(plan.folder, &plan.header).map_err(RunError::Folder)?;
         for record in run.records {
             summary.count(&record);
             done.insert((record.adapter.clone(), record.case.clone()));
+            if let Some(reason) = record.excuse() {
+                let example = record.example.as_ref().unwrap_or(&record.case);
+                let of_adapter = examples.entry(record.adapter.clone()).or_default();
+                let entry = of_adapter.entry(reason.to_owned());
+                entry.or_insert_with(|| example.clone());
+            }
             let number = selected.get(&*record.case).copied();
             if let Some(number) = number.filter(|n| first.contains(n)) {
                 let records = drawn.entry(record.adapter.clone()).or_default();
@@ -84,7 +92,8 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
         let numbers = missing(name);
         let drawn = drawn.get(name).map_or(&[][..], Vec::as_slice);
         let first = to_draw_first(&first, &shared.cases, plan.cases.len(), drawn);
-        AdapterQueue::new(numbers, first, launch, worker)
+        let examples = examples.remove(name).unwrap_or_default();
+        AdapterQueue::new(numbers, first, launch, worker).with_examples(examples)
     });
     let dead = plan.dead.into_iter();
     let dead = dead

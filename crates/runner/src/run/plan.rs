@@ -15,7 +15,7 @@ pub struct Plan<'a> {
     /// The cases, each once, in drawing order.
     pub cases: &'a [Case],
     /// The round trips that are drawn first on every adapter, and recorded if they are among the cases:
-    /// [`round_trips`](crate::round_trips) of the selection before sharding.
+    /// [`round_trips`](etalon_judge::round_trips) of the selection before sharding.
     pub round_trips: &'a [Case],
     /// All ids selected before sharding, if they must be written to the folder.
     pub selection: Option<&'a [String]>,
@@ -51,12 +51,15 @@ pub struct Rechecks {
     pub left: u64,
 }
 
-/// The failures whose complete frames a run folder keeps.
+/// The failures whose complete frames a run folder keeps. The record of a known failure without a frame refers
+/// to an example; with `All`, every record has its story and its wrong texels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum KeptFrames {
     /// Every failure.
     #[default]
     All,
+    /// Failures that are not expected, and one example of each known failure on each adapter.
+    Examples,
     /// Failures that are not expected.
     New,
     /// No failure.

@@ -8,6 +8,7 @@ use crate::process::WorkerProcess;
 use crate::supervisor::start;
 use crate::sync::lock;
 use etalon_diagnose::Symptom;
+use etalon_judge::mark_flaky;
 use etalon_record::{LossKind, Verdict};
 use std::time::{Duration, Instant};
 
@@ -86,17 +87,9 @@ pub(super) fn confirm(
             Cause::Stopped => return None,
         }
     }
-    let mut verdicts = vec![verdict.name()];
-    verdicts.extend(repeats.iter().map(|v| v.name()));
-    let note = format!("{}, each in a fresh process", verdicts.join(", then "));
-    let verdicts = std::iter::once(first).chain(others);
-    let mut worst = verdicts.max_by_key(|s| s.record.verdict.severity())?;
-    worst.record.verdict = Verdict::Flaky;
-    worst.record.repeats = repeats;
-    worst.record.message = match worst.record.message.as_str() {
-        "" => note,
-        message => format!("{note}; {message}"),
-    };
+    let drawings = std::iter::once(first).chain(others);
+    let mut worst = drawings.max_by_key(|s| s.record.verdict.severity())?;
+    mark_flaky(&mut worst.record, verdict, repeats, "in a fresh process");
     Some(worst)
 }
 

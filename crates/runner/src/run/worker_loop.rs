@@ -5,13 +5,13 @@
 
 use super::adapter_queue::AdapterQueue;
 use super::adapter_run::{AdapterRun, Observation};
-use super::round_trips::RoundTrips;
 use super::second_look::confirm;
 use super::shared::Shared;
 use crate::drawing::{Drawing, Due};
 use crate::event::Event;
 use crate::loss::{Failure, Loss};
 use crate::supervisor::Supervisor;
+use etalon_judge::RoundTrips;
 use etalon_record::Record;
 use std::collections::VecDeque;
 use std::sync::PoisonError;

@@ -120,9 +120,9 @@ fn bench(adapters: Vec<(Launch, Worker)>) -> (Bench, BenchSummary, Vec<String>) 
         reports: ReportFiles::NONE,
         header,
     };
-    let mut told = Vec::new();
+    let mut events = Vec::new();
     let outcome = etalon_runner::bench(plan, &mut |event| {
-        told.push(match event {
+        events.push(match event {
             BenchEvent::Judged { picture, .. } => {
                 format!("judged {} {}", picture.adapter, picture.case)
             }
@@ -138,24 +138,24 @@ fn bench(adapters: Vec<(Launch, Worker)>) -> (Bench, BenchSummary, Vec<String>) 
     .unwrap();
     let bench = Bench::read(&out).unwrap();
     assert!(!bench.truncated);
-    (bench, outcome, told)
+    (bench, outcome, events)
 }
 
 #[test]
 fn adapters_take_turns_case_after_case_and_round_after_round() {
     let names = ["a", "b", "c"];
-    let (bench, outcome, told) = bench(names.map(|n| adapter(n, "")).into());
+    let (bench, outcome, events) = bench(names.map(|n| adapter(n, "")).into());
     let turns = |what: &str| -> Vec<String> {
         let heights = 1..=CASES;
         heights
             .flat_map(|h| names.map(|n| format!("{what} {n} fill/height={h}")))
             .collect()
     };
-    let mut due = turns("judged");
+    let mut expected = turns("judged");
     for _ in 0..ROUNDS {
-        due.extend(turns("timed"));
+        expected.extend(turns("timed"));
     }
-    assert_eq!(told, due);
+    assert_eq!(events, expected);
     let nine = u64::from(CASES) * 3;
     let all_fine = BenchSummary {
         pictures: nine,
@@ -283,7 +283,7 @@ fn a_folder_that_cannot_be_written_to_is_told_before_anything_is_timed() {
     let folder = tempfile::tempdir().unwrap();
     let cases = cases(folder.path(), CASES);
     let blocked = folder.path().join("fill.json");
-    let one = adapter("a", "");
+    let lone_adapter = adapter("a", "");
     let plan = BenchPlan {
         cases: &cases,
         budget: Duration::from_millis(1),
@@ -305,10 +305,10 @@ fn a_folder_that_cannot_be_written_to_is_told_before_anything_is_timed() {
             shader_cache: ShaderCache::Warm,
             ruler: String::new(),
             settings: Default::default(),
-            adapters: vec![(&one.1).into()],
+            adapters: vec![(&lone_adapter.1).into()],
             absent: Vec::new(),
         },
-        adapters: vec![one],
+        adapters: vec![lone_adapter],
     };
     let outcome = etalon_runner::bench(plan, &mut |event| panic!("{event:?}"));
     assert!(

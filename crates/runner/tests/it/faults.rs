@@ -35,10 +35,10 @@ struct FaultyScene<'a> {
 
 /// Fails if the fault, `<what>@<step>`, belongs to this step.
 fn stumble(fault: Option<&str>, step: &str) -> Result<(), BackendError> {
-    let Some((what, at)) = fault.and_then(|f| f.split_once('@')) else {
+    let Some((what, faulty_step)) = fault.and_then(|f| f.split_once('@')) else {
         return Ok(());
     };
-    if at != step {
+    if faulty_step != step {
         return Ok(());
     }
     eprintln!("about to stumble");
@@ -280,7 +280,7 @@ fn run(launch: Launch) -> (Vec<Record>, RunSummary) {
 fn run_with(launch: Launch, jobs: usize, libraries: &[&Library]) -> (Vec<Record>, RunSummary) {
     let folder = tempfile::tempdir().unwrap();
     let cases = cases(&folder.path().join("cases"), CASES);
-    let round_trips = etalon_runner::round_trips(libraries, &cases).unwrap();
+    let round_trips = etalon_judge::round_trips(libraries, &cases).unwrap();
     assert_eq!(
         round_trips.len(),
         libraries.len(),
@@ -308,24 +308,24 @@ fn run_with(launch: Launch, jobs: usize, libraries: &[&Library]) -> (Vec<Record>
         resume: false,
         stop: &AtomicBool::new(false),
     };
-    let told = Mutex::new(Vec::new());
+    let records = Mutex::new(Vec::new());
     let summary = etalon_runner::run(plan, &|event| {
         if let Event::Recorded(record) = event {
-            told.lock().unwrap().push(*record);
+            records.lock().unwrap().push(*record);
         }
     });
     let mut run = Run::read(&out).unwrap();
     assert_eq!(run.missing(), 0);
-    let mut told = told.into_inner().unwrap();
+    let mut records = records.into_inner().unwrap();
     if jobs > 1 {
         let place = |r: &Record| cases.iter().position(|c| c.id == r.case);
         run.records.sort_by_key(place);
-        told.sort_by_key(place);
+        records.sort_by_key(place);
     }
-    assert_eq!(told, run.records);
+    assert_eq!(records, run.records);
     let ids: Vec<&str> = run.records.iter().map(|r| r.case.as_str()).collect();
-    let due: Vec<&str> = cases.iter().map(|c| c.id.as_str()).collect();
-    assert_eq!(ids, due, "one record per case");
+    let expected: Vec<&str> = cases.iter().map(|c| c.id.as_str()).collect();
+    assert_eq!(ids, expected, "one record per case");
     (run.records, summary.unwrap())
 }
 
@@ -334,12 +334,12 @@ fn only_marked(launch: Launch, verdict: Verdict) -> Record {
     let fault = format!("{:?}", launch.environment);
     let (records, summary) = run(launch);
     for (i, record) in records.iter().enumerate() {
-        let due = if i + 1 == MARKED as usize {
+        let expected = if i + 1 == MARKED as usize {
             verdict
         } else {
             Verdict::Pass
         };
-        assert_eq!(record.verdict, due, "{fault}: {record:?}");
+        assert_eq!(record.verdict, expected, "{fault}: {record:?}");
     }
     assert_eq!(summary.records, u64::from(CASES));
     assert_eq!(summary.unexpected, u64::from(verdict.is_bad()), "{fault}");
@@ -418,12 +418,12 @@ fn a_worker_that_never_comes_back_leaves_a_record_for_every_case() {
     let (records, summary) = run(launch);
     for (i, record) in records.iter().enumerate() {
         let number = i as u32 + 1;
-        let due = if number < MARKED {
+        let expected = if number < MARKED {
             Verdict::Pass
         } else {
             Verdict::Crash
         };
-        assert_eq!(record.verdict, due, "{record:?}");
+        assert_eq!(record.verdict, expected, "{record:?}");
         if number > MARKED {
             let again = "could not be started again";
             assert!(record.message.contains(again), "{record:?}");
@@ -437,7 +437,7 @@ fn a_worker_that_never_comes_back_leaves_a_record_for_every_case() {
 #[test]
 fn cases_whose_round_trip_fails_are_not_drawn_however_it_fails() {
     let library = Library::built_in().unwrap();
-    for (fault, due) in [
+    for (fault, cause) in [
         (
             "wrong@read",
             "is fail: texel 0,0 of color: channel 0 holds 1, expected 0",
@@ -455,8 +455,8 @@ fn cases_whose_round_trip_fails_are_not_drawn_however_it_fails() {
                 assert_eq!(record.verdict, Verdict::Blocked, "{fault}: {record:?}");
                 let trip = "capabilities/round-trip/format=rgba8unorm";
                 assert_eq!(record.blocked_by, [trip]);
-                let told = format!("not drawn: {trip} {due}");
-                assert!(record.message.starts_with(&told), "{record:?}");
+                let message = format!("not drawn: {trip} {cause}");
+                assert!(record.message.starts_with(&message), "{record:?}");
             }
             assert_eq!(summary.records, u64::from(CASES), "the round trip has none");
             assert_eq!(summary.unexpected, u64::from(CASES), "{fault}");

@@ -5,6 +5,7 @@ use crate::failure::{Failure, INCOMPLETE, USAGE};
 use crate::flags::Format;
 use crate::history_file::{DatabaseArguments, LabelArguments, failure};
 use crate::output::{print_json, say, summarize};
+use crate::saved_run::folder;
 use clap::Args;
 use etalon_history::{
     Added, HistoryError, Kind, Labels, NewRun, ReleaseDates, RunId, Writer, read_runs,
@@ -22,7 +23,7 @@ const DATES_NAME: &str = "ci/history/releases.json";
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Folders that `etalon run`, `bench` or `bisect` wrote, or their run.jsonl, bench.jsonl or
-    /// versions.jsonl, optionally compressed with gzip
+    /// versions.jsonl, optionally compressed with gzip; or runs that the page saved (`*.tar.gz`)
     #[arg(value_name = "RUN", required = true)]
     pub(crate) runs: Vec<PathBuf>,
     #[command(flatten)]
@@ -115,7 +116,7 @@ fn ready(
     labels: &Labels,
     incomplete: bool,
 ) -> Result<Vec<NewRun>, Failure> {
-    let mut runs = read_runs(path, dates).map_err(failure)?;
+    let mut runs = read_runs(&folder(path)?, dates).map_err(failure)?;
     if let Some(run) = runs.iter().find(|run| run.missing > 0 && !incomplete) {
         return Err(Failure::incomplete(lacks(path, run)));
     }

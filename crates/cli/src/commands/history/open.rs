@@ -74,12 +74,12 @@ pub(super) fn open_verdicts(
             if is_settled(entry) && !settled {
                 continue;
             }
-            let all = verdicts(history, &case, std::slice::from_ref(timeline), labels)?;
-            let broken = all.first().and_then(|of_adapter| {
+            let by_adapter = verdicts(history, &case, std::slice::from_ref(timeline), labels)?;
+            let broken = by_adapter.first().and_then(|of_adapter| {
                 let mut events = of_adapter.happenings.iter().rev();
                 events.find(|h| matches!(h.event, Event::Broken | Event::Flaky))
             });
-            let first = all
+            let first = by_adapter
                 .first()
                 .and_then(|of_adapter| of_adapter.records.first());
             let since = match (broken, first) {

@@ -29,8 +29,12 @@ pub(super) fn versions(history: &History, run: RunId, timeline: &str) -> [String
 }
 
 /// Returns the versions of driver and suite in two runs, in words.
-pub(super) fn range_text(history: &History, timeline: &str, [after, at]: [RunId; 2]) -> String {
-    let [before, now] = [after, at].map(|run| versions(history, run, timeline));
+pub(super) fn range_text(
+    history: &History,
+    timeline: &str,
+    [earlier, later]: [RunId; 2],
+) -> String {
+    let [before, now] = [earlier, later].map(|run| versions(history, run, timeline));
     let field = |what: &str, i: usize| {
         if before[i] == now[i] {
             format!("{what} {}", now[i])

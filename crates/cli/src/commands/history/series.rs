@@ -207,7 +207,7 @@ impl Series {
         states: &TriageStates,
         change: &ChangePoint,
     ) -> String {
-        let [after, first] = change.between.map(|at| self.runs[at]);
+        let [after, first] = change.between.map(|index| self.runs[index]);
         let state = self.state(states, change);
         let returns = if change.returns {
             ", which goes back and forth"

@@ -193,10 +193,10 @@ fn text(
     history: &History,
     case: &str,
     states: &TriageStates,
-    all: &[(Verdicts, Vec<Series>)],
+    by_adapter: &[(Verdicts, Vec<Series>)],
 ) -> String {
     let mut lines = vec![plain(case, 400)];
-    for (of_adapter, series) in all {
+    for (of_adapter, series) in by_adapter {
         lines.push(String::new());
         let entry = states.get(&subject(case, &of_adapter.timeline));
         lines.extend(verdict_lines(history, of_adapter, entry));

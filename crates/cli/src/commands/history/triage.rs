@@ -134,7 +134,7 @@ fn subjects(
         known_case(history, case)?;
         let known = verdicts(history, case, &timelines, labels).map_err(failure)?;
         for timeline in &timelines {
-            if !known.iter().any(|of| of.timeline == *timeline) {
+            if !known.iter().any(|verdicts| verdicts.timeline == *timeline) {
                 return Err(Failure::usage(format!(
                     "no run has `{}` on {}; `etalon history show` lists the adapters that have it",
                     plain(case, 300),
@@ -160,14 +160,14 @@ fn step(
     labels: &Labels,
 ) -> Result<Step, Failure> {
     let time = arguments.time.into();
-    let all =
+    let series_list =
         series_of(history, &subject.case, &subject.timeline, time, labels).map_err(failure)?;
-    let found: Option<(MachineId, RunId)> = all.iter().find_map(|series| {
+    let found: Option<(MachineId, RunId)> = series_list.iter().find_map(|series| {
         let step = series.step_at(RunId::from(run))?;
         Some((series.machine(), step))
     });
     let Some((machine, run)) = found else {
-        let known = all.iter().flat_map(|series| {
+        let known = series_list.iter().flat_map(|series| {
             let changes = series.changes().iter();
             changes.map(|change| series.first_run(change).to_string())
         });

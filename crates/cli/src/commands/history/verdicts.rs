@@ -161,8 +161,8 @@ fn classes<'h>(
             }
             None => {
                 let size = sizes.get(&kind).copied();
-                let whole = size.is_some_and(|size| part.records >= size / 2);
-                if !whole || info.missing > 0 {
+                let is_complete = size.is_some_and(|size| part.records >= size / 2);
+                if !is_complete || info.missing > 0 {
                     continue;
                 }
                 Class::Missing

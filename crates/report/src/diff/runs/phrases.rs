@@ -66,7 +66,7 @@ pub(super) fn value(value: &Value) -> String {
         Value::Null => "–".to_owned(),
         Value::String(text) => text.clone(),
         Value::Number(number) => match (number.as_u64(), number.as_f64()) {
-            (Some(whole), _) => whole.to_string(),
+            (Some(integer), _) => integer.to_string(),
             (None, Some(float)) => short(float),
             (None, None) => number.to_string(),
         },

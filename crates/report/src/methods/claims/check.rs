@@ -291,7 +291,7 @@ impl<'a> On<'_, 'a> {
     }
 
     /// Compares each value of one method with twice the value of the other.
-    fn halves(&self, of: &str, over: &str) -> Vec<Found<'a>> {
+    fn halves(&self, method: &str, over: &str) -> Vec<Found<'a>> {
         let curve = |method: &str| -> Vec<(f64, f64, u32)> {
             let series = self.scene.series.iter().filter(|s| s.method == method);
             series
@@ -300,14 +300,16 @@ impl<'a> On<'_, 'a> {
                 .collect()
         };
         let double = curve(over);
-        let figures = curve(of).into_iter().filter_map(|(value, error, passes)| {
-            let (_, twice_error, twice) = double.iter().find(|d| d.0 == 2.0 * value)?;
-            let factor = (*twice_error > 0.0).then(|| error / twice_error)?;
-            let half = passes < *twice && passes <= twice.div_ceil(2) + 2;
-            let text = format!("{twice} → {passes} passes, RMSE ×{}", digits(factor, 2));
-            let place = format!("{} against {}", digits(value, 3), digits(2.0 * value, 3));
-            Some((None, self.told(&place, text, half && factor <= ALIKE)))
-        });
+        let figures = curve(method)
+            .into_iter()
+            .filter_map(|(value, error, passes)| {
+                let (_, twice_error, twice) = double.iter().find(|d| d.0 == 2.0 * value)?;
+                let factor = (*twice_error > 0.0).then(|| error / twice_error)?;
+                let half = passes < *twice && passes <= twice.div_ceil(2) + 2;
+                let text = format!("{twice} → {passes} passes, RMSE ×{}", digits(factor, 2));
+                let place = format!("{} against {}", digits(value, 3), digits(2.0 * value, 3));
+                Some((None, self.told(&place, text, half && factor <= ALIKE)))
+            });
         figures.collect()
     }
 

@@ -17,8 +17,9 @@ fn of(claim: &'static Claim, made: &[Made]) -> (Reproduction, Vec<Figure>, Vec<S
 }
 
 fn told(figures: &[Figure]) -> Vec<String> {
-    let all = together(figures);
-    all.into_iter()
+    let texts = together(figures);
+    texts
+        .into_iter()
         .map(|t| format!("{}{} {}", t.holds.sign().unwrap_or(""), t.text, t.places))
         .collect()
 }

@@ -50,7 +50,7 @@ fn counters(grid: &Grid<'_>) -> Markup {
             |((area, _), _): &((usize, CounterKind), [u64; 3])| grid.areas[*area].name,
         )
         .text("Counts", |((_, kind), _)| kind.name())
-        .number("Read back", |(_, [all, ..])| thousands(*all))
+        .number("Read back", |(_, [channels, ..])| thousands(*channels))
         .number("Asserted", |(_, [channels, asserted, _])| {
             percent_of(*asserted, *channels)
         })

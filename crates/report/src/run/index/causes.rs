@@ -120,8 +120,12 @@ fn causes<'a>(grid: &Grid<'a>) -> Vec<Cause<'a>> {
                 .into_iter()
                 .filter_map(|(name, records)| {
                     let failing: Vec<&str> = records.iter().map(|r| r.case.as_str()).collect();
-                    let all = drawn.get(&(column, name)).map_or(&[][..], Vec::as_slice);
-                    Some((name, Condition::of(&failing, all), *records.first()?))
+                    let drawn_cases = drawn.get(&(column, name)).map_or(&[][..], Vec::as_slice);
+                    Some((
+                        name,
+                        Condition::of(&failing, drawn_cases),
+                        *records.first()?,
+                    ))
                 })
                 .collect();
             files.sort_by_key(|(_, condition, _)| Reverse(condition.failing));

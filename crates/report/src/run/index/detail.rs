@@ -18,7 +18,7 @@ use std::path::Path;
 /// The maximum number of wrong texels in a table.
 const TEXELS: usize = 6;
 /// The maximum number of bytes that all pictures of a page take together.
-const PICTURE_BYTES: usize = 3 << 20;
+const PICTURE_BYTES: usize = 2 << 20;
 
 /// The room that pictures take.
 #[derive(Default)]
@@ -39,14 +39,18 @@ pub(crate) struct Drawn {
 impl Drawn {
     /// Reads and draws a record's frame, or returns `None` if the record names none.
     pub(crate) fn of(folder: &Path, record: &Record) -> Option<Self> {
-        let mut frame = Run::read_frame(folder, record.frame.as_deref()?);
+        Some(Self::new(Run::read_frame(folder, record.frame.as_deref()?)))
+    }
+
+    /// Draws a frame.
+    pub(crate) fn new(mut frame: Result<FrameFile, RecordError>) -> Self {
         let images = frame
             .as_mut()
             .map(|frame| std::mem::take(&mut frame.images));
-        Some(Self {
+        Self {
             strips: images.iter().flatten().map(picture::strip).collect(),
             frame,
-        })
+        }
     }
 }
 

@@ -88,6 +88,9 @@ pub(crate) fn of(record: &Record) -> Vec<(Label, String)> {
         }
         add("Measured", "text", false, text);
     }
+    if let Some(case) = &record.example {
+        add("Shown in full by", "case", true, case.clone());
+    }
     if let Some(frame) = &record.frame {
         add("Frame", "code", true, frame.clone());
     }

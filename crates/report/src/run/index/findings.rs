@@ -36,7 +36,7 @@ impl Plan {
         // The first of every case file and adapter go before any second one, and what is
         // unexpected before what is not.
         let mut lines = Vec::new();
-        let mut whole = Vec::new();
+        let mut complete = Vec::new();
         for file in grid.files() {
             for column in 0..grid.adapters.len() {
                 let mut ranks = [0; 3];
@@ -47,18 +47,19 @@ impl Plan {
                         lines.push((kind, *rank, index));
                     }
                     let most = if kind == 2 { IMPRECISE_BODIES } else { LINES };
-                    if *rank < most {
-                        whole.push((kind, *rank, index));
+                    // The page of a record with an example links to that case.
+                    if *rank < most && grid.record(index).example.is_none() {
+                        complete.push((kind, *rank, index));
                     }
                     *rank += 1;
                 }
             }
         }
         lines.sort_unstable();
-        whole.sort_unstable();
+        complete.sort_unstable();
         let shown = lines.iter().take(ALL_LINES);
         let mut bodies: HashMap<usize, bool> = shown.map(|(_, _, i)| (*i, false)).collect();
-        for (_, _, index) in whole.iter().take(BODIES) {
+        for (_, _, index) in complete.iter().take(BODIES) {
             bodies.insert(*index, true);
         }
         let odd = grid.cases().filter_map(|case| {
@@ -68,7 +69,7 @@ impl Plan {
         Self {
             bodies,
             odd: odd.collect(),
-            cut: whole.len().saturating_sub(BODIES),
+            cut: complete.len().saturating_sub(BODIES),
         }
     }
 
@@ -101,21 +102,21 @@ fn listed(grid: &Grid<'_>, file: &CaseFile<'_>, column: usize) -> Vec<usize> {
         r.unexpected() || r.verdict.is_bad() || r.verdict == Verdict::Imprecise
     };
     let mut result: Vec<usize> = file.on(column).filter(worth).collect();
-    result.sort_by_key(|i| kind(grid.record(*i)));
+    result.sort_by_key(|i| (kind(grid.record(*i)), grid.record(*i).example.is_some()));
     result
 }
 
 /// Returns the frames of all records that are shown whole, by record. They are most of a page's cost and
 /// independent of each other.
 fn drawn(folder: &Path, grid: &Grid<'_>, plan: &Plan) -> HashMap<usize, Drawn> {
-    let whole: Vec<usize> = plan
+    let complete: Vec<usize> = plan
         .bodies
         .keys()
         .copied()
         .filter(|i| plan.whole(*i))
         .collect();
-    let drawn = on_threads(&whole, |i| Drawn::of(folder, grid.record(*i)));
-    let drawn = whole.into_iter().zip(drawn);
+    let drawn = on_threads(&complete, |i| Drawn::of(folder, grid.record(*i)));
+    let drawn = complete.into_iter().zip(drawn);
     drawn.filter_map(|(i, drawn)| Some((i, drawn?))).collect()
 }
 

@@ -241,9 +241,10 @@ impl Page<'_> {
     pub(crate) fn choose(&self, selector: &str, option: &str) {
         self.run(&format!("document.querySelector({selector:?}).focus()"));
         self.press("Home");
-        let at = format!("document.querySelector({selector:?}).selectedOptions[0].textContent");
+        let selected =
+            format!("document.querySelector({selector:?}).selectedOptions[0].textContent");
         for _ in 0..50 {
-            if self.eval::<String>(&at).starts_with(option) {
+            if self.eval::<String>(&selected).starts_with(option) {
                 return;
             }
             self.press("ArrowDown");

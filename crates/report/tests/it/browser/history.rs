@@ -21,7 +21,7 @@ pub(super) fn news_lead_to_cases_runs_and_back(chromium: &Chromium) {
     assert_eq!(page.text("#view-title"), BROKEN);
     assert_eq!(page.focused(), "view-title");
     let text = page.text("#view-body");
-    for due in [
+    for expected in [
         "vulkan:first",
         "vulkan:second",
         "✗ broken",
@@ -30,7 +30,7 @@ pub(super) fn news_lead_to_cases_runs_and_back(chromium: &Chromium) {
         "run 4",
         "0404",
     ] {
-        assert!(text.contains(due), "{due} in {text}");
+        assert!(text.contains(expected), "{expected} in {text}");
     }
     // Every drawing has a name, and no link or table is without one. Chromium has no names yet for what it has not
     // laid out because of `content-visibility`, so all of it is laid out first.
@@ -64,14 +64,14 @@ pub(super) fn news_lead_to_cases_runs_and_back(chromium: &Chromium) {
     page.press("Enter");
     page.wait("document.querySelector('svg.times')");
     let text = page.text("#view-body");
-    for due in [
+    for expected in [
         "Frame times on vulkan:first",
         "+20 %",
         "the ruler stayed where it was",
         "real",
         "would be found",
     ] {
-        assert!(text.contains(due), "{due} in {text}");
+        assert!(text.contains(expected), "{expected} in {text}");
     }
     page.press("Escape");
     page.wait("!document.querySelector('#start').hidden");

@@ -27,21 +27,21 @@ pub(super) fn hostile_names_stay_text(chromium: &Chromium) {
     let folder = tempfile::tempdir().unwrap();
     let adapters: Vec<_> = HOSTILE.iter().map(|h| adapter(h, Api::Vulkan)).collect();
     let mut header = header(HOSTILE.len() as u64, adapters);
-    let all = HOSTILE.join(" ");
-    header.started = all.clone();
-    header.command = vec![all.clone()];
-    header.machine.cpu = all.clone();
-    header.machine.os = all.clone();
-    header.commit = Some(all.clone());
-    header.absent[0].name = all.clone();
-    header.absent[0].reason = all.clone();
-    header.absent[0].remedy = all.clone();
+    let hostile = HOSTILE.join(" ");
+    header.started = hostile.clone();
+    header.command = vec![hostile.clone()];
+    header.machine.cpu = hostile.clone();
+    header.machine.os = hostile.clone();
+    header.commit = Some(hostile.clone());
+    header.absent[0].name = hostile.clone();
+    header.absent[0].reason = hostile.clone();
+    header.absent[0].remedy = hostile.clone();
     for adapter in &mut header.adapters {
-        adapter.device = all.clone();
-        adapter.driver = all.clone();
-        adapter.driver_version = all.clone();
-        adapter.api_version = all.clone();
-        adapter.backend = all.clone();
+        adapter.device = hostile.clone();
+        adapter.driver = hostile.clone();
+        adapter.driver_version = hostile.clone();
+        adapter.api_version = hostile.clone();
+        adapter.backend = hostile.clone();
     }
     let mut writer = RunWriter::create(folder.path(), &header).unwrap();
     let id = |text: &str| format!("{text}/{text}/axis={text}");
@@ -49,7 +49,7 @@ pub(super) fn hostile_names_stay_text(chromium: &Chromium) {
         for (column, name) in HOSTILE.iter().enumerate() {
             // The last kind has no entry under Findings, so the script shows all of it.
             let verdict = [Verdict::Fail, Verdict::Crash, Verdict::Pass][column % 3];
-            let record = record(&writer, &id(text), name, verdict, &all);
+            let record = record(&writer, &id(text), name, verdict, &hostile);
             writer.append(&record).unwrap();
         }
     }
@@ -84,27 +84,27 @@ pub(super) fn hostile_names_stay_text(chromium: &Chromium) {
              decodeURIComponent(a.getAttribute('href').slice(6)) === {})",
             serde_json::to_string(&id(text)).unwrap()
         );
-        let at: usize = page.eval(&find);
+        let index: usize = page.eval(&find);
         page.run("document.querySelector('#wanted')?.removeAttribute('id')");
         page.run(&format!(
-            "document.querySelectorAll('#case-table tbody th a')[{at}].id = 'wanted'"
+            "document.querySelectorAll('#case-table tbody th a')[{index}].id = 'wanted'"
         ));
         page.click("#wanted");
-        let due = serde_json::to_string(&id(text)).unwrap();
+        let title = serde_json::to_string(&id(text)).unwrap();
         page.wait(&format!(
-            "document.querySelector('#case-title')?.textContent === {due}"
+            "document.querySelector('#case-title')?.textContent === {title}"
         ));
         assert_eq!(page.text("#case-title"), id(text));
         let view = page.text("#case");
-        for told in HOSTILE {
+        for hostile in HOSTILE {
             assert!(
-                view.contains(told) || told.contains('\u{0}'),
-                "{told:?} for {text:?}"
+                view.contains(hostile) || hostile.contains('\u{0}'),
+                "{hostile:?} for {text:?}"
             );
         }
         let facts = page.texts("#case dd pre");
         assert!(
-            facts.contains(&all),
+            facts.contains(&hostile),
             "the script shows every character, {facts:?}"
         );
         assert_eq!(page.eval::<u64>(foreign), 0);
@@ -130,41 +130,41 @@ pub(super) fn hostile_names_stay_text(chromium: &Chromium) {
     }
 }
 
-fn record(writer: &RunWriter, id: &str, name: &str, verdict: Verdict, all: &str) -> Record {
+fn record(writer: &RunWriter, id: &str, name: &str, verdict: Verdict, hostile: &str) -> Record {
     let mut record = synthetic::record(writer, id, name, verdict, 1);
-    record.message = all.to_owned();
+    record.message = hostile.to_owned();
     record.expected = (verdict == Verdict::Fail).then(|| Expected {
-        reason: all.to_owned(),
+        reason: hostile.to_owned(),
     });
     record.process = Some(ProcessEnd {
         kind: LossKind::Garbage,
         signal: None,
         exit: Some(1),
-        stderr: all.to_owned(),
+        stderr: hostile.to_owned(),
         seconds: 1.0,
     });
-    record.validation = vec![all.to_owned()];
+    record.validation = vec![hostile.to_owned()];
     record.after = HOSTILE.map(str::to_owned).to_vec();
     if verdict == Verdict::Fail {
         record.frame = Some("javascript:window.hacked=9".to_owned());
-        record.wrong[0].channels[0].attachment = all.to_owned();
+        record.wrong[0].channels[0].attachment = hostile.to_owned();
         record.story = Some(Story {
             told: vec![ToldLine {
-                at: all.to_owned(),
-                operation: all.to_owned(),
-                detail: all.to_owned(),
-                citation: Some(all.to_owned()),
+                at: hostile.to_owned(),
+                operation: hostile.to_owned(),
+                detail: hostile.to_owned(),
+                citation: Some(hostile.to_owned()),
             }],
             events: vec![Event {
-                scene: Some(SceneName::Variant(all.to_owned())),
-                origin: Origin::Attachment(all.to_owned()),
+                scene: Some(SceneName::Variant(hostile.to_owned())),
+                origin: Origin::Attachment(hostile.to_owned()),
                 step: Step::Upload(vec![Contents {
-                    attachment: all.to_owned(),
+                    attachment: hostile.to_owned(),
                     aspect: Aspect::Stencil,
                     codes: Vec::new(),
                 }]),
                 effect: Effect::None,
-                citation: Some(all.to_owned()),
+                citation: Some(hostile.to_owned()),
             }],
             ..Story::default()
         });

@@ -197,7 +197,7 @@ fn a_link_leads_to_a_case(chromium: &Chromium, path: &Path) {
     assert_eq!(page.focused(), "case-title");
     assert!(!page.eval::<bool>("document.querySelector('#report').checkVisibility()"));
     let text = page.text("#case");
-    for due in [
+    for expected in [
         "only vulkan:lavapipe differs: crash",
         "ended by signal 11 (SIGSEGV), after 750.0 ms",
         "lavapipe: assertion of the shader's stack\nlast line",
@@ -208,7 +208,7 @@ fn a_link_leads_to_a_case(chromium: &Chromium, path: &Path) {
         "differs only here",
         "etalon run blend/order/draws=2 --adapter vulkan:lavapipe",
     ] {
-        assert!(text.contains(due), "{due} in {text}");
+        assert!(text.contains(expected), "{expected} in {text}");
     }
     // The case that must be drawn first.
     page.click(&format!("#case a[href='#case={ODD}']"));
@@ -277,7 +277,7 @@ fn the_keyboard_suffices(chromium: &Chromium, path: &Path) {
         page.press("Tab");
         order.push(page.focused());
     }
-    let due = [
+    let expected = [
         "f-messages",
         "f-verdict",
         "f-on",
@@ -288,7 +288,7 @@ fn the_keyboard_suffices(chromium: &Chromium, path: &Path) {
         "f-clear",
         "f-groups",
     ];
-    assert_eq!(order[..9], due);
+    assert_eq!(order[..9], expected);
     assert_eq!(
         order[9..12],
         ["Case", "Consensus", "▾ blend/order"],
@@ -381,13 +381,13 @@ fn a_screen_reader_is_told_what_everything_is(chromium: &Chromium, path: &Path) 
 fn without_scripts_the_page_says_what_is_missing(chromium: &Chromium, path: &Path) {
     let page = chromium.open_without_scripts(path);
     let text: String = page.eval("document.body.innerText");
-    for due in [
+    for expected in [
         "need scripts",
         "Areas and adapters",
         "differs only here",
         "What was asserted",
     ] {
-        assert!(text.contains(due), "{due}");
+        assert!(text.contains(expected), "{expected}");
     }
     assert!(!page.eval::<bool>("document.querySelector('#filter').checkVisibility()"));
 }

@@ -68,8 +68,8 @@ pub(super) fn write(folder: &Path) -> PathBuf {
     let out = folder.join("methods");
     let mut writer = RunWriter::create(&out, &run.header).unwrap();
     fs::create_dir_all(out.join("pictures")).unwrap();
-    let save = |name: &str, of: &dyn Fn(u32, u32) -> [u8; 3]| {
-        let picture = RgbImage::from_fn(SIZE[0], SIZE[1], |x, y| image::Rgb(of(x, y)));
+    let save = |name: &str, color: &dyn Fn(u32, u32) -> [u8; 3]| {
+        let picture = RgbImage::from_fn(SIZE[0], SIZE[1], |x, y| image::Rgb(color(x, y)));
         picture.save(out.join("pictures").join(name)).unwrap();
     };
     save("truth.png", &truth);
@@ -243,24 +243,24 @@ fn pictures_are_enlarged_by_click_and_by_keys(chromium: &Chromium, path: &Path) 
         "transparency/windows: unsorted at alpha 0.5 on cpu"
     );
     let values = || page.text("dialog .values");
-    let at = |x: u32, y: u32| {
-        let codes = |of: [u8; 3]| of.map(|c| format!("{c:4}")).concat();
+    let values_at = |x: u32, y: u32| {
+        let codes = |color: [u8; 3]| color.map(|c| format!("{c:4}")).concat();
         format!(
             "texel {x},{y}\npicture    {}\ntruth      {}\n",
             codes(drawn(x, y)),
             codes(truth(x, y))
         )
     };
-    assert!(values().starts_with(&at(8, 4)), "{}", values());
+    assert!(values().starts_with(&values_at(8, 4)), "{}", values());
     page.press("ArrowRight");
     page.press("ArrowUp");
-    assert!(values().starts_with(&at(9, 3)), "{}", values());
+    assert!(values().starts_with(&values_at(9, 3)), "{}", values());
     assert!(values().contains("difference  -33"), "{}", values());
     assert!(values().contains("etalon explain methods/transparency/windows/method=unsorted/alpha=0.5 --texel 9,3 --adapter cpu"));
     // Below the pointer.
     page.run("{ const c = document.querySelector('dialog canvas'), r = c.getBoundingClientRect(); \
               c.dispatchEvent(new PointerEvent('pointermove', { clientX: r.x + r.width * 2.5 / 16, clientY: r.y + r.height * 6.5 / 8 })); }");
-    assert!(values().starts_with(&at(2, 6)), "{}", values());
+    assert!(values().starts_with(&values_at(2, 6)), "{}", values());
     page.press("3");
     assert_eq!(page.texts("dialog [aria-pressed=true]"), ["difference"]);
     assert!(page.text("dialog .scale").contains("codes per channel"));

@@ -7,7 +7,7 @@ pub(super) fn a_site_leads_to_reports_and_cases(chromium: &Chromium, run: &Path)
     let folder = tempfile::tempdir().unwrap();
     let to = folder.path().join("site");
     let run = run.parent().unwrap().to_owned();
-    let site = etalon_report::write_site(&to, &[run], false).unwrap();
+    let site = etalon_report::write_site(&to, &[run], None, false).unwrap();
     let page = chromium.open(&site.html, "");
     page.click("#cases li a");
     page.wait("document.querySelector('.gallery img')?.naturalWidth > 0");

@@ -16,9 +16,9 @@ fn pages(folder: &Path) -> Vec<PathBuf> {
     std::fs::write(&diff, two.page(&two.diff())).unwrap();
     let benches = bench::pages(&folder.join("bench"));
     let hunt = etalon_report::write_hunt(&folder.join("hunt"), &hunt()).unwrap();
-    let mut all = vec![diff, hunt.html];
-    all.extend(benches);
-    all
+    let mut pages = vec![diff, hunt.html];
+    pages.extend(benches);
+    pages
 }
 
 /// Their policy forbids every script, also one injected through a name.

@@ -365,8 +365,8 @@ fn frame(id: &str, adapter: &str, band: Band, seed: u32) -> FrameFile {
             for c in 0..n {
                 let encoding = image.channels[c as usize];
                 let most = encoding.max_order().min(0x3f80_0000) as u32;
-                let at = u64::from([x * 16, y * 16, 128, hash(i)][c as usize % 4]);
-                let low = (u64::from(most) * at / 255) as u32;
+                let share = u64::from([x * 16, y * 16, 128, hash(i)][c as usize % 4]);
+                let low = (u64::from(most) * share / 255) as u32;
                 let high = (low + u32::from(band == Band::Imprecise) * 2).min(most);
                 image.low.push(low);
                 image.high.push(high);

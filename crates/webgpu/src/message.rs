@@ -1,20 +1,21 @@
-//! The messages between worker and page.
+//! The messages between a page and the program that sends it lists.
 //!
 //! The page sends a greeting as JSON. All later messages are binary: the length of a header as four
 //! little-endian bytes, the header as JSON, and bytes.
 
-use etalon_webgpu::CallList;
+use crate::calls::CallList;
+use etalon_backend::BackendError;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// The version of the protocol.
-pub(crate) const PROTOCOL: u32 = 1;
+pub const PROTOCOL: u32 = 1;
 
 /// The first message of a page.
 #[derive(Debug, Deserialize)]
 #[serde(untagged)]
-pub(crate) enum Greeting {
+pub enum Greeting {
     /// The page has a device.
     Hello(Box<Hello>),
     /// The page has no device.
@@ -28,88 +29,104 @@ pub(crate) enum Greeting {
 
 /// A device as a page describes it.
 #[derive(Debug, Deserialize)]
-pub(crate) struct Hello {
+pub struct Hello {
     /// The version of the page's protocol.
-    pub(crate) protocol: u32,
-    pub(crate) browser: Named,
+    pub protocol: u32,
+    /// The browser.
+    pub browser: Named,
     /// True if the device has the feature level `compatibility`.
     #[serde(default)]
-    pub(crate) compatibility: bool,
-    pub(crate) adapter: Adapter,
+    pub compatibility: bool,
+    /// The adapter of the device.
+    pub adapter: Adapter,
     /// The features of the device, by WebGPU's names.
-    pub(crate) features: Vec<String>,
+    pub features: Vec<String>,
     /// The limits of the device, by WebGPU's names.
-    pub(crate) limits: BTreeMap<String, u64>,
+    pub limits: BTreeMap<String, u64>,
 }
 
 /// A browser.
 #[derive(Debug, Deserialize)]
-pub(crate) struct Named {
-    pub(crate) name: String,
-    pub(crate) version: String,
+pub struct Named {
+    /// The name.
+    pub name: String,
+    /// The version; empty if it is unknown.
+    pub version: String,
 }
 
 /// GPUAdapterInfo. Browsers leave members empty that would identify a person's machine.
 #[derive(Debug, Deserialize)]
-pub(crate) struct Adapter {
-    pub(crate) vendor: String,
-    pub(crate) architecture: String,
-    pub(crate) device: String,
-    pub(crate) description: String,
-    pub(crate) fallback: bool,
+pub struct Adapter {
+    /// The vendor.
+    pub vendor: String,
+    /// The architecture.
+    pub architecture: String,
+    /// The device.
+    pub device: String,
+    /// A description.
+    pub description: String,
+    /// True for a software rasterizer.
+    pub fallback: bool,
 }
 
 /// A request to a page.
 #[derive(Debug, Serialize)]
-pub(crate) struct Request<'l> {
+pub struct Request<'l> {
     /// The number of the request, which the answer repeats.
-    pub(crate) number: u64,
+    pub number: u64,
     /// The slots of scenes to forget first.
-    pub(crate) dropped: Vec<u64>,
+    pub dropped: Vec<u64>,
     /// The slot of the scene.
-    pub(crate) slot: u64,
+    pub slot: u64,
     /// The scene's calls, with empty buffers, if the page does not have them.
-    pub(crate) list: Option<&'l CallList>,
+    pub list: Option<&'l CallList>,
     /// The indices and lengths of the buffers with contents. The bytes follow the header in this order.
-    pub(crate) contents: Vec<(usize, usize)>,
+    pub contents: Vec<(usize, usize)>,
     /// The number of frames to draw.
-    pub(crate) frames: u32,
+    pub frames: u32,
     /// True if the last frame is read.
-    pub(crate) read: bool,
+    pub read: bool,
 }
 
 /// The header of a page's answer. The bytes that were read follow it.
 #[derive(Debug, Deserialize)]
-pub(crate) struct Answer {
-    pub(crate) number: u64,
-    pub(crate) times: Vec<Times>,
-    pub(crate) error: Option<Failed>,
+pub struct Answer {
+    /// The number of the request.
+    pub number: u64,
+    /// The times of each frame.
+    pub times: Vec<Times>,
+    /// The failure of the request, if it failed.
+    pub error: Option<Failed>,
     /// Uncaptured errors since the last answer.
-    pub(crate) messages: Vec<String>,
+    pub messages: Vec<String>,
 }
 
 /// The times of a frame in milliseconds.
 #[derive(Clone, Copy, Debug, Deserialize)]
-pub(crate) struct Times {
-    pub(crate) cpu: f64,
-    pub(crate) gpu: Option<f64>,
-    pub(crate) wall: f64,
+pub struct Times {
+    /// Until the work is submitted.
+    pub cpu: f64,
+    /// Between the GPU timestamps.
+    pub gpu: Option<f64>,
+    /// Until the device is done.
+    pub wall: f64,
 }
 
 /// A failure of the device.
 #[derive(Debug, Deserialize)]
-pub(crate) struct Failed {
-    pub(crate) kind: FailedKind,
+pub struct Failed {
+    /// The kind.
+    pub kind: FailedKind,
     /// The operation that failed.
-    pub(crate) what: String,
+    pub what: String,
     /// The device's message.
-    pub(crate) message: String,
+    pub message: String,
 }
 
 /// The kind of a failure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum FailedKind {
+pub enum FailedKind {
     /// The device was lost.
     Lost,
     /// The device refused an object.
@@ -120,11 +137,40 @@ pub(crate) enum FailedKind {
     Internal,
 }
 
+impl From<Failed> for BackendError {
+    fn from(failed: Failed) -> Self {
+        let Failed {
+            kind,
+            what,
+            message,
+        } = failed;
+        match kind {
+            FailedKind::Lost => Self::lost(message),
+            FailedKind::Resource => Self::refused(what, message),
+            FailedKind::Shader => Self::shader(what, message),
+            FailedKind::Internal => Self::internal_of(what, message),
+        }
+    }
+}
+
+/// Takes the contents out of the buffers of a list, and returns their [`Request::contents`] and bytes.
+pub fn take_contents(list: &mut CallList) -> (Vec<(usize, usize)>, Vec<Vec<u8>>) {
+    let mut contents = Vec::new();
+    let mut places = Vec::new();
+    for (place, buffer) in list.buffers.iter_mut().enumerate() {
+        if !buffer.contents.is_empty() {
+            places.push((place, buffer.contents.len()));
+            contents.push(std::mem::take(&mut buffer.contents));
+        }
+    }
+    (places, contents)
+}
+
 /// Returns a message.
 ///
 /// # Errors
 /// If the header is longer than 4 GiB, or has a number that is not finite.
-pub(crate) fn packed<'b>(
+pub fn packed<'b>(
     header: &impl Serialize,
     parts: impl Iterator<Item = &'b [u8]>,
 ) -> Result<Vec<u8>, String> {
@@ -140,7 +186,7 @@ pub(crate) fn packed<'b>(
 ///
 /// # Errors
 /// If the bytes are not a message.
-pub(crate) fn unpacked<T: DeserializeOwned>(message: &[u8]) -> Result<(T, &[u8]), String> {
+pub fn unpacked<T: DeserializeOwned>(message: &[u8]) -> Result<(T, &[u8]), String> {
     let short = || "a message ends in its header".to_owned();
     let (length, rest) = message.split_first_chunk().ok_or_else(short)?;
     let length = u32::from_le_bytes(*length) as usize;

@@ -1,6 +1,7 @@
 //! Selecting cases by globs.
 
-use etalon_case::{CaseRef, Library, Profile};
+use crate::file::{CaseRef, Profile};
+use crate::library::Library;
 use globset::{GlobBuilder, GlobSet, GlobSetBuilder};
 use thiserror::Error;
 

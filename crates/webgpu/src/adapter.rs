@@ -1,16 +1,17 @@
 //! A page's description of its device, as an adapter.
 
+use crate::device::{Abilities, Device};
 use crate::message::Hello;
+use crate::offer::{DeviceLimits, Level, Offer, standard_formats};
 use etalon_backend::AdapterInfo;
 use etalon_frame::Feature;
-use etalon_webgpu::{Abilities, Device, DeviceLimits, Level, Offer, standard_formats};
 use std::collections::BTreeSet;
 
 /// Words in the names of software rasterizers.
 const SOFTWARE: [&str; 4] = ["swiftshader", "llvmpipe", "warp", "basic render"];
 
 /// Returns the adapter of a page.
-pub(crate) fn info(name: &str, hello: &Hello) -> AdapterInfo {
+pub fn info(name: &str, hello: &Hello) -> AdapterInfo {
     let adapter = &hello.adapter;
     let parts = [&adapter.description, &adapter.vendor, &adapter.architecture];
     let words = parts.map(|part| part.to_lowercase()).join(" ");
@@ -46,7 +47,7 @@ pub(crate) fn info(name: &str, hello: &Hello) -> AdapterInfo {
 }
 
 /// Returns the facts about a page's device that lowering uses, or the reason if a limit is missing.
-pub(crate) fn device(hello: &Hello) -> Result<Device, String> {
+pub fn device(hello: &Hello) -> Result<Device, String> {
     let has = |name: &str| hello.features.iter().any(|feature| feature == name);
     let limit = |name: &str| {
         let value = hello.limits.get(name);

@@ -62,7 +62,7 @@ fn leans_on(case: &Case) -> BTreeSet<TextureFormat> {
 
 /// The result of an adapter's round trips.
 #[derive(Clone, Debug, Default)]
-pub(super) struct RoundTrips {
+pub struct RoundTrips {
     failed: BTreeMap<TextureFormat, Failed>,
     /// Formats whose round trip the expectations skip, with the reason.
     unchecked: BTreeMap<TextureFormat, String>,
@@ -82,18 +82,18 @@ struct Failed {
 
 /// Why a case is not drawn.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) struct Blocked {
+pub struct Blocked {
     /// The ids of the round trips that failed.
-    pub(super) by: Vec<String>,
+    pub by: Vec<String>,
     /// The message for people.
-    pub(super) message: String,
+    pub message: String,
     /// The reason why the case is expected to be blocked, if all these failures are expected.
-    pub(super) expected: Option<String>,
+    pub expected: Option<String>,
 }
 
 impl RoundTrips {
     /// Adds the record of a round trip.
-    pub(super) fn take(&mut self, case: &Case, record: &Record) {
+    pub fn take(&mut self, case: &Case, record: &Record) {
         let Some(format) = format_of(case) else {
             return;
         };
@@ -116,12 +116,12 @@ impl RoundTrips {
     }
 
     /// Returns why the driver no longer starts; every other case is recorded with this reason.
-    pub(super) fn not_started(&self) -> Option<&str> {
+    pub fn not_started(&self) -> Option<&str> {
         self.not_started.as_deref()
     }
 
     /// Returns why a case must not be drawn; `None` if it can be.
-    pub(super) fn blocks(&self, case: &Case) -> Option<Blocked> {
+    pub fn blocks(&self, case: &Case) -> Option<Blocked> {
         if self.failed.is_empty() {
             return None;
         }
@@ -143,8 +143,18 @@ impl RoundTrips {
         })
     }
 
+    /// Adds to the message of a case that is drawn although a round trip that it depends on was skipped.
+    pub fn annotate(&self, case: &Case, record: &mut Record) {
+        if let Some(note) = self.note(case) {
+            record.message = match record.message.as_str() {
+                "" => note,
+                message => format!("{message}; {note}"),
+            };
+        }
+    }
+
     /// Returns the note on a case that is drawn although a round trip that it depends on was skipped.
-    pub(super) fn note(&self, case: &Case) -> Option<String> {
+    fn note(&self, case: &Case) -> Option<String> {
         if self.unchecked.is_empty() {
             return None;
         }
@@ -212,7 +222,7 @@ mod tests {
     fn built(glob: &str) -> Vec<Case> {
         let library = Library::built_in().expect("built-in files parse");
         let globs = [glob.to_owned()];
-        let selection = crate::select(&library, Profile::Full, &globs).expect("a glob");
+        let selection = etalon_case::select(&library, Profile::Full, &globs).expect("a glob");
         let cases = selection.cases.iter();
         cases.map(|c| c.build().expect("a case")).collect()
     }

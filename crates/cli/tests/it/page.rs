@@ -1,0 +1,251 @@
+//! The suite in a page (`ci/page`), in Chromium and Firefox: whole runs, stops and reloads, planted faults, and the
+//! saved file, which commands read. Its records equal those of a run through the relay.
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+
+mod driven;
+mod server;
+
+use crate::etalon::etalon;
+use crate::house::root;
+use driven::Driven;
+use etalon_record::{Record, Run, Seconds, Verdict};
+use server::Server;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+/// Seconds in which `quick` is drawn.
+const QUICK: u64 = 240;
+/// True once a run has all its records.
+const COMPLETE: &str = "document.body.dataset.state === 'complete'";
+
+/// Builds the page, and serves it.
+fn site() -> Server {
+    let folder = root().join("target/page-site");
+    let built = Command::new(root().join("ci/page"))
+        .arg(&folder)
+        .output()
+        .unwrap();
+    let errors = String::from_utf8_lossy(&built.stderr);
+    assert!(built.status.success(), "ci/page: {errors}");
+    Server::start(&folder)
+}
+
+fn address(server: &Server, fragment: &str) -> String {
+    // Without a query, a new fragment would not load the page again.
+    format!("http://{}/?{}#{fragment}", server.address, fragment.len())
+}
+
+/// Writes the file of the page's run.
+fn save(browser: &Driven, folder: &Path) -> PathBuf {
+    let bytes =
+        "run.file().then(file => file.arrayBuffer()).then(file => [...new Uint8Array(file)])";
+    let bytes: Vec<u8> = serde_json::from_value(browser.eval(bytes)).unwrap();
+    let path = folder.join("page.tar.gz");
+    fs::write(&path, bytes).unwrap();
+    path
+}
+
+/// Runs a command to its end.
+fn run(arguments: &[&str], codes: &[i32]) -> String {
+    let mut command = etalon(arguments);
+    let output = command
+        .timeout(Duration::from_secs(QUICK))
+        .output()
+        .unwrap();
+    let code = output.status.code().unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(codes.contains(&code), "{arguments:?}: {code}\n{errors}");
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+/// Returns the records of a run by case, without their times.
+fn records(folder: &Path) -> BTreeMap<String, Record> {
+    let run = Run::read(folder).unwrap();
+    let records = run.records.into_iter().map(|mut record| {
+        record.seconds = Seconds::default();
+        (record.case.clone(), record)
+    });
+    records.collect()
+}
+
+/// Compares a saved run with the same cases through the relay.
+fn compare_with_relay(saved: &Path, adapter: &str, globs: &[&str]) {
+    let above = saved.parent().unwrap();
+    let relay = above.join("relay");
+    let relay_text = relay.to_str().unwrap();
+    let begun = Instant::now();
+    // One job draws in the order of the cases, which decides the imprecise frames that are kept.
+    let mut arguments = vec![
+        "run",
+        "--adapter",
+        adapter,
+        "--jobs",
+        "1",
+        "--out",
+        relay_text,
+    ];
+    arguments.extend(globs);
+    run(&arguments, &[0]);
+    println!("{adapter}, relay: {:.1?}", begun.elapsed());
+    let saved_text = saved.to_str().unwrap();
+    run(&["report", saved_text], &[0]);
+    let folder = above.join("page");
+    let (page, relay) = (records(&folder), records(&relay));
+    assert_eq!(
+        page.keys().collect::<Vec<_>>(),
+        relay.keys().collect::<Vec<_>>()
+    );
+    for (case, record) in &page {
+        assert_eq!(record, &relay[case], "{case}");
+        if let Some(frame) = &record.frame {
+            let frames =
+                [&folder, &above.join("relay")].map(|f| Run::read_frame(f, frame).unwrap());
+            assert_eq!(frames[0], frames[1], "{case}");
+        }
+    }
+    run(&["diff", saved_text, relay_text], &[0]);
+    let database = above.join("history.db");
+    let added = run(
+        &[
+            "history",
+            "add",
+            saved_text,
+            "--db",
+            database.to_str().unwrap(),
+        ],
+        &[0],
+    );
+    assert!(added.contains(&format!("{} record", page.len())), "{added}");
+    let merged = above.join("merged");
+    run(
+        &["merge", saved_text, "--out", merged.to_str().unwrap()],
+        &[0],
+    );
+    assert_eq!(records(&merged), page);
+}
+
+#[test]
+fn quick_in_a_page_of_chromium_is_a_run_of_the_browser() {
+    let (server, folder) = (site(), tempfile::tempdir().unwrap());
+    let browser = Driven::start("webgpu:chromium");
+    let begun = Instant::now();
+    browser.go(&address(&server, "run="));
+    browser.wait(60, "run?.done > 200");
+    browser.eval("document.getElementById('stop').click()");
+    browser.wait(10, "document.body.dataset.state === 'stopped'");
+    browser.eval("document.getElementById('resume').click()");
+    browser.wait(60, "run.done > 600");
+    let done = browser.eval("run.done").as_u64().unwrap();
+    let started = browser.eval("JSON.parse(run.opened.header).started");
+    browser.eval("location.reload()");
+    browser.wait(
+        30,
+        "typeof run === 'object' && run?.running && run.done > 300",
+    );
+    let kept = browser.eval("run.done").as_u64().unwrap();
+    assert!(
+        kept + 100 > done.min(600),
+        "{kept} of {done} records are left"
+    );
+    browser.wait(QUICK, COMPLETE);
+    println!("webgpu:chromium, page: {:.1?}", begun.elapsed());
+    assert_eq!(
+        browser.eval("JSON.parse(run.opened.header).started"),
+        started
+    );
+    assert_eq!(
+        browser.eval("document.getElementById('bad').childElementCount"),
+        0
+    );
+    let known = browser.eval("document.getElementById('known').childElementCount");
+    assert!(known.as_u64().unwrap() > 10, "{known}");
+    let saved = save(&browser, folder.path());
+    drop(browser);
+    compare_with_relay(&saved, "webgpu:chromium", &[]);
+    // The page asks for its own files and for nothing else.
+    let requested = server.requested.lock().unwrap();
+    for name in requested.iter().filter(|name| *name != "favicon.ico") {
+        assert!(
+            root().join("target/page-site").join(name).is_file(),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn quick_in_a_page_of_firefox_is_a_run_of_the_browser() {
+    let (server, folder) = (site(), tempfile::tempdir().unwrap());
+    let browser = Driven::start("webgpu:firefox");
+    let begun = Instant::now();
+    browser.go(&address(&server, "run="));
+    browser.wait(60, "run?.done > 300");
+    browser.eval("void location.reload()");
+    browser.wait(QUICK, COMPLETE);
+    println!("webgpu:firefox, page: {:.1?}", begun.elapsed());
+    let saved = save(&browser, folder.path());
+    drop(browser);
+    compare_with_relay(&saved, "webgpu:firefox", &[]);
+}
+
+#[test]
+fn a_page_of_a_browser_survives_a_lost_device() {
+    let server = site();
+    let browser = Driven::start("webgpu:chromium");
+    browser.go(&address(&server, "run=sequence/* stencil/*"));
+    browser.wait(60, "run?.done > 100");
+    browser.kill_gpu();
+    browser.wait(120, COMPLETE);
+    let bad = "[...run.records.values()].map(record => record.outcome).filter(outcome => outcome.unexpected)";
+    let bad = browser.eval(&format!(
+        "{bad}.map(outcome => [outcome.verdict, outcome.headline])"
+    ));
+    let bad: Vec<(Verdict, String)> = serde_json::from_value(bad).unwrap();
+    // A lane loses at most the case that it draws, which is right on a fresh device.
+    assert!(bad.len() <= 8, "{bad:?}");
+    for (verdict, why) in bad {
+        assert_eq!(verdict, Verdict::Flaky, "{why}");
+        assert!(why.contains("device-lost, then pass"), "{why}");
+    }
+}
+
+#[test]
+fn a_page_of_a_browser_shows_planted_faults() {
+    let server = site();
+    let browser = Driven::start("webgpu:chromium");
+    browser.narrow();
+    browser.go(&address(
+        &server,
+        "run=capabilities/round-trip blend/factors&fault=read-fault=off-by-one",
+    ));
+    browser.wait(60, COMPLETE);
+    let verdicts = browser.eval("[...run.records.values()].map(record => record.outcome.verdict)");
+    let verdicts: Vec<Verdict> = serde_json::from_value(verdicts).unwrap();
+    let count = |verdict| verdicts.iter().filter(|v| **v == verdict).count();
+    assert!(
+        count(Verdict::Fail) >= 5 && count(Verdict::Blocked) >= 5,
+        "{verdicts:?}"
+    );
+    assert_eq!(count(Verdict::Pass), 0, "{verdicts:?}");
+    let wide = "document.documentElement.scrollWidth > innerWidth";
+    assert_eq!(browser.eval(wide), false);
+    browser.eval("location.hash = [...document.querySelectorAll('#bad a')].map(a => a.getAttribute('href')).find(a => a.includes('round-trip'))");
+    browser.wait(20, "document.querySelectorAll('#view img').length >= 3");
+    let text = browser.eval("document.getElementById('view').innerText");
+    let text = text.as_str().unwrap();
+    assert!(
+        text.contains("must be") && text.contains("Wrong texels"),
+        "{text}"
+    );
+    assert_eq!(browser.eval(wide), false);
+    assert_eq!(browser.eval("document.activeElement.id"), "view-title");
+    browser.eval("history.back()");
+    browser.wait(10, "document.getElementById('view').hidden");
+    browser.go(&address(&server, "run=nothing/*"));
+    browser.wait(
+        20,
+        "document.getElementById('problem').innerText.includes('no case matches')",
+    );
+}

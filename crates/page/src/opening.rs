@@ -1,0 +1,189 @@
+//! The beginning of a run: its selection, its adapter and its header.
+
+use crate::message::{Opened, Opening};
+use crate::session::Session;
+use etalon_backend::{AdapterInfo, Fault};
+use etalon_case::{Case, CaseRef, Library, Profile, select};
+use etalon_frame::Limits;
+use etalon_judge::round_trips;
+use etalon_record::{AdapterRecord, Header, Settings, header_line, selection_digest};
+use etalon_webgpu::adapter;
+use std::collections::{BTreeSet, HashMap};
+use std::sync::OnceLock;
+
+/// The time limit of a case, in seconds.
+const TIMEOUT: f64 = 60.0;
+
+/// The number of cases that are built before a run begins.
+const MANY: usize = 4096;
+/// The start of the ids of round trips.
+const ROUND_TRIPS: &str = "capabilities/round-trip/format=";
+
+/// Begins a run.
+///
+/// # Errors
+/// If the selection is empty, a glob does not parse, or the device lacks a limit.
+pub(crate) fn open(opening: Opening) -> Result<(Session, Opened), String> {
+    let library = library()?;
+    let profile = match opening.profile.as_str() {
+        "quick" => Profile::Quick,
+        "full" => Profile::Full,
+        other => {
+            return Err(format!(
+                "there is no profile {other}; there are quick and full"
+            ));
+        }
+    };
+    let matching = |profile| select(library, profile, &opening.globs).map_err(|e| e.to_string());
+    let selected = matching(profile)?.cases;
+    let count = selected.len();
+    let selected: Vec<CaseRef<'static>> = selected
+        .into_iter()
+        .filter(|case| !case.is_measured())
+        .collect();
+    let measured = count - selected.len();
+    let ids: Vec<String> = selected.iter().map(CaseRef::id).collect();
+    if ids.is_empty() {
+        let full = matching(Profile::Full)?.cases;
+        return Err(match (measured, full.len()) {
+            (1.., _) => "all matching cases are measured, and this page only judges".to_owned(),
+            (0, 0) => "no case matches".to_owned(),
+            (0, n) => format!("no case of the quick profile matches, of the full one {n}"),
+        });
+    }
+    let trips = match opening.trips {
+        Some(trips) => trips,
+        None => trips_of(library, &selected)?,
+    };
+    let mut cases = selected;
+    let mut first = Vec::new();
+    let numbers: HashMap<&str, usize> = ids.iter().map(String::as_str).zip(0..).collect();
+    let known: BTreeSet<&str> = trips.iter().map(String::as_str).collect();
+    for case in library.cases(Profile::Full) {
+        let id = case.id();
+        if known.contains(id.as_str()) {
+            first.push(numbers.get(id.as_str()).copied().unwrap_or(cases.len()));
+            if !numbers.contains_key(id.as_str()) {
+                cases.push(case);
+            }
+        }
+    }
+    let name = name_of(&opening.hello.browser.name, &opening.fault);
+    let device = adapter::device(&opening.hello)?;
+    let info = adapter::info(&name, &opening.hello);
+    let record = record_of(&info, &device.limits);
+    let left_out = left_out(&ids, matching(Profile::Full)?.cases.iter().map(CaseRef::id));
+    let mut header = Header::new(vec![record.clone()], ids.len() as u64);
+    env!("CARGO_PKG_VERSION").clone_into(&mut header.etalon);
+    header.commit = option_env!("ETALON_COMMIT").map(str::to_owned);
+    header.machine = opening.machine;
+    header.started.clone_from(&opening.started);
+    header.command = opening.command;
+    header.settings = Settings {
+        selection: selection_digest(ids.iter().map(String::as_str)),
+        profile: Some(opening.profile),
+        left_out: Some(if profile == Profile::Full {
+            0
+        } else {
+            left_out
+        }),
+        timeout: Some(TIMEOUT),
+        ..Settings::default()
+    };
+    let line = header_line(&header).map_err(|error| error.to_string())?;
+    let opened = Opened {
+        cases: ids,
+        trips,
+        first,
+        measured,
+        left_out,
+        header: String::from_utf8_lossy(&line).into_owned(),
+        adapter: info.name.clone(),
+        device: info.device.clone(),
+        driver: record.driver_text(),
+        software: info.software,
+    };
+    let fault = Fault::in_name(&name).map(|(_, fault)| fault);
+    let today: String = opening.started.chars().take(10).collect();
+    let expectations = etalon_findings::findings().map_err(|error| error.to_string())?;
+    let expectations = expectations
+        .of_run(&header.machine.cpu, &[])
+        .on(&today)
+        .about(&record);
+    Ok((
+        Session::new(record, device, fault, expectations, cases),
+        opened,
+    ))
+}
+
+/// Returns the library, which lives as long as the page.
+fn library() -> Result<&'static Library, String> {
+    static LIBRARY: OnceLock<Library> = OnceLock::new();
+    if let Some(library) = LIBRARY.get() {
+        return Ok(library);
+    }
+    let built_in = Library::built_in().map_err(|error| error.to_string())?;
+    Ok(LIBRARY.get_or_init(|| built_in))
+}
+
+/// Returns the ids of the round trips that cases depend on. For many cases it returns all of them: building
+/// the cases to find out takes longer than drawing round trips that no case needs.
+fn trips_of(library: &Library, selected: &[CaseRef<'_>]) -> Result<Vec<String>, String> {
+    if selected.len() > MANY {
+        let ids = library.cases(Profile::Full).map(|case| case.id());
+        return Ok(ids.filter(|id| id.starts_with(ROUND_TRIPS)).collect());
+    }
+    let cases: Result<Vec<Case>, _> = selected.iter().map(CaseRef::build).collect();
+    let cases = cases.map_err(|error| error.to_string())?;
+    let trips = round_trips(&[library], &cases).map_err(|error| error.to_string())?;
+    Ok(trips.into_iter().map(|trip| trip.id).collect())
+}
+
+/// Returns the number of cases in the areas of a selection that it leaves out.
+fn left_out(ids: &[String], full: impl Iterator<Item = String>) -> u64 {
+    let area = |id: &str| id.split('/').next().unwrap_or_default().to_owned();
+    let areas: BTreeSet<String> = ids.iter().map(|id| area(id)).collect();
+    let in_areas = full.filter(|id| areas.contains(&area(id))).count();
+    in_areas.saturating_sub(ids.len()) as u64
+}
+
+/// Returns the adapter's name: the browser in one word, such as `webgpu:chromium`, and the planted fault if there is
+/// one.
+fn name_of(browser: &str, fault: &str) -> String {
+    let word = browser.split_whitespace().last().unwrap_or("browser");
+    let word: String = word.chars().filter(char::is_ascii_alphanumeric).collect();
+    let name = format!("webgpu:{}", word.to_lowercase());
+    match fault {
+        "" => name,
+        fault => format!("{name}:{fault}"),
+    }
+}
+
+fn record_of(info: &AdapterInfo, limits: &Limits) -> AdapterRecord {
+    AdapterRecord {
+        name: info.name.clone(),
+        backend: info.backend.clone(),
+        device: info.device.clone(),
+        driver: info.driver.clone(),
+        driver_version: info.driver_version.clone(),
+        driver_id: info.driver_id.clone(),
+        api_version: info.api_version.clone(),
+        software: info.software,
+        release: None,
+        limits: limits.clone(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn browsers_have_one_word_names() {
+        assert_eq!(name_of("Chromium", ""), "webgpu:chromium");
+        assert_eq!(name_of("Google Chrome", ""), "webgpu:chrome");
+        assert_eq!(name_of("", ""), "webgpu:browser");
+        let name = name_of("Firefox", "read-fault=off-by-one");
+        assert!(Fault::in_name(&name).is_some());
+    }
+}

@@ -1,0 +1,110 @@
+//! Prints a hash of the legal sets of each case under each API's rules, or the time that judging a case takes.
+//! A change that only makes the judge faster leaves the hashes equal.
+//!
+//! `cargo run --release -p etalon-reference --example legal_sets -- hashes 1`
+
+use etalon_backend::Backend;
+use etalon_case::{Case, Library, Profile};
+use etalon_cpu::CpuBackend;
+use etalon_frame::{Api, LegalSet, Limits};
+use etalon_reference::{Texels, judgements_of};
+use rustc_hash::FxHasher;
+use std::hash::{Hash, Hasher};
+use std::hint::black_box;
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// The largest number of judged texels of a picture that exists to be measured.
+const MEASURED: u64 = 4096;
+
+/// The number of times that each case is timed; the least time counts.
+const ROUNDS: usize = 3;
+
+fn main() -> ExitCode {
+    let mut arguments = std::env::args().skip(1);
+    let action = arguments.next().unwrap_or_default();
+    let step: usize = arguments.next().map_or(1, |n| n.parse().unwrap_or(1));
+    let prefix = arguments.next().unwrap_or_default();
+    let library = Library::built_in().expect("built-in cases parse");
+    let cases = library.cases(Profile::Full);
+    let cases = cases.filter(|case| case.id().starts_with(&prefix));
+    let cases = cases.step_by(step.max(1));
+    let cases = cases.map(|case| case.build().expect("built-in cases build"));
+    let limits = [Api::Vulkan, Api::OpenGl, Api::OpenGlEs, Api::WebGpu].map(|api| Limits {
+        api,
+        ..CpuBackend::new("cpu").limits().clone()
+    });
+    match action.as_str() {
+        "hashes" => {
+            for case in cases {
+                for limits in &limits {
+                    println!("{:016x} {} {}", hash(&case, limits), limits.api, case.id);
+                }
+            }
+        }
+        "times" => {
+            let mut times: Vec<f64> = cases.map(|case| time(&case, &limits[0])).collect();
+            times.sort_by(f64::total_cmp);
+            let mean = times.iter().sum::<f64>() / times.len().max(1) as f64;
+            let at = |share: f64| times[(times.len() as f64 * share) as usize];
+            println!(
+                "{} cases: median {:.3} ms, mean {mean:.3} ms, 95th percentile {:.3} ms",
+                times.len(),
+                at(0.5),
+                at(0.95)
+            );
+        }
+        // Judges each case once, for a profiler.
+        "judge" => {
+            for case in cases {
+                black_box(judgements_of(&case.scene, &limits[0], texels(&case)));
+            }
+        }
+        _ => {
+            eprintln!("usage: legal_sets hashes|times|judge [STEP [PREFIX]]");
+            return ExitCode::from(2);
+        }
+    }
+    ExitCode::SUCCESS
+}
+
+fn texels(case: &Case) -> Texels {
+    if case.measured {
+        Texels::AtMost(MEASURED)
+    } else {
+        Texels::All
+    }
+}
+
+/// Returns the time of both bands of a case's scene in milliseconds.
+fn time(case: &Case, limits: &Limits) -> f64 {
+    let times = (0..ROUNDS).map(|_| {
+        let start = Instant::now();
+        black_box(judgements_of(&case.scene, limits, texels(case)));
+        start.elapsed().as_secs_f64() * 1e3
+    });
+    times.fold(f64::INFINITY, f64::min)
+}
+
+/// Returns a hash of both bands of all scenes of a case.
+fn hash(case: &Case, limits: &Limits) -> u64 {
+    let mut hasher = FxHasher::default();
+    let variants = case.variants.iter().map(|variant| &variant.scene);
+    for scene in std::iter::once(&case.scene).chain(variants) {
+        for judgement in judgements_of(scene, limits, texels(case)) {
+            for set in [&judgement.legal, &judgement.yardstick] {
+                hash_set(set, &mut hasher);
+            }
+        }
+    }
+    hasher.finish()
+}
+
+fn hash_set(set: &LegalSet, hasher: &mut FxHasher) {
+    format!("{:?}{:?}", set.images, set.counters).hash(hasher);
+    for group in &set.groups {
+        for (end, set) in group.runs() {
+            (end, set).hash(hasher);
+        }
+    }
+}
