@@ -34,7 +34,7 @@ pub fn shorten(record: &mut Record, shown: Shown, has_frame: bool) {
                 record.story = None;
             }
         }
-        Shown::Whole if record.excuse().is_none() => {}
+        Shown::Whole if !record.due_fail => {}
         // The frame file, if it is kept, shows the rest.
         Shown::Whole | Shown::Example => record.wrong.truncate(SHOWN_WRONG),
         Shown::By(case) => record.refer_to(case),

@@ -15,7 +15,7 @@ pub(crate) const OPEN: State = u32::MAX;
 /// All states, each stored once.
 #[derive(Debug, Default)]
 pub(crate) struct States {
-    /// Each state's worlds, and an earlier state with the same hash; [`OPEN`] if there is none.
+    /// Each state's worlds, and the latest earlier state with the same hash; [`OPEN`] if no earlier state has it.
     all: Vec<(Rc<Worlds>, State)>,
     /// For each hash, the last state that has it.
     last: FxHashMap<u64, State>,

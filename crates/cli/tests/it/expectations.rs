@@ -269,6 +269,10 @@ fn lists_of_deqp_runner_go_in_and_out() {
     assert_eq!(lines("skips.txt").len(), count(Verdict::Skipped));
     // The results of a run can become the expectations of the next.
     work.run(&CRASHING, &file).code(1);
+    etalon(&["report", "--deqp"])
+        .arg(work.out())
+        .assert()
+        .code(1);
     let mut results = fs::read_dir(work.out().join("results")).unwrap();
     let csv = results.next().unwrap().unwrap().path();
     let next = work.path("next.json");

@@ -239,7 +239,7 @@ fn a_page_of_a_browser_shows_planted_faults() {
     let text = browser.eval("document.getElementById('view').innerText");
     let text = text.as_str().unwrap();
     assert!(
-        text.contains("must be") && text.contains("Wrong texels"),
+        text.contains("texel 0,0 must keep") && text.contains("Wrong texels"),
         "{text}"
     );
     assert_eq!(browser.eval(wide), false);

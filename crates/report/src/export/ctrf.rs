@@ -217,7 +217,7 @@ fn test(record: &Record) -> Test<'_> {
     }
 }
 
-/// Returns the facts of a record that the format has no field for. Everything is asserted if `asserted` is absent.
+/// Returns the facts of a record that the format has no field for.
 fn extra(record: &Record) -> Map<String, Value> {
     let channels: u64 = record.assertions.iter().map(|a| a.channels).sum();
     let asserted: u64 = record.assertions.iter().map(|a| a.asserted).sum();
@@ -226,8 +226,9 @@ fn extra(record: &Record) -> Map<String, Value> {
         json!({ "kind": end.kind, "signal": end.signal, "exit": end.exit, "seconds": end.seconds })
     });
     let facts = json!({
-        "texels": (t.wrong + t.imprecise + t.open > 0).then_some(t),
-        "asserted": (asserted < channels).then(|| asserted as f64 / channels as f64),
+        "adapter": record.adapter,
+        "texels": (t.total > 0).then_some(t),
+        "asserted": (channels > 0).then(|| asserted as f64 / channels as f64),
         "expected": record.expected.as_ref().map(|expected| &expected.reason),
         "improves": record.improves,
         "dueFail": record.due_fail.then_some(true),
