@@ -25,4 +25,4 @@ pub use requirement::note_requirement;
 pub use round_trips::{Blocked, RoundTrips, round_trips};
 pub use story::{story_of_relation, story_of_sample};
 pub use texel::judge_texel;
-pub use undrawn::{settled, undrawn};
+pub use undrawn::{is_unexpectedly_bad, settled, undrawn};

@@ -50,3 +50,18 @@ pub fn settled(mut record: Record, expectations: &Expectations, adapter: &Adapte
     }
     record
 }
+
+/// Returns true if a verdict is bad, and neither the expectations nor the case expect it: another drawing should confirm
+/// it.
+pub fn is_unexpectedly_bad(
+    record: &Record,
+    expectations: &Expectations,
+    adapter: &AdapterRecord,
+) -> bool {
+    // Most verdicts are good, and a record is copied to ask for the expectations.
+    record.verdict.is_bad() && {
+        let mut expected = record.clone();
+        expected.expect(expectations, adapter);
+        expected.unexpected()
+    }
+}

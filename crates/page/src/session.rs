@@ -7,7 +7,9 @@ use etalon_backend::{BackendError, Fault};
 use etalon_case::{Case, CaseRef};
 use etalon_diagnose::Symptom;
 use etalon_frame::ErrorKind;
-use etalon_judge::{Judge, Judged, RoundTrips, is_due_to_fail, mark_flaky, settled, undrawn};
+use etalon_judge::{
+    Judge, Judged, RoundTrips, is_due_to_fail, is_unexpectedly_bad, mark_flaky, settled, undrawn,
+};
 use etalon_record::{AdapterRecord, Expectations, Record, Seconds, Verdict};
 use etalon_webgpu::Device;
 use std::collections::HashMap;
@@ -235,10 +237,7 @@ impl Session {
 
     /// Returns true if a verdict is bad and unexpected, and few of its kind were drawn again.
     fn must_be_confirmed(&mut self, record: &Record) -> bool {
-        let mut expected = record.clone();
-        expected.expect(&self.expectations, &self.adapter);
-        let caught = expected.due_fail && expected.verdict.is_violation();
-        if !expected.unexpected() || !expected.verdict.is_bad() || caught {
+        if !is_unexpectedly_bad(record, &self.expectations, &self.adapter) {
             return false;
         }
         let confirmed = self.confirmed.entry(Symptom::of(record).broad());

@@ -19,7 +19,7 @@ pub(crate) struct Observation {
 /// If the record cannot be shortened enough.
 pub(crate) fn outcome(
     number: usize,
-    record: Record,
+    mut record: Record,
     frame: Option<&FrameFile>,
 ) -> Result<(Outcome, Vec<u8>), String> {
     let is_kept = record.verdict.is_violation() || record.verdict == Verdict::Flaky;
@@ -29,27 +29,28 @@ pub(crate) fn outcome(
         None => None,
     };
     let line = |record: &Record| record_line(record).map_err(|error| error.to_string());
-    let mut complete = record.clone();
-    shorten(&mut complete, Shown::Whole, file.is_some());
-    complete.frame = file.as_ref().map(|(path, _)| path.clone());
-    let mut bytes = line(&complete)?;
-    let length = bytes.len();
-    if record.verdict == Verdict::Imprecise && file.is_some() {
-        let mut short = record;
+    let short_line = if record.verdict == Verdict::Imprecise && file.is_some() {
+        let mut short = record.clone();
         shorten(&mut short, Shown::Whole, false);
-        bytes.extend(line(&short)?);
-    }
-    let short = bytes.len() - length;
+        line(&short)?
+    } else {
+        Vec::new()
+    };
+    shorten(&mut record, Shown::Whole, file.is_some());
+    record.frame = file.as_ref().map(|(path, _)| path.clone());
+    let mut bytes = line(&record)?;
+    let (length, short) = (bytes.len(), short_line.len());
+    bytes.extend(short_line);
     let (frame, packed) = file.unzip();
     bytes.extend(packed.unwrap_or_default());
     let outcome = Outcome {
         number,
-        verdict: complete.verdict,
-        unexpected: complete.unexpected(),
-        bad: complete.verdict.is_bad(),
-        due: complete.due_fail,
-        expected: complete.expected.as_ref().map(|e| e.reason.clone()),
-        line: RecordLine::new(&complete),
+        verdict: record.verdict,
+        unexpected: record.unexpected(),
+        bad: record.verdict.is_bad(),
+        due: record.due_fail,
+        expected: record.expected.as_ref().map(|e| e.reason.clone()),
+        line: RecordLine::new(&record),
         length,
         short,
         frame,

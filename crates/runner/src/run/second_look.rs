@@ -8,7 +8,7 @@ use crate::process::WorkerProcess;
 use crate::supervisor::start;
 use crate::sync::lock;
 use etalon_diagnose::Symptom;
-use etalon_judge::mark_flaky;
+use etalon_judge::{is_unexpectedly_bad, mark_flaky};
 use etalon_record::{LossKind, Verdict};
 use std::time::{Duration, Instant};
 
@@ -95,20 +95,14 @@ pub(super) fn confirm(
 
 /// Returns true if a verdict is bad and unexpected, and a fresh process could change it.
 fn needs_confirmation(run: &AdapterRun<'_, '_>, observed: &Observation, most: u32) -> bool {
-    let mut record = observed.record.clone();
-    record.expect(run.shared.expectations, &run.queue.adapter);
+    let record = &observed.record;
     let started = record
         .process
         .as_ref()
         .is_none_or(|p| p.kind != LossKind::NotStarted);
-    let caught = record.due_fail && record.verdict.is_violation();
-    record.unexpected()
-        && record.verdict.is_bad()
-        && started
-        && !caught
-        && run
-            .queue
-            .may_recheck(&Symptom::of(&observed.record).broad(), most)
+    started
+        && is_unexpectedly_bad(record, run.shared.expectations, &run.queue.adapter)
+        && run.queue.may_recheck(&Symptom::of(record).broad(), most)
 }
 
 /// The result of drawing a case in a fresh process.
