@@ -131,6 +131,22 @@ pub enum BackendError {
 }
 
 impl BackendError {
+    /// Returns the kind of the failure; `None` if the scene is not supported.
+    pub fn kind(&self) -> Option<&ErrorKind> {
+        match self {
+            Self::NotSupported(_) => None,
+            Self::Failed { kind, .. } => Some(kind),
+        }
+    }
+
+    /// Returns true if whatever draws must not draw anything else. After a panic, its state is unknown.
+    pub fn ends_drawing(&self) -> bool {
+        matches!(
+            self.kind(),
+            Some(ErrorKind::DeviceLost | ErrorKind::Internal { .. })
+        )
+    }
+
     /// Returns the error of a lost device.
     pub fn lost(message: impl Into<String>) -> Self {
         Self::failed(ErrorKind::DeviceLost, message)

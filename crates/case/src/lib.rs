@@ -46,5 +46,5 @@ pub use library::Library;
 pub use relation::Relation;
 pub use scene_json::scene_json;
 pub use schema::schema;
-pub use select::{Globs, SelectError, Selection, select};
+pub use select::{Globs, SelectError, Selection, left_out, select};
 pub use variants::Variant;

@@ -3,6 +3,7 @@
 use crate::file::{CaseRef, Profile};
 use crate::library::Library;
 use globset::{GlobBuilder, GlobSet, GlobSetBuilder};
+use std::collections::BTreeSet;
 use thiserror::Error;
 
 /// Cases chosen from a library.
@@ -63,6 +64,27 @@ pub fn select<'a>(
             .filter(|c| globs.matches(&c.id()))
             .collect(),
     })
+}
+
+/// Returns the number of matching cases that the full profile has and a profile leaves out, given the ids
+/// that it selects. Areas without a selected case are not counted.
+///
+/// # Errors
+/// If a glob does not parse.
+pub fn left_out(
+    library: &Library,
+    profile: Profile,
+    globs: &[String],
+    selected: &[String],
+) -> Result<u64, SelectError> {
+    if profile == Profile::Full {
+        return Ok(0);
+    }
+    let area = |id: &str| id.split('/').next().unwrap_or_default().to_owned();
+    let areas: BTreeSet<String> = selected.iter().map(|id| area(id)).collect();
+    let matching = select(library, Profile::Full, globs)?.cases;
+    let in_areas = matching.iter().filter(|c| areas.contains(&area(&c.id())));
+    Ok(in_areas.count().saturating_sub(selected.len()) as u64)
 }
 
 fn glob_set(globs: &[String]) -> Result<GlobSet, SelectError> {

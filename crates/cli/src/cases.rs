@@ -79,19 +79,9 @@ pub(crate) fn chosen_ids(arguments: &CaseArguments) -> Result<Vec<(String, bool)
 /// Returns the number of matching cases that the full profile has and the chosen profile leaves out. Areas
 /// without a selected case are not counted.
 pub(crate) fn left_out(arguments: &CaseArguments, selected: &[String]) -> Result<u64, Failure> {
-    if Profile::from(arguments.profile) == Profile::Full {
-        return Ok(0);
-    }
-    let area = |id: &str| id.split('/').next().unwrap_or_default().to_owned();
-    let areas: BTreeSet<String> = selected.iter().map(|id| area(id)).collect();
     let library = library(arguments.cases.as_ref())?;
-    let matching = etalon_case::select(&library, Profile::Full, &arguments.globs);
-    let matching = matching.map_err(Failure::usage)?;
-    let same = matching
-        .cases
-        .iter()
-        .filter(|c| areas.contains(&area(&c.id())));
-    Ok((same.count() - selected.len()) as u64)
+    let profile = arguments.profile.into();
+    etalon_case::left_out(&library, profile, &arguments.globs, selected).map_err(Failure::usage)
 }
 
 /// Removes the cases that are measured rather than judged, unless globs are given or there are no other

@@ -146,10 +146,7 @@ impl RoundTrips {
     /// Adds to the message of a case that is drawn although a round trip that it depends on was skipped.
     pub fn annotate(&self, case: &Case, record: &mut Record) {
         if let Some(note) = self.note(case) {
-            record.message = match record.message.as_str() {
-                "" => note,
-                message => format!("{message}; {note}"),
-            };
+            record.note(note);
         }
     }
 

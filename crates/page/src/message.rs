@@ -51,8 +51,6 @@ pub(crate) struct Opened {
     pub(crate) first: Vec<usize>,
     /// The number of matching cases that are left out because they are measured.
     pub(crate) measured: usize,
-    /// The number of matching cases that only the full profile has.
-    pub(crate) left_out: u64,
     /// The first line of `run.jsonl`.
     pub(crate) header: String,
     /// The name of the adapter.

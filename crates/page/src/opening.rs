@@ -3,7 +3,7 @@
 use crate::message::{Opened, Opening};
 use crate::session::Session;
 use etalon_backend::{AdapterInfo, Fault};
-use etalon_case::{Case, CaseRef, Library, Profile, select};
+use etalon_case::{Case, CaseRef, Library, Profile, left_out, select};
 use etalon_frame::Limits;
 use etalon_judge::round_trips;
 use etalon_record::{AdapterRecord, Header, Settings, header_line, selection_digest};
@@ -72,7 +72,7 @@ pub(crate) fn open(opening: Opening) -> Result<(Session, Opened), String> {
     let device = adapter::device(&opening.hello)?;
     let info = adapter::info(&name, &opening.hello);
     let record = record_of(&info, &device.limits);
-    let left_out = left_out(&ids, matching(Profile::Full)?.cases.iter().map(CaseRef::id));
+    let left_out = left_out(library, profile, &opening.globs, &ids).map_err(|e| e.to_string())?;
     let mut header = Header::new(vec![record.clone()], ids.len() as u64);
     env!("CARGO_PKG_VERSION").clone_into(&mut header.etalon);
     header.commit = option_env!("ETALON_COMMIT").map(str::to_owned);
@@ -82,11 +82,7 @@ pub(crate) fn open(opening: Opening) -> Result<(Session, Opened), String> {
     header.settings = Settings {
         selection: selection_digest(ids.iter().map(String::as_str)),
         profile: Some(opening.profile),
-        left_out: Some(if profile == Profile::Full {
-            0
-        } else {
-            left_out
-        }),
+        left_out: Some(left_out),
         timeout: Some(TIMEOUT),
         ..Settings::default()
     };
@@ -96,7 +92,6 @@ pub(crate) fn open(opening: Opening) -> Result<(Session, Opened), String> {
         trips,
         first,
         measured,
-        left_out,
         header: String::from_utf8_lossy(&line).into_owned(),
         adapter: info.name.clone(),
         device: info.device.clone(),
@@ -137,14 +132,6 @@ fn trips_of(library: &Library, selected: &[CaseRef<'_>]) -> Result<Vec<String>, 
     let cases = cases.map_err(|error| error.to_string())?;
     let trips = round_trips(&[library], &cases).map_err(|error| error.to_string())?;
     Ok(trips.into_iter().map(|trip| trip.id).collect())
-}
-
-/// Returns the number of cases in the areas of a selection that it leaves out.
-fn left_out(ids: &[String], full: impl Iterator<Item = String>) -> u64 {
-    let area = |id: &str| id.split('/').next().unwrap_or_default().to_owned();
-    let areas: BTreeSet<String> = ids.iter().map(|id| area(id)).collect();
-    let in_areas = full.filter(|id| areas.contains(&area(id))).count();
-    in_areas.saturating_sub(ids.len()) as u64
 }
 
 /// Returns the adapter's name: the browser in one word, such as `webgpu:chromium`, and the planted fault if there is

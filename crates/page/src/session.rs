@@ -6,7 +6,6 @@ use crate::verdict::{Observation, outcome};
 use etalon_backend::{BackendError, Fault};
 use etalon_case::{Case, CaseRef};
 use etalon_diagnose::Symptom;
-use etalon_frame::ErrorKind;
 use etalon_judge::{
     Judge, Judged, RoundTrips, is_due_to_fail, is_unexpectedly_bad, mark_flaky, settled, undrawn,
 };
@@ -223,7 +222,7 @@ impl Session {
                 Err(error) => Observation {
                     record: failed(case, &adapter.name, &error),
                     frame: None,
-                    ends_device: ends_device(&error),
+                    ends_device: error.ends_drawing(),
                 },
             }
         };
@@ -249,23 +248,10 @@ impl Session {
 
 /// Returns the record of a case whose drawing failed.
 fn failed(case: &Case, adapter: &str, error: &BackendError) -> Record {
-    let (verdict, kind) = match error {
-        BackendError::NotSupported(_) => (Verdict::NotSupported, None),
-        BackendError::Failed { kind, .. } => (Verdict::of_error(kind), Some(kind.clone())),
-    };
+    let kind = error.kind();
+    let verdict = kind.map_or(Verdict::NotSupported, Verdict::of_error);
     let mut record = Record::new(&case.id, adapter, verdict);
     record.message = error.to_string();
-    record.error = kind;
+    record.error = kind.cloned();
     record
-}
-
-/// Returns true if a device must not draw anything else after an error.
-fn ends_device(error: &BackendError) -> bool {
-    matches!(
-        error,
-        BackendError::Failed {
-            kind: ErrorKind::DeviceLost | ErrorKind::Internal { .. },
-            ..
-        }
-    )
 }

@@ -198,7 +198,7 @@ impl Record {
     }
 
     /// Adds to the message.
-    fn note(&mut self, note: String) {
+    pub fn note(&mut self, note: String) {
         self.message = match self.message.as_str() {
             "" => note,
             before => format!("{before}; {note}"),

@@ -3,7 +3,6 @@
 use crate::exit_report::ExitReport;
 use crate::loss::Failure;
 use crate::process::WorkerProcess;
-use etalon_backend::BackendError;
 use etalon_frame::ErrorKind;
 use etalon_record::{ProcessEnd, Record, Verdict};
 
@@ -27,10 +26,7 @@ impl FailureReport {
             Failure::Backend(error) => Self {
                 verdict,
                 message: error.to_string(),
-                error: match error {
-                    BackendError::NotSupported(_) => None,
-                    BackendError::Failed { kind, .. } => Some(kind),
-                },
+                error: error.kind().cloned(),
                 process: None,
             },
             Failure::Lost(loss) => {

@@ -1,7 +1,6 @@
 //! Failures of requests to a worker, and the resulting verdicts.
 
 use etalon_backend::BackendError;
-use etalon_frame::ErrorKind;
 use etalon_record::Verdict;
 use std::time::Duration;
 
@@ -35,10 +34,9 @@ impl Failure {
     /// Returns the verdict of the case that was being drawn.
     pub(crate) fn verdict(&self) -> Verdict {
         match self {
-            Self::Backend(error) => match error {
-                BackendError::NotSupported(_) => Verdict::NotSupported,
-                BackendError::Failed { kind, .. } => Verdict::of_error(kind),
-            },
+            Self::Backend(error) => error
+                .kind()
+                .map_or(Verdict::NotSupported, Verdict::of_error),
             Self::Lost(loss) => match loss {
                 Loss::Timeout(_) => Verdict::Timeout,
                 Loss::Memory { .. } => Verdict::ResourceError,
@@ -49,16 +47,10 @@ impl Failure {
         }
     }
 
-    /// Returns true if the worker must not be used again. After a panic, its state is unknown.
+    /// Returns true if the worker must not be used again.
     pub(crate) fn ends_worker(&self) -> bool {
         match self {
-            Self::Backend(error) => matches!(
-                error,
-                BackendError::Failed {
-                    kind: ErrorKind::DeviceLost | ErrorKind::Internal { .. },
-                    ..
-                }
-            ),
+            Self::Backend(error) => error.ends_drawing(),
             Self::Lost(_) => true,
         }
     }
