@@ -24,6 +24,7 @@ pub enum Shown {
 
 /// Shortens a record to what it shows. `has_frame` is true if its frame is kept in a file.
 pub fn shorten(record: &mut Record, shown: Shown, has_frame: bool) {
+    record.accuracy.retain(|aspect| aspect.max > 0.0);
     match shown {
         _ if record.verdict == Verdict::Imprecise => {
             // There can be hundreds of legal deviations, and one texel shows what kind they are.
@@ -35,6 +36,11 @@ pub fn shorten(record: &mut Record, shown: Shown, has_frame: bool) {
             }
         }
         Shown::Whole if !record.due_fail => {}
+        // Nobody looks for the cause of a failure that the case itself makes.
+        Shown::Example if record.due_fail => {
+            record.wrong.truncate(1);
+            record.story = None;
+        }
         // The frame file, if it is kept, shows the rest.
         Shown::Whole | Shown::Example => record.wrong.truncate(SHOWN_WRONG),
         Shown::By(case) => record.refer_to(case),

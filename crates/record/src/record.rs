@@ -50,7 +50,8 @@ pub struct Record {
     /// The asserted fraction and the sharpness, per aspect.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub assertions: Vec<Assertion>,
-    /// The distance of the frame from the ideal, per aspect; empty if no frame came back.
+    /// The distance of the frame from the ideal, for each aspect that is not exact. Formats before 5 have exact
+    /// aspects too.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub accuracy: Vec<Accuracy>,
     /// Every counter with its legal range.

@@ -133,8 +133,8 @@ fn details(before: &Record, after: &Record) -> Vec<Detail> {
         found.add("texels", "imprecise", b.imprecise, a.imprecise);
         found.add("texels", "open", b.open, a.open);
         wrong(&mut found, before, after);
+        accuracy(&mut found, &before.accuracy, &after.accuracy);
     }
-    accuracy(&mut found, &before.accuracy, &after.accuracy);
     let counters: HashMap<&str, _> = after
         .counters
         .iter()
@@ -226,16 +226,35 @@ fn codes(texel: &WrongTexel) -> BTreeMap<String, u32> {
     channels.map(|c| (channel_of(c), c.actual)).collect()
 }
 
+/// Adds the differences of the distances from the ideal. An aspect that a record does not name is exact.
 fn accuracy(found: &mut Details, before: &[Accuracy], after: &[Accuracy]) {
-    for old in before {
-        if let Some(new) = after.iter().find(|a| a.is_alike(old)) {
-            let aspect = match old.encoding {
-                Some(encoding) => format!("{} in {encoding}", old.aspect),
-                None => old.aspect.to_string(),
-            };
-            found.add("accuracy", format!("{aspect} mean"), old.mean, new.mean);
-            found.add("accuracy", format!("{aspect} largest"), old.max, new.max);
+    let all = || before.iter().chain(after);
+    // Old formats add up several encodings, so their figures compare with each other only.
+    let is_old = all().any(|a| a.encoding.is_none());
+    let exact = |like: &Accuracy| Accuracy {
+        mean: 0.0,
+        max: 0.0,
+        ..*like
+    };
+    let mut seen: Vec<&Accuracy> = Vec::new();
+    for like in all() {
+        if seen.iter().any(|a| a.is_alike(like)) {
+            continue;
         }
+        seen.push(like);
+        let [old, new] = [before, after].map(|record| {
+            let entry = record.iter().find(|a| a.is_alike(like)).copied();
+            entry.or((!is_old).then(|| exact(like)))
+        });
+        let (Some(old), Some(new)) = (old, new) else {
+            continue;
+        };
+        let aspect = match like.encoding {
+            Some(encoding) => format!("{} in {encoding}", like.aspect),
+            None => like.aspect.to_string(),
+        };
+        found.add("accuracy", format!("{aspect} mean"), old.mean, new.mean);
+        found.add("accuracy", format!("{aspect} largest"), old.max, new.max);
     }
 }
 
