@@ -130,6 +130,7 @@ fn keep_started(program: &Program, mut input: impl BufRead + Send + 'static) -> 
 
 /// Creates a folder that only this user can open.
 fn make(folder: &Path) -> io::Result<()> {
+    #[cfg_attr(not(unix), expect(unused_mut, reason = "only Unix has modes"))]
     let mut builder = fs::DirBuilder::new();
     #[cfg(unix)]
     std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);

@@ -41,6 +41,9 @@ pub enum NotServed {
     /// Another server has the path.
     #[error("another server is at {}, the only path at which the driver looks", .0.display())]
     Taken(PathBuf),
+    /// Another user's worker was killed and has left its link at the path.
+    #[error("a link that only another user can remove is at {}, the only path at which the driver looks", .0.display())]
+    Left(PathBuf),
     /// The server has ended.
     #[error("the server {0} ends before it listens")]
     Ended(String),
@@ -62,6 +65,7 @@ impl NotServed {
     pub fn remedy(&self) -> &'static str {
         match self {
             Self::Taken(_) => "end that server",
+            Self::Left(_) => "remove that link as its owner or as root",
             Self::Ended(_) | Self::Silent(_) => {
                 "see its own messages, by its command in a terminal"
             }
@@ -166,6 +170,11 @@ impl Link {
             Err(_) => false,
         };
         let removed = if left { fs::remove_file(path) } else { Ok(()) };
+        if let Err(error) = &removed
+            && error.kind() == io::ErrorKind::PermissionDenied
+        {
+            return Err(NotServed::Left(path.to_owned()));
+        }
         let linked = removed.and_then(|()| link(socket, path));
         linked.map_err(system(&format!("no link at {}", path.display())))?;
         Ok(Self {

@@ -369,7 +369,8 @@ fn cut_line(context: &PassContext<'_>, draw: &Draw, line: [usize; 2]) -> Option<
             }
         })
         .collect();
-    distances.extend(cut.may_be_clipped.then_some(Distance::UNKNOWN));
+    let may_be_missing = cut.may_be_clipped || may_be_lost_behind(context, draw, line);
+    distances.extend(may_be_missing.then_some(Distance::UNKNOWN));
     let [a, b] = cut.ends;
     Some(Parts {
         shape: Shape::Line(cut.ends),
@@ -535,6 +536,12 @@ fn clipping_distances(draw: &Draw) -> impl Iterator<Item = usize> {
 fn may_stay_unclipped(context: &PassContext<'_>, distances: [f64; 2]) -> bool {
     let is_clipped = distances.iter().any(|distance| *distance < 0.0);
     is_clipped && !context.rules.clips_lines_by_distance.value()
+}
+
+/// Returns true if a line can legally be missing because an end is behind the eye.
+fn may_be_lost_behind(context: &PassContext<'_>, draw: &Draw, line: [usize; 2]) -> bool {
+    let is_behind = |i: usize| draw.mesh.vertices[i].position[3] <= 0.0;
+    line.into_iter().any(is_behind) && !context.rules.keeps_lines_that_end_behind.value()
 }
 
 /// Returns a clip distance of a vertex.

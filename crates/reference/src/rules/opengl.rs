@@ -288,6 +288,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 13.7 Primitive Clipping: a line outside of the clip volume is discarded, one that leaves it is clipped",
             ]),
         ),
+        keeps_lines_that_end_behind: permit(
+            true,
+            text.cite([
+                "OpenGL 3.3: 2.19 Primitive Clipping: a line outside of the clip volume is discarded, one that leaves it is clipped",
+                "OpenGL 4.5: 13.5 Primitive Clipping: a line outside of the clip volume is discarded, one that leaves it is clipped",
+                "OpenGL 4.6: 13.7 Primitive Clipping: a line outside of the clip volume is discarded, one that leaves it is clipped",
+            ]),
+        ),
         clips_lines_by_distance: permit(
             true,
             text.cite([

@@ -244,6 +244,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: 12.5 Primitive Clipping: lines are clipped at the near and far planes",
             ]),
         ),
+        keeps_lines_that_end_behind: permit(
+            true,
+            text.cite([
+                "OpenGL ES 3.0: 2.18 Primitive Clipping: lines are clipped at the near and far planes",
+                "OpenGL ES 3.1: 12.4 Primitive Clipping: lines are clipped at the near and far planes",
+                "OpenGL ES 3.2: 12.5 Primitive Clipping: lines are clipped at the near and far planes",
+            ]),
+        ),
         clips_lines_by_distance: permit(
             true,
             "OpenGL ES with GL_EXT_clip_cull_distance: clip distances are a part of the clip volume, at which lines are clipped",

@@ -479,6 +479,8 @@ rules! {
     clips_lines_at_sides: bool,
     /// True if lines are clipped at the near and far planes; otherwise they may or may not be.
     clips_lines_by_depth: bool,
+    /// True if the visible part of a line that ends behind the eye is drawn; otherwise it may be missing.
+    keeps_lines_that_end_behind: bool,
     /// True if clip distances clip lines; otherwise they may or may not.
     clips_lines_by_distance: bool,
     /// True if a line along an axis covers the texels that it runs through; otherwise it may miss any.

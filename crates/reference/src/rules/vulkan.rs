@@ -179,7 +179,13 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             true,
             false,
             Grade::RequiredByCts,
-            "Vulkan: Primitive Clipping: a line with an end outside of the clip volume may be clipped; dEQP-VK.clipping.clip_volume.outside.line_list and depth_clamp.line_list demand it at the near and far planes",
+            "Vulkan: Primitive Clipping: a line with an end outside of the clip volume may be clipped; dEQP-VK.clipping.clip_volume.outside.line_list and depth_clamp.line_list demand that nothing beyond the near and far planes is drawn",
+        ),
+        keeps_lines_that_end_behind: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "Vulkan: Primitive Clipping: primitives are clipped to the clip volume; a line with an end outside of it may be clipped, and without clipping the division by a negative w gives another line",
         ),
         clips_lines_by_distance: narrowed(
             true,

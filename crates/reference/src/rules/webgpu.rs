@@ -155,6 +155,10 @@ pub(super) fn rules() -> Rules {
             true,
             "WebGPU: 23.2.4 Primitive Clipping: primitives are clipped to the clip volume",
         ),
+        keeps_lines_that_end_behind: permit(
+            true,
+            "WebGPU: 23.2.4 Primitive Clipping: primitives are clipped to the clip volume",
+        ),
         clips_lines_by_distance: permit(
             true,
             "WebGPU: 23.2.4 Primitive Clipping: primitives are clipped to the clip volume, of which clip distances are a part",

@@ -127,6 +127,10 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             true,
             "Yardstick: nothing outside of the clip volume is drawn",
         ),
+        keeps_lines_that_end_behind: permit(
+            true,
+            "Yardstick: all that is inside of the clip volume is drawn",
+        ),
         clips_lines_by_distance: permit(
             true,
             "Yardstick: nothing outside of the clip volume is drawn",

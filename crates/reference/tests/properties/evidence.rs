@@ -497,6 +497,31 @@ fn a_line_before_the_near_plane_is_clipped_in_vulkan_by_the_cts_alone() {
 }
 
 #[test]
+fn a_line_that_ends_behind_the_eye_is_cut_by_the_cts_and_drawn_by_a_reading_in_vulkan() {
+    let (drawn, kept) = ([255; 4], [0; 4]);
+    let mut vulkan = version(Api::Vulkan, 1, 3);
+    vulkan.properties.insert(Property::LinesAreParallelograms);
+    // Both run to the right without end. Divided by w, the second end is far to the left.
+    let [through, beside] = [-3.0, 1.3].map(|start| {
+        let mesh = format!(r#""positions":[[{start},0.25,0.5,1],[7,-0.25,-0.5,-1]]"#);
+        line(WHITE, &mesh)
+    });
+    assert_eq!(allowed(&through, &vulkan, 0, &drawn), ALWAYS);
+    assert_eq!(allowed(&through, &vulkan, 0, &kept), DISPUTED);
+    assert_eq!(allowed(&beside, &vulkan, 0, &kept), ALWAYS);
+    assert_eq!(allowed(&beside, &vulkan, 0, &drawn), BY_CTS);
+    // A line that a plane cuts in front of the eye is there, clipped or not.
+    let front = line(WHITE, r#""positions":[[-3,0.25,0.5,1],[12,1,-0.5,4]]"#);
+    assert_eq!(allowed(&front, &vulkan, 0, &drawn), ALWAYS);
+    assert_eq!(allowed(&front, &vulkan, 0, &kept), BY_CTS);
+    for (api, major, minor) in OTHERS {
+        let limits = version(api, major, minor);
+        assert_eq!(allowed(&through, &limits, 0, &drawn), ALWAYS);
+        assert_eq!(allowed(&beside, &limits, 0, &drawn), NEVER);
+    }
+}
+
+#[test]
 fn clip_distances_of_a_line_are_disputed_in_vulkan_alone() {
     let (drawn, kept) = ([255; 4], [0; 4]);
     let scene = line(
