@@ -193,8 +193,8 @@ const ES_SOFTPIPE: Lacks = Lacks {
         ES_FEATURES,
         RESOLVES,
         "advanced-blend advanced-blend-coherent depth-bias-clamp independent-blend \
-        min-sample-shading sample-mask-input sample-mask-output sample-mask-output-with-alpha-to-coverage \
-        sample-shading tessellation",
+        min-sample-shading sample-interpolation sample-mask-input sample-mask-output \
+        sample-mask-output-with-alpha-to-coverage sample-shading tessellation",
     ],
     samples: &[EVERY_FORMAT],
     ..ES
@@ -235,7 +235,7 @@ const COMPATIBILITY: Lacks = Lacks {
         RESOLVES,
         "conservative-depth depth-bias-clamp dual-source-blending first-provoking-vertex forced-early-tests \
         forced-early-tests-with-depth fragment-invocations independent-blend linear-interpolation \
-        sample-mask-input sample-mask-output sample-shading",
+        sample-interpolation sample-mask-input sample-mask-output sample-shading",
     ],
     samples: &["rgba8unorm-srgb rgba8snorm rgba8uint rgba16float rgba32float depth16unorm"],
     ..BROWSER

@@ -104,6 +104,8 @@ state_enum! {
         ReversedDepthRange = "reversed-depth-range",
         /// Sample coverage: drawing only a given fraction of each texel's samples, or only the rest.
         SampleCoverage = "sample-coverage",
+        /// Attributes interpolated at the sample that is being shaded.
+        SampleInterpolation = "sample-interpolation",
         /// Sample masks that fragment shaders read.
         SampleMaskInput = "sample-mask-input",
         /// Sample masks that fragment shaders write.

@@ -69,7 +69,8 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         // ES has no `glPolygonMode`.
         Feature::PolygonModeLine => !caps.es,
         Feature::PreciseOcclusion => caps.samples_passed,
-        Feature::SampleMaskInput
+        Feature::SampleInterpolation
+        | Feature::SampleMaskInput
         | Feature::SampleMaskOutput
         | Feature::SampleMaskOutputWithAlphaToCoverage
         | Feature::SampleShading => caps.sample_variables,

@@ -91,6 +91,7 @@ fn can_be_written(context: &Context, feature: Feature) -> bool {
             (Shader::ListCompose, EarlyTests::Implicit),
         ],
         Feature::LinearInterpolation => &[(Shader::SteppedLinear, EarlyTests::Implicit)],
+        Feature::SampleInterpolation => &[(Shader::SteppedPerspectiveSample, EarlyTests::Implicit)],
         Feature::StorageCounters => &[(Shader::CountedColor, EarlyTests::Implicit)],
         _ => &[],
     };

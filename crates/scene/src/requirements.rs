@@ -209,6 +209,10 @@ fn features(draw: &Draw, size: [u32; 2]) -> Vec<Feature> {
         Feature::CentroidInterpolation,
     );
     need(
+        shader.interpolation_sampling() == InterpolationSampling::Sample,
+        Feature::SampleInterpolation,
+    );
+    need(
         shader.interpolation() == Interpolation::Linear,
         Feature::LinearInterpolation,
     );

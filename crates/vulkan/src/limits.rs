@@ -106,7 +106,9 @@ fn has(device: &Device, feature: Feature) -> bool {
         Feature::PreciseOcclusion => features.occlusion_query_precise,
         // Only OpenGL has these features.
         Feature::ClipDistanceMask | Feature::MaskedClears | Feature::SampleCoverage => vk::FALSE,
-        Feature::MinSampleShading | Feature::SampleShading => features.sample_rate_shading,
+        Feature::MinSampleShading | Feature::SampleInterpolation | Feature::SampleShading => {
+            features.sample_rate_shading
+        }
         Feature::StencilExport => device.stencil_export.into(),
         Feature::FragmentStorage | Feature::StorageCounters => features.fragment_stores_and_atomics,
         Feature::BaseVertex

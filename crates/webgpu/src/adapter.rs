@@ -94,6 +94,7 @@ fn features(core: bool, has: impl Fn(&str) -> bool, storage: bool) -> BTreeSet<F
         (Feature::DualSourceBlending, has("dual-source-blending")),
         (Feature::FragmentStorage, storage),
         (Feature::IndependentBlend, core),
+        (Feature::SampleInterpolation, core),
         (Feature::SampleShading, core),
         (Feature::StorageCounters, storage),
     ];

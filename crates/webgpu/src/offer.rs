@@ -184,6 +184,7 @@ fn exempt(offer: &Offer) -> BTreeSet<Requirement> {
             Requirement::Samples(TextureFormat::Rgba16Float, SAMPLES),
             Requirement::Feature(Feature::DepthBiasClamp),
             Requirement::Feature(Feature::IndependentBlend),
+            Requirement::Feature(Feature::SampleInterpolation),
             Requirement::Feature(Feature::SampleShading),
         ]),
         Level::Less => {

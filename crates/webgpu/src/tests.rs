@@ -32,6 +32,7 @@ fn device() -> Device {
         Feature::FragmentStorage,
         Feature::IndependentBlend,
         Feature::LinearInterpolation,
+        Feature::SampleInterpolation,
         Feature::SampleMaskInput,
         Feature::SampleMaskOutput,
         Feature::SampleShading,

@@ -89,6 +89,7 @@ fn offered(flags: DownlevelFlags, features: Features, limits: &wgpu::Limits) -> 
     let feature = |feature| features.contains(feature);
     let storage = flag(DownlevelFlags::FRAGMENT_WRITABLE_STORAGE)
         && limits.max_storage_buffers_per_shader_stage > 0;
+    let per_sample = flag(DownlevelFlags::MULTISAMPLED_SHADING);
     let early_tests = feature(Features::SHADER_EARLY_DEPTH_TEST);
     let features_found = [
         (Feature::BaseVertex, flag(DownlevelFlags::BASE_VERTEX)),
@@ -114,10 +115,8 @@ fn offered(flags: DownlevelFlags, features: Features, limits: &wgpu::Limits) -> 
             Feature::IndependentBlend,
             flag(DownlevelFlags::INDEPENDENT_BLEND),
         ),
-        (
-            Feature::SampleShading,
-            flag(DownlevelFlags::MULTISAMPLED_SHADING),
-        ),
+        (Feature::SampleInterpolation, per_sample),
+        (Feature::SampleShading, per_sample),
         (Feature::StorageCounters, storage),
     ];
     let found = features_found.into_iter().filter(|(_, has)| *has);
