@@ -4,7 +4,7 @@
 //! `cargo run --release -p etalon-reference --example legal_sets -- hashes 1`
 
 use etalon_backend::Backend;
-use etalon_case::{Case, Library, Profile};
+use etalon_case::{Case, CaseFile, Library, Profile};
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Api, LegalSet, Limits};
 use etalon_reference::{Texels, judgements_of};
@@ -60,12 +60,33 @@ fn main() -> ExitCode {
                 black_box(judgements_of(&case.scene, &limits[0], texels(&case)));
             }
         }
+        // Judges a grid of 2000 triangles a row once, for its memory.
+        "grid" => {
+            let case = grid(step);
+            black_box(judgements_of(&case.scene, &limits[0], texels(&case)));
+        }
         _ => {
-            eprintln!("usage: legal_sets hashes|times|judge [STEP [PREFIX]]");
+            eprintln!(
+                "usage: legal_sets hashes|times|judge [STEP [PREFIX]], or legal_sets grid ROWS"
+            );
             return ExitCode::from(2);
         }
     }
     ExitCode::SUCCESS
+}
+
+/// Returns a case of a grid of triangles.
+fn grid(rows: usize) -> Case {
+    let text = format!(
+        r#"{{"about":"t","spec":["t"],"scene":{{
+            "attachments":{{"color":{{"format":"rgba8unorm","size":[500,500]}}}},
+            "passes":[{{"color":["color"],"draws":[{{
+                "mesh":{{"kind":"grid","cells":[1000,{rows}],"value":0.5}},"shader":"flat_color"}}]}}],
+            "read":["color"]}}}}"#
+    );
+    let file = CaseFile::parse("grid.json", &text).expect("the case parses");
+    let case = file.cases(Profile::Full).next().expect("one case");
+    case.build().expect("the case builds")
 }
 
 fn texels(case: &Case) -> Texels {

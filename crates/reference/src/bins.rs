@@ -7,6 +7,7 @@ use crate::context::PassContext;
 use crate::primitive::{Shape, SnappedPrimitive};
 use crate::setup;
 use crate::snap::units_per_texel;
+use crate::vertex::Vertices;
 use etalon_scene::{Draw, Pass};
 use std::ops::Range;
 
@@ -44,10 +45,11 @@ impl PassSetup {
             reaches: Vec::new(),
             units: units_per_texel(context.limits),
         };
+        let mut vertices = Vertices::of(pass);
         for (d, draw) in pass.draws.iter().enumerate() {
-            let primitives = setup::draw(context, draw);
+            let primitives = setup::draw(context, draw, &mut vertices);
             for (i, primitive) in primitives.iter().enumerate() {
-                let [columns, rows] = texels(context.size, draw, primitive);
+                let [columns, rows] = texels(context.size, draw, primitive, setup.units);
                 if !columns.is_empty() && !rows.is_empty() {
                     setup.reaches.push(Reach {
                         draw: d as u32,
@@ -95,8 +97,9 @@ impl PassSetup {
         y: u32,
     ) -> impl Iterator<Item = &SnappedPrimitive> {
         let (x, y) = (i64::from(x), i64::from(y));
+        let units = self.units;
         let holds = move |p: &&SnappedPrimitive| {
-            let [left, top, right, bottom] = p.bounds;
+            let [left, top, right, bottom] = p.bounds(units);
             x >= left && x < right && y >= top && y < bottom
         };
         self.draws[draw].iter().filter(holds)
@@ -120,11 +123,17 @@ impl PassSetup {
 }
 
 /// Returns the columns and rows of the texels that a primitive can touch.
-fn texels(size: [u32; 2], draw: &Draw, primitive: &SnappedPrimitive) -> [Range<u32>; 2] {
+fn texels(
+    size: [u32; 2],
+    draw: &Draw,
+    primitive: &SnappedPrimitive,
+    units: i64,
+) -> [Range<u32>; 2] {
     let viewport = draw.viewport.area();
+    let bounds = primitive.bounds(units);
     [0, 1].map(|axis| {
         let most = i64::from(size[axis]);
-        let (mut low, mut high) = (primitive.bounds[axis], primitive.bounds[axis + 2]);
+        let (mut low, mut high) = (bounds[axis], bounds[axis + 2]);
         if let Shape::Triangle(_) = primitive.shape {
             let (start, length) = (viewport[axis], viewport[axis + 2]);
             // The cast saturates.

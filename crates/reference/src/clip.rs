@@ -3,11 +3,10 @@
 use crate::possible::Possible;
 use crate::primitive::{Shape, SnappedPrimitive};
 use crate::rules::Rules;
-use crate::snap::units_per_texel;
+use crate::snap::{SnapBox, units_per_texel};
 use etalon_frame::Limits;
 use etalon_pipeline::Point;
 use etalon_scene::Viewport;
-use std::ops::RangeInclusive;
 
 /// The edges of a draw's viewport. They are clip planes and may be snapped. Points and lines are clipped
 /// before they get a width (Vulkan, Primitive Clipping; OpenGL 4.6, 13.7): the remaining part can reach one
@@ -25,11 +24,11 @@ pub(crate) struct Clip {
     lines_at_sides: bool,
 }
 
-/// Along each axis, the samples that can be inside, and the samples that must be.
+/// The samples that can be inside, and the samples that must be.
 #[derive(Clone, Debug)]
 struct Reach {
-    can: [RangeInclusive<i64>; 2],
-    must: [RangeInclusive<i64>; 2],
+    can: SnapBox,
+    must: SnapBox,
 }
 
 impl Clip {
@@ -63,25 +62,32 @@ impl Clip {
             Shape::Outline(_) => (&self.wide, true),
         };
         let discarded = clips && primitive.beyond_rect(self.rect, self.slack);
-        let inside =
-            |[x, y]: &[RangeInclusive<i64>; 2]| x.contains(&point.x) && y.contains(&point.y);
-        let can = !discarded && (!clips || inside(&reach.can));
-        Possible::of(can, !discarded && inside(&reach.must))
+        let can = !discarded && (!clips || reach.can.contains(point));
+        Possible::of(can, !discarded && reach.must.contains(point))
     }
 }
 
 impl Reach {
     fn new(rect: [f64; 4], slack: f64) -> Self {
-        // The integers strictly between two numbers. The cast saturates.
-        let between = |low: f64, high: f64| {
-            (low.floor() as i64).saturating_add(1)..=(high.ceil() as i64).saturating_sub(1)
-        };
-        let along = |axis: usize, slack: f64| {
-            between(rect[axis] - slack, rect[axis] + rect[axis + 2] + slack)
+        // The integers strictly between the edges. The casts saturate.
+        let within = |slack: f64| {
+            let first = |axis: usize| ((rect[axis] - slack).floor() as i64).saturating_add(1);
+            let end = |axis: usize| rect[axis] + rect[axis + 2] + slack;
+            let last = |axis: usize| (end(axis).ceil() as i64).saturating_sub(1);
+            SnapBox {
+                low: Point {
+                    x: first(0),
+                    y: first(1),
+                },
+                high: Point {
+                    x: last(0),
+                    y: last(1),
+                },
+            }
         };
         Self {
-            can: [0, 1].map(|axis| along(axis, slack)),
-            must: [0, 1].map(|axis| along(axis, -slack)),
+            can: within(slack),
+            must: within(-slack),
         }
     }
 }

@@ -244,10 +244,12 @@ impl Walk<'_> {
         let draw = place.draw;
         let bit = |number: u32| mask.bit(number);
         let mut judging = Judging::new(self.rules);
-        let mut depth =
-            place
-                .primitive
-                .depth_seen(place.point, self.units, self.samples_shaded(place));
+        let mut depth = if draw.shader.reads_depth() {
+            let samples = self.samples_shaded(place);
+            place.primitive.depth_seen(place.point, self.units, samples)
+        } else {
+            Range::exact(0.0)
+        };
         if draw.depth_clamp {
             // It is unspecified whether the shader sees the depth before or after clamping.
             let [near, far] = draw.viewport.depth.map(f64::from);
@@ -260,7 +262,7 @@ impl Walk<'_> {
             None => [Range::exact(0.0); 4],
         };
         let input = FragmentInput {
-            color: place.primitive.color.map(Range::same),
+            color: place.primitive.flat_color().map(Range::same),
             front,
             depth,
             sample: place.at.sample,

@@ -125,10 +125,9 @@ impl Walk<'_> {
     /// Returns true if nothing clips a fragment's primitive.
     fn is_whole(&self, place: &Place<'_>) -> bool {
         let primitive = place.primitive;
-        let depth = primitive.clip_depth.hull;
         let clip = self.setups[place.pass].clip(place.draw_index);
         clip.holds_all_of(primitive)
-            && (place.draw.depth_clamp || depth.low >= 0.0 && depth.high <= 1.0)
+            && (place.draw.depth_clamp || primitive.clip_depth.is_none())
             && primitive.distances.is_empty()
     }
 }

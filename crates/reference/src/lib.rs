@@ -52,6 +52,7 @@ mod test_limits;
 mod texels;
 mod undefined;
 mod varying;
+mod vertex;
 mod walk;
 mod world;
 

@@ -106,8 +106,8 @@ fn segments(primitive: &SnappedPrimitive) -> Vec<[SnapBox; 2]> {
     match &primitive.shape {
         Shape::Line(ends) => vec![*ends],
         Shape::Outline(triangle) => {
-            let ends = triangle.edges.iter().map(|edge| match edge {
-                Edge::Between(ends) => Some(*ends),
+            let ends = triangle.edges().into_iter().map(|edge| match edge {
+                Edge::Between(ends) => Some(ends),
                 Edge::Cut { .. } => None,
             });
             ends.flatten().collect()

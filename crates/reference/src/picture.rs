@@ -9,7 +9,7 @@ use crate::sample::{Sample, Shape};
 use crate::signature::{Inputs, SampleKey};
 use crate::states::{OPEN, State, States};
 use crate::texels::Lattice;
-use crate::walk::{Walk, in_scissor, resolved};
+use crate::walk::{Hit, Walk, in_scissor, resolved};
 use crate::world::{Cell, World, Worlds};
 use etalon_scene::{Contents, Scene};
 use rustc_hash::FxHashMap;
@@ -442,8 +442,9 @@ impl Brush<'_, '_> {
     fn sign(&self, at: Sample, members: &[u32], signature: &mut SampleKey) {
         let setup = &self.walk.setups[self.pass];
         let members = members.iter().map(|number| setup.member(*number));
+        let pays = |draw: u32| self.known.pays(draw);
         self.walk
-            .sign(self.pass, self.inputs, at, members, signature);
+            .sign(self.pass, self.inputs, at, members, pays, signature);
     }
 
     /// Draws over the judged texels of a part of a row.
@@ -461,12 +462,12 @@ impl Brush<'_, '_> {
                 let (left, right) = (columns.start, columns.end - 1);
                 self.sign(self.at(left, y, sample), members, &mut first);
                 if left == right {
-                    self.texel(picture, self.at(left, y, sample), &first, members);
+                    self.texel(picture, self.at(left, y, sample), &first);
                     continue;
                 }
                 self.sign(self.at(right, y, sample), members, &mut last);
-                self.texel(picture, self.at(left, y, sample), &first, members);
-                self.texel(picture, self.at(right, y, sample), &last, members);
+                self.texel(picture, self.at(left, y, sample), &first);
+                self.texel(picture, self.at(right, y, sample), &last);
                 self.between(
                     picture,
                     [left, right],
@@ -480,7 +481,7 @@ impl Brush<'_, '_> {
                     && x < columns.end
                 {
                     self.sign(self.at(x, y, sample), members, &mut first);
-                    self.texel(picture, self.at(x, y, sample), &first, members);
+                    self.texel(picture, self.at(x, y, sample), &first);
                     next = x + 1;
                 }
             }
@@ -511,7 +512,7 @@ impl Brush<'_, '_> {
                     Some((state, after)) if state == old => picture[place] = after,
                     _ => {
                         let at = self.at(left + 1 + i as u32, y, sample);
-                        self.texel(picture, at, first, members);
+                        self.texel(picture, at, first);
                         before = Some((old, picture[place]));
                     }
                 }
@@ -521,7 +522,7 @@ impl Brush<'_, '_> {
         let middle = left + (right - left) / 2;
         let mut signature = self.spare.pop().unwrap_or_default();
         self.sign(self.at(middle, y, sample), members, &mut signature);
-        self.texel(picture, self.at(middle, y, sample), &signature, members);
+        self.texel(picture, self.at(middle, y, sample), &signature);
         self.between(
             picture,
             [left, middle],
@@ -540,7 +541,7 @@ impl Brush<'_, '_> {
     }
 
     /// Draws over one sample.
-    fn texel(&mut self, picture: &mut [State], at: Sample, signature: &SampleKey, members: &[u32]) {
+    fn texel(&mut self, picture: &mut [State], at: Sample, signature: &SampleKey) {
         let place = at.place();
         let mut state = picture[place];
         for (i, part) in signature.parts.iter().enumerate() {
@@ -548,7 +549,7 @@ impl Brush<'_, '_> {
                 break;
             }
             if !self.known.pays(part.draw) {
-                state = self.draw(at, state, part.draw, members);
+                state = self.draw(at, state, part.draw, signature.hits_of(i));
                 continue;
             }
             let known = &mut self.known;
@@ -563,7 +564,7 @@ impl Brush<'_, '_> {
                 Some(state) => state,
                 None => {
                     let key = known.key.clone();
-                    let after = self.draw(at, state, part.draw, members);
+                    let after = self.draw(at, state, part.draw, signature.hits_of(i));
                     self.known.by_words.insert(key, after);
                     after
                 }
@@ -572,18 +573,17 @@ impl Brush<'_, '_> {
         picture[place] = state;
     }
 
-    /// Returns the state of a sample after one draw.
-    fn draw(&self, at: Sample, before: State, draw: u32, members: &[u32]) -> State {
-        let setup = &self.walk.setups[self.pass];
-        let primitives = members.iter().map(|number| setup.member(*number));
-        let primitives = primitives.filter(|(d, _)| *d == draw);
-        let primitives = primitives.map(|(d, i)| &setup.primitives_of(d as usize)[i as usize]);
+    /// Returns the state of a sample after one draw, with the primitives of the draw that cover the sample.
+    fn draw(&self, at: Sample, before: State, draw: u32, hits: &[(u32, Hit)]) -> State {
+        let primitives = self.walk.setups[self.pass].primitives_of(draw as usize);
+        let hits = hits
+            .iter()
+            .map(|(i, hit)| (&primitives[*i as usize], Ok(*hit)));
         let before = self.walk.pictures.borrow().states.worlds(before).cloned();
         let after = before.and_then(|worlds| {
             let worlds = Worlds::clone(&worlds);
             let draw = (self.pass, draw as usize);
-            self.walk
-                .draw(at, draw, primitives, worlds, &mut Notes(None))
+            self.walk.draw(at, draw, hits, worlds, &mut Notes(None))
         });
         self.walk.pictures.borrow_mut().states.number(after)
     }

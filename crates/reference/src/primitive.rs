@@ -12,7 +12,7 @@ use etalon_scene::InterpolationSampling;
 use std::ops::Range;
 
 /// The shape of a primitive.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum Shape {
     /// The inside of a triangle.
     Triangle(Triangle),
@@ -37,15 +37,24 @@ impl VertexId {
 }
 
 /// A triangle's edges, each from a vertex to the next one.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Triangle {
-    pub(crate) edges: [Edge; 3],
+    edges: Edges,
     /// The identities of the vertices' positions.
     pub(crate) ids: [VertexId; 3],
     /// Least and greatest signed area, y up.
     pub(crate) area: (i64, i64),
     /// The maximum change of an edge function near the triangle through legal snapping.
     moved: i64,
+}
+
+/// All edges of a triangle, in little memory: a picture can have a million triangles.
+#[derive(Clone, Debug)]
+enum Edges {
+    /// Between snapped vertices.
+    Between([SnapBox; 3]),
+    /// At least one is cut.
+    Cut(Box<[Edge; 3]>),
 }
 
 /// An edge of a triangle.
@@ -64,14 +73,12 @@ pub(crate) struct SnappedPrimitive {
     pub(crate) shape: Shape,
     /// True if a cull distance is negative at all vertices.
     pub(crate) beyond: bool,
-    /// The flat vertex colour.
-    pub(crate) color: [Interval; 4],
-    /// The texels that the primitive can touch: left, top, right and bottom, the last two exclusive.
-    pub(crate) bounds: [i64; 4],
+    /// The least and the greatest flat vertex colour.
+    pub(crate) color: [[f32; 2]; 4],
     /// Window depth, before any bias.
     pub(crate) window_depth: Depth,
-    /// Clip-space depth, by which the near and far planes clip.
-    pub(crate) clip_depth: Depth,
+    /// Clip-space depth, by which the near and far planes clip; `None` if they certainly clip nothing.
+    pub(crate) clip_depth: Option<Box<Depth>>,
     /// The depth bias.
     pub(crate) bias: Interval,
     /// All snapped vertices.
@@ -81,7 +88,7 @@ pub(crate) struct SnappedPrimitive {
     /// 1 over the clip-space w, if the shader reads it.
     pub(crate) reciprocal_w: Option<Box<Varying>>,
     /// The enabled clip distances.
-    pub(crate) distances: Vec<Distance>,
+    pub(crate) distances: Box<[Distance]>,
     /// A number that is equal for the same vertices under the same viewport; `None` if the draw tests no
     /// depth, or if no other fragment of the scene can have the same.
     pub(crate) geometry: Option<u64>,
@@ -111,7 +118,7 @@ impl Triangle {
         // No sample of a texel that the triangle can touch is farther from a vertex.
         let reach = (bounds.high.x - bounds.low.x) + (bounds.high.y - bounds.low.y) + 4 * units;
         Self {
-            edges: [[a, b], [b, c], [c, a]].map(Edge::Between),
+            edges: Edges::Between(vertices),
             ids,
             area: area(vertices),
             moved: 2 * moved * reach + 2 * moved * moved,
@@ -122,16 +129,44 @@ impl Triangle {
     /// other primitives.
     pub(crate) fn cut(edges: [Edge; 3], ids: [VertexId; 3], area: (i64, i64)) -> Self {
         Self {
-            edges,
+            edges: Edges::Cut(Box::new(edges)),
             ids,
             area,
             moved: i64::MAX,
         }
     }
 
+    /// Returns the edge from vertex `i` to the next one.
+    #[inline]
+    fn edge_from(&self, i: usize) -> Edge {
+        match &self.edges {
+            Edges::Between(vertices) => Edge::Between([vertices[i], vertices[(i + 1) % 3]]),
+            Edges::Cut(edges) => edges[i],
+        }
+    }
+
+    /// Returns the edges, each from a vertex to the next one.
+    pub(crate) fn edges(&self) -> [Edge; 3] {
+        [0, 1, 2].map(|i| self.edge_from(i))
+    }
+
     /// Returns the side of the edge from vertex `i` to the next one on which a point is.
+    #[inline]
     pub(crate) fn side(&self, i: usize, at: Point) -> Side {
-        let (p, q) = match self.edges[i] {
+        // One corner decides most samples.
+        if let Edges::Between(vertices) = &self.edges {
+            let value = edge_value(vertices[i].low, vertices[(i + 1) % 3].low, at);
+            if value > self.moved {
+                return Side::Positive;
+            } else if value < -self.moved {
+                return Side::Negative;
+            }
+        }
+        Self::side_of_edge(self.edge_from(i), at)
+    }
+
+    fn side_of_edge(edge: Edge, at: Point) -> Side {
+        let (p, q) = match edge {
             Edge::Between([p, q]) => (p, q),
             Edge::Cut { line, off } => {
                 let value = line.at(at);
@@ -144,12 +179,6 @@ impl Triangle {
                 };
             }
         };
-        // One corner decides most samples.
-        match edge_value(p.low, q.low, at) {
-            value if value > self.moved => return Side::Positive,
-            value if value < -self.moved => return Side::Negative,
-            _ => {}
-        }
         // The edge function is linear in each coordinate alone, so its extremes are at corners.
         let (mut least, mut most) = (i64::MAX, i64::MIN);
         for p in p.corners() {
@@ -183,15 +212,11 @@ impl Triangle {
             _ => return [among, 0..0],
         };
         let (top, bottom) = (i64::from(row) * units, (i64::from(row) + 1) * units);
-        let edges = self.edges.map(|edge| match edge {
-            Edge::Between(ends) => Some(ends),
-            Edge::Cut { .. } => None,
-        });
-        let [Some(ab), Some(bc), Some(ca)] = edges else {
+        let Edges::Between(vertices) = &self.edges else {
             return [among, 0..0];
         };
-        for ends in [ab, bc, ca] {
-            let [p, q] = ends.map(|end| end.low);
+        for i in 0..3 {
+            let (p, q) = (vertices[i].low, vertices[(i + 1) % 3].low);
             let (dx, dy) = (sign * (q.x - p.x), sign * (q.y - p.y));
             let (at_top, at_bottom) = (dx * (top - p.y), dx * (bottom - p.y));
             let growth = -dy * units;
@@ -215,7 +240,7 @@ impl Triangle {
 
     /// Returns the end points of an edge that passes exactly through its sample; `None` for a cut edge.
     pub(crate) fn edge(&self, i: usize) -> Option<(Point, Point)> {
-        match self.edges[i] {
+        match self.edge_from(i) {
             Edge::Between([p, q]) => Some((p.low, q.low)),
             Edge::Cut { .. } => None,
         }
@@ -248,7 +273,7 @@ impl SnappedPrimitive {
             Shape::Point(center) => point_times(*center, at, units),
             Shape::Line(ends) => line_times(*ends, at, units),
             Shape::Outline(triangle) => {
-                let each = triangle.edges.map(|edge| match edge {
+                let each = triangle.edges().map(|edge| match edge {
                     Edge::Between(ends) => line_times(ends, at, units),
                     Edge::Cut { .. } => (0, 1),
                 });
@@ -258,6 +283,29 @@ impl SnappedPrimitive {
             }
             Shape::Triangle(_) => (0, 1),
         }
+    }
+
+    /// Returns the texels that the primitive can touch: left, top, right and bottom, the last two exclusive.
+    pub(crate) fn bounds(&self, units: i64) -> [i64; 4] {
+        let reach = match self.shape {
+            Shape::Triangle(_) => 0,
+            _ => 2 * units,
+        };
+        let SnapBox { low, high } = self.all;
+        [
+            (low.x - reach).div_euclid(units),
+            (low.y - reach).div_euclid(units),
+            (high.x + reach).div_euclid(units) + 1,
+            (high.y + reach).div_euclid(units) + 1,
+        ]
+    }
+
+    /// Returns the flat vertex colour.
+    pub(crate) fn flat_color(&self) -> [Interval; 4] {
+        self.color.map(|ends| {
+            let [low, high] = ends.map(f64::from);
+            Interval { low, high }
+        })
     }
 
     /// Returns the window depth at a sample that the primitive covers, with its bias.
@@ -303,6 +351,16 @@ impl SnappedPrimitive {
         Some(seen(value, at, units, samples))
     }
 
+    /// Returns true if the shader reads texture coordinates that vary over the primitive.
+    pub(crate) fn uv_varies(&self) -> bool {
+        (self.uv.as_deref()).is_some_and(|uv| !uv.iter().all(Varying::is_flat))
+    }
+
+    /// Returns true if the shader reads 1 over w and it varies over the primitive.
+    pub(crate) fn w_varies(&self) -> bool {
+        (self.reciprocal_w.as_deref()).is_some_and(|w| !w.is_flat())
+    }
+
     /// Returns true if a depth bias can move the primitive's fragments.
     pub(crate) fn is_biased(&self) -> bool {
         !self.bias.is(0.0)
@@ -326,7 +384,10 @@ impl SnappedPrimitive {
 
     /// Returns whether a covered sample is between the near and far planes.
     pub(crate) fn inside_depth(&self, at: Point) -> Possible {
-        let depth = self.clip_depth.at(at);
+        let Some(depth) = &self.clip_depth else {
+            return Possible::Always;
+        };
+        let depth = depth.at(at);
         Possible::of(
             depth.high >= 0.0 && depth.low <= 1.0,
             depth.low >= 0.0 && depth.high <= 1.0,

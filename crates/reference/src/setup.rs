@@ -6,35 +6,22 @@ use crate::cut::{CutLine, CutTriangle, is_cut, is_cut_line};
 use crate::depth::Depth;
 use crate::distance::Distance;
 use crate::interval::Interval;
-use crate::judging::Judging;
 use crate::primitive::{Shape, SnappedPrimitive, Triangle, VertexId};
-use crate::range::Range;
-use crate::rules::Snap;
 use crate::snap::{SnapBox, area, units_per_texel};
 use crate::texels::Lattice;
 use crate::varying::{Perspective, Varying};
-use etalon_pipeline::{Arithmetic, Plain, Point, is_beyond, shader, window_position};
+use crate::vertex::Vertices;
+use etalon_pipeline::{Plain, is_beyond, shader, window_position};
 use etalon_scene::{Draw, Interpolation, PolygonMode, PrimitiveVertices};
 use smallvec::{SmallVec, smallvec};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-#[derive(Clone, Copy)]
-struct Vertex {
-    snapped: SnapBox,
-    window_z: Interval,
-    clip_z: Interval,
-    id: VertexId,
-}
-
-/// Data that the primitives of one draw share.
-struct Vertices {
-    /// The vertices that have been set up for an earlier primitive.
-    known: Vec<Option<Vertex>>,
-    geometry: DefaultHasher,
-}
-
 /// Returns a draw's primitives in drawing order, except those far from all judged texels.
-pub(crate) fn draw(context: &PassContext<'_>, draw: &Draw) -> Vec<SnappedPrimitive> {
+pub(crate) fn draw(
+    context: &PassContext<'_>,
+    draw: &Draw,
+    vertices: &mut Vertices,
+) -> Vec<SnappedPrimitive> {
     let mut primitives = Vec::new();
     if draw.rasterizer_discard {
         return primitives;
@@ -51,11 +38,13 @@ pub(crate) fn draw(context: &PassContext<'_>, draw: &Draw) -> Vec<SnappedPrimiti
                 .collect()
         })
     };
-    let mut vertices = Vertices {
-        known: vec![None; draw.mesh.vertices.len()],
-        geometry: draw_geometry(draw),
-    };
-    for (index, indices) in draw.primitives().into_iter().enumerate() {
+    vertices.enter(&draw.viewport);
+    let draw_geometry = draw_geometry(draw);
+    let assembled = draw.primitives();
+    if context.lattice == Lattice::ALL {
+        primitives.reserve_exact(assembled.len());
+    }
+    for (index, indices) in assembled.into_iter().enumerate() {
         if is_far(context, draw, indices) {
             continue;
         }
@@ -67,19 +56,33 @@ pub(crate) fn draw(context: &PassContext<'_>, draw: &Draw) -> Vec<SnappedPrimiti
             (None, PrimitiveVertices::Triangle(triangle)) => SmallVec::from_slice(&triangle),
         };
         let color = std::array::from_fn(|c| {
-            let value = |i: &usize| Interval::exact(f64::from(draw.mesh.vertices[*i].color[c]));
-            let hull = sources.iter().map(value).reduce(Interval::hull);
-            hull.unwrap_or(Interval::exact(0.0))
+            let values = sources.iter().map(|i| draw.mesh.vertices[*i].color[c]);
+            let ends = values.map(|value| [value; 2]);
+            let hull = ends.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+            hull.unwrap_or_default()
         });
-        let vertices = &mut vertices;
-        primitives.extend(primitive(
-            context,
-            draw,
-            vertices,
-            indices,
-            color,
-            index as u32,
-        ));
+        let geometry = match (context.depth, draw.depth) {
+            (Some(_), Some(_)) => Some(geometry(draw, indices, draw_geometry.clone())),
+            _ => None,
+        };
+        primitives.extend(parts(context, draw, vertices, indices).map(|parts| {
+            SnappedPrimitive {
+                shape: parts.shape,
+                beyond: is_beyond(draw, indices),
+                color,
+                window_depth: parts.window_depth,
+                clip_depth: Some(parts.clip_depth)
+                    .filter(|depth| !(depth.hull.low >= 0.0 && depth.hull.high <= 1.0))
+                    .map(Box::new),
+                bias: parts.bias,
+                all: parts.all,
+                uv: parts.uv.map(Box::new),
+                reciprocal_w: parts.reciprocal_w.map(Box::new),
+                distances: parts.distances.into(),
+                geometry,
+                index: index as u32,
+            }
+        }));
     }
     primitives
 }
@@ -136,57 +139,26 @@ struct Parts {
     distances: Vec<Distance>,
 }
 
-/// Returns a primitive; `None` if all of it is clipped.
-fn primitive(
+/// Returns the parts of a primitive; `None` if all of it is clipped.
+fn parts(
     context: &PassContext<'_>,
     draw: &Draw,
     vertices: &mut Vertices,
     indices: PrimitiveVertices,
-    color: [Interval; 4],
-    index: u32,
-) -> Option<SnappedPrimitive> {
+) -> Option<Parts> {
     let fill = draw.polygon_mode == PolygonMode::Fill;
-    let parts = match indices {
+    match indices {
         PrimitiveVertices::Point(i) if is_cut(context, draw, &[i]) => {
-            point_behind(context, draw, vertices, i)?
+            point_behind(context, draw, vertices, i)
         }
         PrimitiveVertices::Line(line) if is_cut_line(context, draw, line) => {
-            cut_line(context, draw, line)?
+            cut_line(context, draw, line)
         }
         PrimitiveVertices::Triangle(triangle) if fill && is_cut(context, draw, &triangle) => {
-            cut_triangle(context, draw, vertices, triangle)?
+            cut_triangle(context, draw, vertices, triangle)
         }
-        _ => snapped(context, draw, vertices, indices),
-    };
-    let units = units_per_texel(context.limits);
-    let reach = match parts.shape {
-        Shape::Triangle(_) => 0,
-        _ => 2 * units,
-    };
-    let bounds = parts.all;
-    Some(SnappedPrimitive {
-        uv: parts.uv.map(Box::new),
-        reciprocal_w: parts.reciprocal_w.map(Box::new),
-        distances: parts.distances,
-        shape: parts.shape,
-        color,
-        bounds: [
-            (bounds.low.x - reach).div_euclid(units),
-            (bounds.low.y - reach).div_euclid(units),
-            (bounds.high.x + reach).div_euclid(units) + 1,
-            (bounds.high.y + reach).div_euclid(units) + 1,
-        ],
-        window_depth: parts.window_depth,
-        clip_depth: parts.clip_depth,
-        bias: parts.bias,
-        all: bounds,
-        geometry: match (context.depth, draw.depth) {
-            (Some(_), Some(_)) => Some(geometry(draw, indices, vertices.geometry.clone())),
-            _ => None,
-        },
-        beyond: is_beyond(draw, indices),
-        index,
-    })
+        _ => Some(snapped(context, draw, vertices, indices)),
+    }
 }
 
 /// Returns a primitive whose vertices are in front of the eye and are snapped.
@@ -196,28 +168,25 @@ fn snapped(
     vertices: &mut Vertices,
     indices: PrimitiveVertices,
 ) -> Parts {
-    let mut vertex = |i: usize| known(context, draw, vertices, i);
     let units = units_per_texel(context.limits);
     let grid = units >> context.limits.sub_pixel_bits;
     let error = context.rules.float_error.value();
-    let boxes = match indices {
+    let v = match indices {
         PrimitiveVertices::Point(i) => [i; 3],
         PrimitiveVertices::Line([a, b]) => [a, b, a],
         PrimitiveVertices::Triangle(triangle) => triangle,
     }
-    .map(|i| vertex(i).snapped);
+    .map(|i| vertices.get(context, draw, i));
+    let boxes = v.map(|v| v.snapped);
     let mut bias = Interval::exact(0.0);
     let (shape, window_depth, clip_depth) = match indices {
-        PrimitiveVertices::Point(i) => {
-            let v = vertex(i);
-            (
-                Shape::Point(v.snapped),
-                Depth::flat(&[v.window_z]),
-                Depth::flat(&[v.clip_z]),
-            )
-        }
-        PrimitiveVertices::Line(line) => {
-            let v = line.map(&mut vertex);
+        PrimitiveVertices::Point(_) => (
+            Shape::Point(v[0].snapped),
+            Depth::flat(&[v[0].window_z]),
+            Depth::flat(&[v[0].clip_z]),
+        ),
+        PrimitiveVertices::Line(_) => {
+            let v = [v[0], v[1]];
             (
                 Shape::Line(v.map(|v| v.snapped)),
                 Depth::along(v.map(|v| v.snapped), v.map(|v| v.window_z), units, error),
@@ -225,8 +194,7 @@ fn snapped(
                 Depth::along(v.map(|v| v.snapped), v.map(|v| v.clip_z), units, 0.0),
             )
         }
-        PrimitiveVertices::Triangle(triangle) => {
-            let v = triangle.map(vertex);
+        PrimitiveVertices::Triangle(_) => {
             let triangle = Triangle::new(boxes, v.map(|v| v.id), units);
             let window = Depth::over(boxes, v.map(|v| v.window_z), [units, grid], error);
             let z = v.map(|v| v.window_z);
@@ -280,11 +248,6 @@ fn snapped(
     }
 }
 
-fn known(context: &PassContext<'_>, draw: &Draw, vertices: &mut Vertices, i: usize) -> Vertex {
-    let position = draw.mesh.vertices[i].position;
-    *vertices.known[i].get_or_insert_with(|| vertex(context, draw, position))
-}
-
 /// Returns a point behind the eye, or too far out for the grid, at the position that the division by w gives,
 /// if the rules let it be drawn.
 fn point_behind(
@@ -321,7 +284,7 @@ fn cut_triangle(
     let cut = CutTriangle::new(context, draw, triangle)?;
     let boxes = triangle.map(|i| {
         let uncut = !is_cut(context, draw, &[i]);
-        uncut.then(|| known(context, draw, vertices, i).snapped)
+        uncut.then(|| vertices.get(context, draw, i).snapped)
     });
     let ids = triangle.map(|i| VertexId::new(draw.mesh.vertices[i].position));
     let window_depth = cut.window_depth();
@@ -547,31 +510,4 @@ fn may_be_lost_behind(context: &PassContext<'_>, draw: &Draw, line: [usize; 2]) 
 /// Returns a clip distance of a vertex.
 fn distance(draw: &Draw, vertex: usize, n: usize) -> f64 {
     f64::from(shader::clip_distances(draw.shader, &draw.mesh.vertices[vertex])[n])
-}
-
-fn vertex(context: &PassContext<'_>, draw: &Draw, position: [f32; 4]) -> Vertex {
-    let mut judging = Judging::new(context.rules);
-    let window = window_position(&mut judging, position, &draw.viewport);
-    let clip = judging.constant(position[2] / position[3]);
-    let limits = context.limits;
-    let grid = f64::from(1_u32 << limits.sub_pixel_bits);
-    let step = units_per_texel(limits) >> limits.sub_pixel_bits;
-    let snap = |range: Range| -> (i64, i64) {
-        let Interval { low, high } = range.hull();
-        let (low, high) = match context.rules.snap.value() {
-            Snap::EitherSide => ((low * grid).floor(), (high * grid).ceil()),
-            Snap::Nearest => ((low * grid + 0.5).floor(), (high * grid + 0.5).floor()),
-        };
-        (low as i64 * step, high as i64 * step)
-    };
-    let (x, y) = (snap(window[0]), snap(window[1]));
-    Vertex {
-        snapped: SnapBox {
-            low: Point { x: x.0, y: y.0 },
-            high: Point { x: x.1, y: y.1 },
-        },
-        window_z: window[2].hull(),
-        clip_z: clip.hull(),
-        id: VertexId::new(position),
-    }
 }

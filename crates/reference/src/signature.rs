@@ -6,7 +6,6 @@ use crate::interval::Interval;
 use crate::primitive::{Shape, Side, SnappedPrimitive};
 use crate::range::Range;
 use crate::sample::Sample;
-use crate::varying::Varying;
 use crate::walk::{Hit, Place, Walk};
 use crate::world::World;
 use etalon_frame::Rejection;
@@ -44,11 +43,12 @@ enum Texture {
     Value(usize),
 }
 
-/// A draw's part of a signature: the words from `start` on.
+/// A draw's part of a signature: the words and hits from the first ones on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Part {
     pub(crate) draw: u32,
-    pub(crate) start: u32,
+    first_word: u32,
+    first_hit: u32,
 }
 
 /// The signature of a sample over all draws of a pass that can touch it.
@@ -57,6 +57,8 @@ pub(crate) struct SampleKey {
     pub(crate) words: Vec<u64>,
     /// The draws that touch the sample, in order.
     pub(crate) parts: Vec<Part>,
+    /// The primitives that cover the sample, by their indices in the draws' setups.
+    hits: Vec<(u32, Hit)>,
     /// The sides for all primitives, even if they miss the sample.
     sides: Vec<[Side; 3]>,
     /// True if all samples in the row between this sample and another with equal signature and sides also
@@ -67,8 +69,17 @@ pub(crate) struct SampleKey {
 impl SampleKey {
     /// Returns the words of one of the draws.
     pub(crate) fn words_of(&self, part: usize) -> &[u64] {
-        let end = self.parts.get(part + 1).map(|next| next.start as usize);
-        &self.words[self.parts[part].start as usize..end.unwrap_or(self.words.len())]
+        let end = self
+            .parts
+            .get(part + 1)
+            .map(|next| next.first_word as usize);
+        &self.words[self.parts[part].first_word as usize..end.unwrap_or(self.words.len())]
+    }
+
+    /// Returns the primitives of one of the draws that cover the sample.
+    pub(crate) fn hits_of(&self, part: usize) -> &[(u32, Hit)] {
+        let end = self.parts.get(part + 1).map(|next| next.first_hit as usize);
+        &self.hits[self.parts[part].first_hit as usize..end.unwrap_or(self.hits.len())]
     }
 
     /// Returns true if all samples in a row between two samples with these signatures have the same
@@ -126,11 +137,17 @@ impl Walk<'_> {
         };
         let mut known = FxHashMap::default();
         let primitives = self.setups[pass].primitives_of(index);
+        // Neighbours often have the same values.
+        let mut latest = (SmallVec::new(), 0);
         inputs.kinds = primitives
             .iter()
             .map(|primitive| {
-                let next = known.len() as u32;
-                *known.entry(inputs.kind(primitive)).or_insert(next)
+                let kind = inputs.kind(primitive);
+                if kind != latest.0 {
+                    let next = known.len() as u32;
+                    latest = (kind.clone(), *known.entry(kind).or_insert(next));
+                }
+                latest.1
             })
             .collect();
         inputs
@@ -156,17 +173,20 @@ impl Walk<'_> {
     }
 
     /// Returns the signature of a sample. `members` are the primitives of the pass that can touch it, each as
-    /// draw and index in the draw's setup, in drawing order.
+    /// draw and index in the draw's setup, in drawing order. The signature contains inputs that vary over a
+    /// primitive only if `names_inputs` returns true for the draw.
     pub(crate) fn sign(
         &self,
         pass: usize,
         inputs: &[Inputs],
         at: Sample,
         members: impl Iterator<Item = (u32, u32)>,
+        names_inputs: impl Fn(u32) -> bool,
         signature: &mut SampleKey,
     ) {
         signature.words.clear();
         signature.parts.clear();
+        signature.hits.clear();
         signature.sides.clear();
         signature.constant = true;
         let point = self.sample_point(at);
@@ -188,10 +208,14 @@ impl Walk<'_> {
                 }
             };
             if signature.parts.last().is_none_or(|part| part.draw != d) {
-                let start = signature.words.len() as u32;
-                signature.parts.push(Part { draw: d, start });
+                signature.parts.push(Part {
+                    draw: d,
+                    first_word: signature.words.len() as u32,
+                    first_hit: signature.hits.len() as u32,
+                });
                 self.sign_draw(inputs, at, signature);
             }
+            signature.hits.push((i, hit));
             let place = Place {
                 at,
                 point,
@@ -205,6 +229,12 @@ impl Walk<'_> {
                 world: (0, 1),
             };
             self.sign_primitive(&place, hit, inputs.kinds[i as usize], inputs, signature);
+            if inputs.vary(primitive) {
+                signature.constant = false;
+                if names_inputs(d) {
+                    self.sign_inputs(&place, inputs, signature);
+                }
+            }
         }
     }
 
@@ -264,40 +294,34 @@ impl Walk<'_> {
         if names_itself {
             signature.words.push(u64::from(primitive.index));
         }
+    }
+
+    /// Adds the values of inputs that vary over a primitive.
+    fn sign_inputs(&self, place: &Place<'_>, inputs: &Inputs, signature: &mut SampleKey) {
+        let primitive = place.primitive;
         if inputs.depth && !primitive.window_depth.is_flat() {
-            signature.constant = false;
             let depth = primitive.depth_at(place.point);
             signature.words.extend(bits(depth.float));
         }
         if inputs.depth_seen && !primitive.window_depth.is_flat() {
-            signature.constant = false;
             let samples = self.samples_shaded(place);
             let depth = primitive.depth_seen(place.point, self.units, samples);
             signature.words.extend(bits(depth.float));
         }
-        let varies = |w: &Varying| !w.is_flat();
-        if primitive.reciprocal_w.as_deref().is_some_and(varies) {
-            signature.constant = false;
+        if primitive.w_varies() {
             signature.words.extend(bits(self.reciprocal_w(place).float));
         }
-        if primitive
-            .uv
-            .as_ref()
-            .is_some_and(|uv| !uv.iter().all(Varying::is_flat))
-        {
-            signature.constant = false;
+        if primitive.uv_varies() {
             for axis in self.uv(place) {
                 signature.words.extend(bits(axis.float));
             }
         }
         if inputs.coordinates {
-            signature.constant = false;
             for axis in self.frag_coord(place) {
                 signature.words.extend(bits(axis.float));
             }
         }
         if inputs.mask_seen {
-            signature.constant = false;
             for mask in self.input_masks(place) {
                 let words = [mask.set, mask.possible].map(u64::from);
                 signature.words.extend(words);
@@ -305,7 +329,6 @@ impl Walk<'_> {
         }
         for (t, texture) in inputs.textures.iter().enumerate() {
             if let Texture::Value(_) = texture {
-                signature.constant = false;
                 let nowhere = World::default();
                 for channel in self.texel(place, &nowhere, t) {
                     signature.words.extend(range_bits(channel).as_flattened());
@@ -316,6 +339,17 @@ impl Walk<'_> {
 }
 
 impl Inputs {
+    /// Returns true if inputs of a primitive's fragments vary over it.
+    fn vary(&self, primitive: &SnappedPrimitive) -> bool {
+        let drawn = |texture: &Texture| matches!(texture, Texture::Value(_));
+        (self.depth || self.depth_seen) && !primitive.window_depth.is_flat()
+            || primitive.w_varies()
+            || primitive.uv_varies()
+            || self.coordinates
+            || self.mask_seen
+            || self.textures.iter().any(drawn)
+    }
+
     /// Returns the values that are constant over a primitive.
     fn kind(&self, primitive: &SnappedPrimitive) -> SmallVec<[u64; 24]> {
         let mut words: SmallVec<[u64; 24]> = SmallVec::new();
@@ -325,7 +359,7 @@ impl Inputs {
             Shape::Triangle(triangle) => 2 + facings(triangle.area),
             Shape::Outline(triangle) => 6 + facings(triangle.area),
         });
-        for channel in primitive.color {
+        for channel in primitive.flat_color() {
             words.extend(bits(channel));
         }
         words.extend(bits(primitive.bias));

@@ -26,6 +26,12 @@ impl SnapBox {
         self.low == self.high
     }
 
+    #[inline]
+    pub(crate) fn contains(self, point: Point) -> bool {
+        let (low, high) = (self.low, self.high);
+        low.x <= point.x && point.x <= high.x && low.y <= point.y && point.y <= high.y
+    }
+
     pub(crate) fn hull(self, other: Self) -> Self {
         Self {
             low: Point {

@@ -263,7 +263,11 @@ impl<'a> Walk<'a> {
                     self.note_draw(notes, (p, d, draw));
                     continue;
                 }
-                let primitives = self.setups[p].at(d, at.x, at.y);
+                let point = self.sample_point(at);
+                let primitives = self.setups[p].at(d, at.x, at.y).map(|primitive| {
+                    let sides = self.sides_of(primitive, at, point);
+                    (primitive, self.hit((p, d), primitive, sides, point))
+                });
                 worlds = self.draw(at, (p, d), primitives, worlds, notes)?;
             }
             if is_own {
@@ -280,12 +284,13 @@ impl<'a> Walk<'a> {
         Some(worlds)
     }
 
-    /// Carries worlds through the primitives of one draw; `None` if the sample is open after it.
+    /// Carries worlds through the primitives of one draw, given with their coverage of the sample or the
+    /// reason for missing it; `None` if the sample is open after it.
     pub(crate) fn draw<'s>(
         &self,
         at: Sample,
         (p, d): (usize, usize),
-        primitives: impl Iterator<Item = &'s SnappedPrimitive>,
+        primitives: impl Iterator<Item = (&'s SnappedPrimitive, Result<Hit, Rejection>)>,
         mut worlds: Worlds,
         notes: &mut Notes<'_>,
     ) -> Option<Worlds> {
@@ -295,9 +300,8 @@ impl<'a> Walk<'a> {
         }
         let mut skipped = Skipped::new(notes);
         let point = self.sample_point(at);
-        for primitive in primitives {
-            let sides = self.sides_of(primitive, at, point);
-            let hit = match self.hit((p, d), primitive, sides, point) {
+        for (primitive, hit) in primitives {
+            let hit = match hit {
                 Ok(hit) => hit,
                 Err(reason) => {
                     skipped.add(primitive.index, Some(reason));

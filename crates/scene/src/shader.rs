@@ -380,7 +380,7 @@ shaders! {
     /// The vertex colour; first does as many steps of work as `params.back_color`'s red says.
     ExpensiveColor = "expensive_color" { params: true },
     /// Like `expensive_color`, and writes the fragment's own window depth as depth.
-    ExpensiveDepth = "expensive_depth" { params: true, depth: Depth::Computed },
+    ExpensiveDepth = "expensive_depth" { params: true, depth: Depth::Computed, reads_depth: true },
     /// Like `expensive_color`, and discards if the vertex colour's alpha is below `params.color`'s.
     ExpensiveDiscard = "expensive_discard" { params: true, discards: true },
     /// `params.color`; writes the red of the texel of texture 0 under the fragment as stencil reference.
