@@ -43,6 +43,7 @@ mod saved_run;
 mod scene_text;
 mod shard;
 mod worker;
+mod worth;
 
 use clap::{CommandFactory, Parser};
 use command_line::{Command, CommandLine};

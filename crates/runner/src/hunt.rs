@@ -8,6 +8,7 @@ use etalon_frame::{Frame, WrongTexel};
 use etalon_judge::Judge;
 use etalon_record::{AreaTally, Catch, MutantInfo, MutantRecord, Sighting, Verdict};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::{Duration, Instant};
 
 /// The planted bugs of a hunt, and the cases that must catch them.
 #[derive(Clone, Copy, Debug)]
@@ -22,8 +23,25 @@ pub struct HuntPlan<'a> {
     pub jobs: usize,
 }
 
-/// Draws and judges the cases with every bug planted. Returns a record of each bug, in the order of the
-/// plan. `open` returns the backend with the named bug, and each thread calls `drawn` after each case.
+/// The result of a hunt.
+#[derive(Clone, Debug, Default)]
+pub struct Hunted {
+    /// The record of each bug, in the order of the plan.
+    pub records: Vec<MutantRecord>,
+    /// What each case caught, in the order of the plan's cases.
+    pub catches: Vec<Catches>,
+}
+
+/// What one case caught.
+#[derive(Clone, Debug, Default)]
+pub struct Catches {
+    /// The indices of the bugs that failed.
+    pub bugs: Vec<usize>,
+    /// The time to draw and judge the case with one bug; zero if none was drawn.
+    pub cost: Duration,
+}
+
+/// Draws and judges the cases with every bug planted. `open` returns the backend with the named bug, and each thread calls `drawn` after each case.
 ///
 /// Every thread has its own part of the bugs and draws the cases in order, so that state that a bug carries
 /// from one case to the next is always the same.
@@ -31,7 +49,7 @@ pub fn hunt(
     plan: HuntPlan<'_>,
     open: &(dyn Fn(&str) -> Option<Box<dyn Backend>> + Sync),
     drawn: &(dyn Fn() + Sync),
-) -> Vec<MutantRecord> {
+) -> Hunted {
     let judge = Judge::default();
     let jobs = plan.jobs.clamp(1, plan.mutants.len().max(1));
     let numbers: Vec<usize> = (0..jobs).collect();
@@ -44,24 +62,43 @@ pub fn hunt(
             .step_by(jobs)
             .map(|(number, info)| Mutant::new(number, info, open(&info.name)))
             .collect();
+        let mut catches = Vec::with_capacity(plan.cases.len());
         for (number, case) in plan.cases.iter().enumerate() {
-            if case.judged_as.is_none() {
-                try_case(&judge, number, case, &mut share, plan.full);
-            }
+            catches.push(match case.judged_as {
+                None => try_case(&judge, number, case, &mut share, plan.full),
+                Some(_) => Catches::default(),
+            });
             drawn();
         }
-        let done = share.into_iter();
-        done.map(|mutant| (mutant.at, mutant.finish()))
-            .collect::<Vec<_>>()
+        let records = share.into_iter().map(|mutant| (mutant.at, mutant.record));
+        (records.collect::<Vec<_>>(), catches)
     });
-    let mut found: Vec<(usize, MutantRecord)> = found.into_iter().flatten().collect();
-    found.sort_by_key(|(number, _)| *number);
-    found.into_iter().map(|(_, record)| record).collect()
+    let mut catches = vec![Catches::default(); plan.cases.len()];
+    let mut records = Vec::new();
+    for (share, caught) in found {
+        records.extend(share);
+        for (sum, part) in catches.iter_mut().zip(caught) {
+            sum.bugs.extend(part.bugs);
+            sum.cost = sum.cost.max(part.cost);
+        }
+    }
+    records.sort_by_key(|(at, _)| *at);
+    Hunted {
+        records: records.into_iter().map(|(_, record)| record).collect(),
+        catches,
+    }
 }
 
 /// Draws one case with each of a thread's bugs. Most bugs give one of a few frames, and each distinct frame
 /// is judged only once.
-fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Mutant], full: bool) {
+fn try_case(
+    judge: &Judge,
+    number: usize,
+    case: &Case,
+    share: &mut [Mutant],
+    full: bool,
+) -> Catches {
+    let mut catches = Catches::default();
     let mut seen: Vec<(Vec<Frame>, Sighting)> = Vec::new();
     let large = is_large(case);
     for mutant in share {
@@ -76,6 +113,7 @@ fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Mutant], ful
         let Some(backend) = &mutant.backend else {
             continue;
         };
+        let start = Instant::now();
         let sighting = match draw(backend.as_ref(), case) {
             Err(message) => broken(case, message),
             Ok(frames) => match seen.iter().find(|(known, _)| *known == frames) {
@@ -91,8 +129,15 @@ fn try_case(judge: &Judge, number: usize, case: &Case, share: &mut [Mutant], ful
                 }
             },
         };
+        if catches.cost.is_zero() {
+            catches.cost = start.elapsed();
+        }
+        if sighting.verdict.is_violation() {
+            catches.bugs.push(mutant.at);
+        }
         mutant.note(area, sighting);
     }
+    catches
 }
 
 /// Returns true if a case takes as long as hundreds of typical cases: it draws to more than 64 by 64 texels,
@@ -193,9 +238,5 @@ impl Mutant {
             self.record.outcome = outcome;
             self.record.first = Some(sighting);
         }
-    }
-
-    fn finish(self) -> MutantRecord {
-        self.record
     }
 }

@@ -36,7 +36,7 @@ pub use batch::Batches;
 pub use bench::{BenchError, BenchEvent, BenchPlan, BenchSummary, bench, ruler};
 pub use drawing::draw_frames;
 pub use event::Event;
-pub use hunt::{HuntPlan, hunt};
+pub use hunt::{Catches, HuntPlan, Hunted, hunt};
 pub use launch::{Launch, Launcher, START_TIMEOUT, Setup, StartError};
 pub use protocol::Hello;
 pub use reduction::{

@@ -6,6 +6,7 @@
 
 mod adapter_queue;
 mod adapter_run;
+mod budget;
 mod execute;
 mod pictures;
 mod plan;

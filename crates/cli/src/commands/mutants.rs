@@ -9,6 +9,7 @@ use crate::processors::processors;
 use crate::progress::progress;
 use crate::provenance;
 use crate::report_files::RECALL;
+use crate::worth::order;
 use clap::Args;
 use etalon_backend::Backend;
 use etalon_case::{Case, Globs};
@@ -44,8 +45,12 @@ pub(crate) struct Arguments {
     /// Draw every case with every bug, instead of skipping the rest of an area after a bug's first Fail
     #[arg(long)]
     pub(crate) full: bool,
+    /// Also write this file: the cases that together catch every bug, in the order in which `etalon run --within`
+    /// draws them
+    #[arg(long, value_name = "FILE", requires = "full")]
+    pub(crate) order: Option<PathBuf>,
     /// Hunt with this many random scenes instead of cases; each bug is drawn until its first Fail
-    #[arg(long, value_name = "N", conflicts_with_all = ["case_globs", "profile", "cases", "full"])]
+    #[arg(long, value_name = "N", conflicts_with_all = ["case_globs", "profile", "cases", "full", "order"])]
     pub(crate) fuzz: Option<u64>,
     /// Seed of the random scenes
     #[arg(long, value_name = "S", default_value_t = 0, requires = "fuzz")]
@@ -90,7 +95,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             arguments.case_globs.join(" ")
         )));
     }
-    let hunt = hunt(arguments, &cases, &chosen);
+    let hunt = hunt(arguments, &cases, &chosen)?;
     let _lock = claim.take()?;
     let written = etalon_report::write_hunt(&arguments.out, &hunt).map_err(Failure::incomplete)?;
     if arguments.format == Format::Json {
@@ -148,7 +153,7 @@ fn open(name: &str) -> Option<Box<dyn Backend>> {
     MutantBackend::new(name).map(|backend| Box::new(backend) as Box<dyn Backend>)
 }
 
-fn hunt(arguments: &Arguments, cases: &[Case], chosen: &[MutantInfo]) -> Hunt {
+fn hunt(arguments: &Arguments, cases: &[Case], chosen: &[MutantInfo]) -> Result<Hunt, Failure> {
     let jobs = processors();
     let bar = progress(cases.len() as u64 * jobs.min(chosen.len()) as u64);
     let started = provenance::now();
@@ -161,7 +166,18 @@ fn hunt(arguments: &Arguments, cases: &[Case], chosen: &[MutantInfo]) -> Hunt {
     };
     let found = etalon_runner::hunt(plan, &open, &|| bar.inc(1));
     bar.finish_and_clear();
-    hunted(arguments, cases.len() as u64, started, start, found)
+    if let Some(path) = &arguments.order {
+        std::fs::write(path, order(cases, &found))
+            .map_err(|e| Failure::incomplete(format!("cannot write {}: {e}", path.display())))?;
+    }
+    let records = found.records;
+    Ok(hunted(
+        arguments,
+        cases.len() as u64,
+        started,
+        start,
+        records,
+    ))
 }
 
 fn hunted(
@@ -252,7 +268,7 @@ fn fuzzed(seed: u64, scenes: u64, chosen: &[MutantInfo]) -> (Vec<MutantRecord>, 
             jobs: processors(),
         };
         let found = etalon_runner::hunt(plan, &open, &|| {});
-        for (index, record) in left.into_iter().zip(found) {
+        for (index, record) in left.into_iter().zip(found.records) {
             let record = without_panics(record);
             match &mut records[index] {
                 Some(before) => before.add(record),

@@ -17,6 +17,7 @@ use crate::out_folder::Out;
 use crate::output::{print_json, say, summarize, table_options};
 use crate::processors::processors;
 use crate::progress::progress;
+use crate::worth::sort_by_worth;
 use crate::{provenance, report_files, shard};
 use clap::{Args, ValueEnum};
 use etalon_case::Case;
@@ -107,6 +108,10 @@ pub(crate) struct Arguments {
     /// of such a case names these
     #[arg(long, value_name = "SEED")]
     pub(crate) shuffle: Option<u64>,
+    /// Begin no case after this many seconds; adapters share the time. Cases that catch the most planted bugs per
+    /// second come first, then one case of each file in turn. Cases left out get the verdict `skipped`
+    #[arg(long, value_name = "S", value_parser = parse_timeout, conflicts_with_all = ["shuffle", "resume"])]
+    pub(crate) within: Option<f64>,
     /// State of the drivers' shader caches on disk
     #[arg(long, value_enum, default_value = "warm")]
     pub(crate) shader_cache: CacheState,
@@ -285,6 +290,9 @@ impl Selected {
         if let Some(seed) = arguments.shuffle {
             shuffle(&mut cases, seed);
         }
+        if arguments.within.is_some() {
+            sort_by_worth(&mut cases);
+        }
         Ok(Self {
             left_out: left_out(selection, &ids)?,
             cases,
@@ -362,6 +370,7 @@ fn options(arguments: &Arguments) -> Options {
             KeepFrames::New => KeptFrames::New,
             KeepFrames::None => KeptFrames::None,
         },
+        within: arguments.within.map(Duration::from_secs_f64),
     }
 }
 

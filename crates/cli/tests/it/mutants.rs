@@ -7,7 +7,7 @@ use etalon_backend::Backend;
 use etalon_case::{Case, Library, Profile, select};
 use etalon_mutants::{MutantBackend, mutants};
 use etalon_record::{Catch, Hunt, MutantInfo};
-use etalon_runner::{HuntPlan, hunt};
+use etalon_runner::{HuntPlan, Hunted, hunt};
 
 /// Caught and legal mutants, in scenes, steps and frames, and two with state that persists.
 const FEW: [&str; 10] = [
@@ -65,8 +65,8 @@ fn a_hunt_catches_what_must_be_caught_and_no_more() {
     };
     let open = |name: &str| MutantBackend::new(name).map(|b| Box::new(b) as Box<dyn Backend>);
     let found = hunt(plan, &open, &|| {});
-    assert_eq!(found.len(), FEW.len());
-    for record in found {
+    assert_eq!(found.records.len(), FEW.len());
+    for record in found.records {
         let name = &record.mutant.name;
         assert_eq!(record.complaint(), None, "{name}: {:?}", record.areas);
         assert!(record.by_own_area(), "{name}: {:?}", record.areas);
@@ -90,13 +90,19 @@ fn an_unknown_bug_is_broken_and_ends_nothing() {
         let backend = known.then(|| MutantBackend::new(name)).flatten();
         backend.map(|b| Box::new(b) as Box<dyn Backend>)
     };
-    let found = hunt(plan, &open, &|| {});
+    let Hunted {
+        records: found,
+        catches,
+    } = hunt(plan, &open, &|| {});
     assert_eq!(found[0].outcome, Catch::Broken);
     assert!(found[0].complaint().is_some());
     assert_eq!(found[1].outcome, Catch::Caught);
     let tally = &found[1].areas[0];
     let judged = tally.pass + tally.imprecise + tally.fail + tally.broken;
     assert_eq!(judged, cases.len() as u64);
+    let failing = catches.iter().filter(|c| c.bugs == [1]);
+    assert_eq!(failing.count() as u64, tally.fail);
+    assert!(catches.iter().all(|c| !c.cost.is_zero()));
 }
 
 fn etalon(arguments: &[&str]) -> assert_cmd::assert::Assert {

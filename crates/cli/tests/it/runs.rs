@@ -591,3 +591,65 @@ fn a_site_is_made_of_a_run_and_replaced_only_when_asked() {
         .code(64)
         .stderr(contains("cannot read"));
 }
+
+#[test]
+fn a_time_limit_leaves_cases_out_and_says_so() {
+    let out = TempDir::new().unwrap();
+    let adapters = ["cpu", "gl:softpipe", "vulkan:lavapipe"];
+    let arguments = adapters.iter().flat_map(|name| ["--adapter", name]);
+    let arguments: Vec<&str> = ["--within", "0.6", "--jobs", "1"]
+        .into_iter()
+        .chain(arguments)
+        .collect();
+    run(out.path(), &arguments)
+        .success()
+        .stdout(contains("not drawn within 0.6 s"));
+    let run = whole(out.path());
+    for adapter in adapters {
+        let of = |verdict: &dyn Fn(Verdict) -> bool| {
+            let records = run.records.iter().filter(|r| r.adapter == adapter);
+            records.filter(|r| verdict(r.verdict)).count()
+        };
+        assert!(of(&|v| v == Verdict::Skipped) > 0, "{adapter}");
+        assert!(of(&Verdict::is_judged) > 0, "{adapter}");
+    }
+    let skipped = run.records.iter().filter(|r| r.verdict == Verdict::Skipped);
+    for record in skipped {
+        assert_eq!(record.message, "not drawn within 0.6 s", "{record:?}");
+        assert!(!record.unexpected());
+    }
+}
+
+#[test]
+fn a_time_limit_draws_first_what_finds_most() {
+    let out = TempDir::new().unwrap();
+    let arguments = ["--within", "600", "--jobs", "1", "--adapter", "cpu"];
+    run(out.path(), &[&["blend/*"][..], &arguments].concat()).success();
+    let run = whole(out.path());
+    let order = include_str!("../../../../cases/order.txt");
+    let ranked = order.lines().filter(|id| id.starts_with("blend/"));
+    let drawn = run.records.iter().map(|r| r.case.as_str());
+    let drawn: Vec<&str> = drawn.filter(|id| id.starts_with("blend/")).collect();
+    let ranked: Vec<&str> = ranked.collect();
+    assert!(ranked.len() > 10);
+    assert_eq!(drawn[..ranked.len()], ranked);
+    // Then a case of each file, before any file has its second.
+    let files: Vec<&str> = drawn[ranked.len()..]
+        .iter()
+        .map(|id| etalon_record::case_file(id))
+        .collect();
+    let of_all: BTreeSet<&str> = files.iter().copied().collect();
+    let of_first: BTreeSet<&str> = files[..of_all.len()].iter().copied().collect();
+    assert_eq!(of_first, of_all);
+}
+
+#[test]
+fn a_time_limit_does_not_go_with_an_order_or_a_resume() {
+    for other in [&["--shuffle", "1"][..], &["--resume"]] {
+        etalon(&["run", "--within", "5"])
+            .args(other)
+            .assert()
+            .code(64)
+            .stderr(contains("--within"));
+    }
+}

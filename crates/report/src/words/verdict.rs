@@ -91,7 +91,7 @@ pub(crate) fn meaning(verdict: Verdict) -> &'static str {
         Verdict::Open => "Nothing could be asserted.",
         Verdict::Measured => "Measured, not judged.",
         Verdict::NotSupported => "The adapter lacks something that the scene needs.",
-        Verdict::Skipped => "The expectations skip the case on this adapter.",
+        Verdict::Skipped => "The expectations or a time limit skip the case on this adapter.",
         Verdict::Flaky => "The same case gave different frames.",
         Verdict::Crash => "The process that drew the case died.",
         Verdict::Timeout => "The case exceeded its time limit.",

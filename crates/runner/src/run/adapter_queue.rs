@@ -1,5 +1,6 @@
 //! The queue of one adapter's cases, and the state that its workers share.
 
+use super::budget::Budget;
 use super::plan::Rechecks;
 use crate::launch::{Launch, START_TIMEOUT};
 use crate::supervisor::FailedStarts;
@@ -67,6 +68,8 @@ pub(super) struct State {
     rechecks: Rechecks,
     searches: u32,
     begun: Option<Instant>,
+    /// The time after which no further case is drawn.
+    end: Option<Instant>,
 }
 
 impl AdapterQueue {
@@ -183,11 +186,19 @@ impl AdapterQueue {
     }
 
     /// Marks the adapter as begun, and returns true for the first thread.
-    pub(super) fn begin(&self) -> bool {
+    pub(super) fn begin(&self, budget: Option<&Budget>) -> bool {
         let mut state = self.state();
         let first = state.begun.is_none();
-        state.begun.get_or_insert_with(Instant::now);
+        if first {
+            state.begun = Some(Instant::now());
+            state.end = budget.map(Budget::next_end);
+        }
         first
+    }
+
+    /// Returns true if the adapter's time is over.
+    pub(super) fn is_late(&self) -> bool {
+        self.state().end.is_some_and(|end| Instant::now() >= end)
     }
 
     /// Counts a written record. After the last record, returns the time that all of them took.

@@ -81,7 +81,16 @@ impl<'s> AdapterRun<'s, '_> {
     pub(super) fn undrawn(&self, number: usize) -> Option<Record> {
         let Shared { expectations, .. } = self.shared;
         let trips = self.queue.round_trips();
-        undrawn(self.case(number), &self.queue.adapter, expectations, trips)
+        let (case, adapter) = (self.case(number), &self.queue.adapter);
+        let undrawn = undrawn(case, adapter, expectations, trips);
+        undrawn.or_else(|| {
+            let budget = self.shared.budget.as_ref();
+            let budget = budget.filter(|_| self.queue.is_late())?;
+            let mut record = Record::new(&case.id, &adapter.name, Verdict::Skipped);
+            record.due_fail = is_due_to_fail(case, &adapter.limits);
+            record.message = budget.reason();
+            Some(record)
+        })
     }
 
     /// Returns a record with what the expectations say about it.

@@ -1,6 +1,7 @@
 //! Executing a plan: the folder, the shared state and the threads.
 
 use super::adapter_queue::{self, AdapterQueue, First};
+use super::budget::Budget;
 use super::pictures::pictured;
 use super::plan::{Plan, Rechecks, RunError, RunSummary};
 use super::shared::Shared;
@@ -65,6 +66,10 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
     let shared = Shared {
         cases,
         options: plan.options,
+        budget: plan
+            .options
+            .within
+            .map(|limit| Budget::new(limit, plan.adapters.len(), plan.options.jobs)),
         expectations: plan.expectations,
         judge: Judge::default(),
         frames: writer.frames(),

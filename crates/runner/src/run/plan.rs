@@ -83,6 +83,9 @@ pub struct Options {
     pub recheck: u32,
     /// The failures whose frames are kept.
     pub frames: KeptFrames,
+    /// The time after which no further case is drawn. Adapters share it equally, and those that begin later
+    /// also get what others left. The cases left out become `Skipped`.
+    pub within: Option<Duration>,
 }
 
 impl Default for Options {
@@ -94,6 +97,7 @@ impl Default for Options {
             repeat: 1,
             recheck: DEFAULT_RECHECK,
             frames: KeptFrames::All,
+            within: None,
         }
     }
 }

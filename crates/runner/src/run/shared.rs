@@ -1,5 +1,6 @@
 //! The state that all threads of a run share.
 
+use super::budget::Budget;
 use super::plan::{Options, RunSummary};
 use crate::event::Event;
 use crate::measure::Truths;
@@ -16,6 +17,8 @@ pub(super) struct Shared<'a> {
     /// The cases of the run, followed by the round trips that are not among them.
     pub(super) cases: Vec<&'a Case>,
     pub(super) options: Options,
+    /// The time left, if the run has a time limit.
+    pub(super) budget: Option<Budget>,
     pub(super) expectations: &'a Expectations,
     pub(super) judge: Judge,
     pub(super) writer: Mutex<RunWriter>,

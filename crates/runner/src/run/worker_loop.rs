@@ -56,7 +56,7 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
     pub(super) fn run(&mut self) {
         let run = self.run;
         let (shared, queue) = (run.shared, run.queue);
-        if queue.begin() {
+        if queue.begin(shared.budget.as_ref()) {
             (shared.events)(Event::AdapterStarted {
                 adapter: queue.adapter.name.clone(),
                 cases: queue.cases(),

@@ -1,0 +1,91 @@
+//! The order of cases by what they find per second, for runs with a time limit.
+
+use etalon_case::Case;
+use etalon_runner::Hunted;
+use std::collections::{HashMap, HashSet};
+use std::time::Duration;
+
+/// The ids of the cases that together catch every planted bug, those first that catch the most further bugs per
+/// second. `etalon mutants --full --order cases/order.txt` writes it.
+const ORDER: &str = include_str!("../../../cases/order.txt");
+
+/// The time that a driver takes for a case beyond what the rasterizer takes.
+const OVERHEAD: Duration = Duration::from_millis(1);
+
+/// Returns the ids of the order.
+fn ids() -> impl Iterator<Item = &'static str> {
+    ORDER.lines().filter(|line| !line.starts_with('#'))
+}
+
+/// Sorts cases: those of the order first, then the first case of each file, the second of each, and so on.
+pub(crate) fn sort_by_worth(cases: &mut [Case]) {
+    let ranks: HashMap<&str, usize> = (0..).zip(ids()).map(|(rank, id)| (id, rank)).collect();
+    let mut counts: HashMap<&str, usize> = HashMap::new();
+    let places: HashMap<String, (bool, usize)> = cases
+        .iter()
+        .map(|case| {
+            let place = match ranks.get(&*case.id) {
+                Some(rank) => (false, *rank),
+                None => {
+                    let count = counts
+                        .entry(etalon_record::case_file(&case.id))
+                        .or_default();
+                    *count += 1;
+                    (true, *count)
+                }
+            };
+            (case.id.clone(), place)
+        })
+        .collect();
+    cases.sort_by_key(|case| places.get(&case.id).copied());
+}
+
+/// Returns the file with the order that a hunt gives. The hunt must have drawn every case with every bug.
+pub(crate) fn order(cases: &[Case], hunted: &Hunted) -> String {
+    let mut left: HashSet<usize> = HashSet::new();
+    for (number, record) in hunted.records.iter().enumerate() {
+        if record.mutant.legal.is_none() {
+            left.insert(number);
+        }
+    }
+    let mut text = String::from(
+        "# Cases by the planted bugs that each one catches beyond those before it, per second.\n\
+         # Written by: etalon mutants --full --order cases/order.txt\n",
+    );
+    loop {
+        let worth = |number: usize| {
+            let catches = &hunted.catches[number];
+            let caught = catches.bugs.iter().filter(|bug| left.contains(bug)).count();
+            caught as f64 / (OVERHEAD + catches.cost).as_secs_f64()
+        };
+        let best = (0..cases.len()).map(|number| (number, worth(number)));
+        let best = best.reduce(|best, other| if other.1 > best.1 { other } else { best });
+        let Some((best, worth)) = best else { break };
+        if worth == 0.0 {
+            break;
+        }
+        for bug in &hunted.catches[best].bugs {
+            left.remove(bug);
+        }
+        text.push_str(&cases[best].id);
+        text.push('\n');
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_case_of_the_order_exists() {
+        let known = crate::cases::all_ids(None).expect("the built-in cases");
+        for id in ids() {
+            assert!(
+                known.iter().any(|k| k == id),
+                "{id} is no case: write cases/order.txt again with `etalon mutants --full --order cases/order.txt`"
+            );
+        }
+        assert!(ids().count() > 100);
+    }
+}
