@@ -7,7 +7,6 @@
 mod adapter_queue;
 mod adapter_run;
 mod execute;
-mod pictures;
 mod plan;
 mod second_look;
 mod shared;
