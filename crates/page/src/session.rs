@@ -209,21 +209,20 @@ impl Session {
     }
 
     /// Returns the worse of two drawings, the second on a fresh device.
-    fn confirmed(&mut self, first: Observation, second: Observation) -> Observation {
+    fn confirmed(&mut self, mut first: Observation, second: Observation) -> Observation {
         let (verdict, repeat) = (first.record.verdict, second.record.verdict);
+        first.ends_device = second.ends_device;
         if verdict == repeat {
             return first;
         }
         if let Some(confirmed) = self.confirmed.get_mut(&Symptom::of(&first.record).broad()) {
             *confirmed = confirmed.saturating_sub(1);
         }
-        let ends_device = second.ends_device;
         let mut worst = if first.record.verdict.severity() > repeat.severity() {
             first
         } else {
             second
         };
-        worst.ends_device = ends_device;
         mark_flaky(
             &mut worst.record,
             verdict,
