@@ -59,7 +59,7 @@ pub(crate) struct Opened {
     pub(crate) first: Vec<usize>,
     /// The number of matching cases that are left out because they are measured.
     pub(crate) measured: usize,
-    /// True if frames are timed, so that nothing else may be drawn or judged meanwhile.
+    /// True if frames are timed, so that nothing else is drawn or judged meanwhile.
     pub(crate) timed: bool,
     /// The first line of `run.jsonl`.
     pub(crate) header: String,

@@ -287,11 +287,9 @@ fn a_page_of_a_browser_charts_the_methods_of_a_question() {
         };
         assert!(measured.time.take().unwrap().interval.is_some(), "{case}");
         assert!(by_relay.time.take().is_some(), "{case}");
-        // The mathematics of browsers can differ in the last digit.
-        assert!(
-            (measured.distance.flip - by_relay.distance.flip).abs() < 1e-12,
-            "{case}"
-        );
+        // A power of a tiny difference enlarges the last digit of a mathematical function.
+        let flips = [measured.distance.flip, by_relay.distance.flip];
+        assert!((flips[0] - flips[1]).abs() < 1e-9, "{case}: {flips:?}");
         measured.distance.flip = by_relay.distance.flip;
         for path in [&measured.picture, &measured.truth].into_iter().flatten() {
             let [picture, by_relay] =

@@ -229,7 +229,7 @@ fn chart(
 }
 
 /// Returns the recommended methods: the most accurate one within a short time, and the most accurate one
-/// overall. Names the methods of which the intervals of the times do not decide whether another one beats them.
+/// overall. Names the methods that are on the front or not, depending on where times are in their intervals.
 fn answer(points: &[Timed<'_>], adapter: usize) -> String {
     let here: Vec<&Timed<'_>> = points.iter().filter(|t| t.adapter == adapter).collect();
     let intervals = here
