@@ -1,7 +1,7 @@
 //! The judge: takes a case, the frames that a driver drew of its scenes, and its limits, and returns the
 //! verdict with its grade, the assertions, and the story of the first wrong sample.
 //!
-//! Legal sets come from `reference`; records and frame files go to `record`. Nothing here draws, waits or
+//! Pictures of rendering methods are compared with `truth`. Legal sets come from `reference`; records and frame files go to `record`. Nothing here draws, waits or
 //! writes, so the crate also compiles for WebAssembly.
 
 mod expected_values;
@@ -11,18 +11,24 @@ mod judge;
 mod judgement_cache;
 mod kept;
 mod line_gap;
+mod measure;
+mod pictures;
 mod relation;
 mod requirement;
 mod round_trips;
 mod story;
 mod texel;
+mod timing;
 mod undrawn;
 
 pub use judge::{Judge, Judged, is_due_to_fail};
 pub use kept::{IMPRECISE_FRAMES, Shown, mark_flaky, note_validation, shorten};
+pub use measure::{Truths, measured};
+pub use pictures::{keep_pictures, pictured};
 pub use relation::changed_picture;
 pub use requirement::note_requirement;
 pub use round_trips::{Blocked, RoundTrips, round_trips};
 pub use story::{story_of_relation, story_of_sample};
 pub use texel::judge_texel;
+pub use timing::{FrameSeconds, Timing, medians};
 pub use undrawn::{is_unexpectedly_bad, settled, undrawn};

@@ -13,12 +13,20 @@ pub(crate) enum Ask {
     Open(Box<Opening>),
     /// Reports the result of a round trip. The bytes are its record's line.
     Trip { number: usize },
-    /// Asks for the requests of a case. The answer is [`Drawing`].
+    /// Asks for the requests of a case. The answer is a [`Step`].
     Draw { number: usize },
-    /// Asks for the record of a case that was drawn. The bytes are the device's answers. The answer is [`Judging`].
+    /// Reports what the device answered to the requests. The bytes are its answers. The answer is a [`Step`].
     Judge(Drawn),
+    /// Asks for the record of a case that is judged, which took this many seconds. The answer is a [`Step`].
+    Record { number: usize, seconds: f64 },
     /// Asks for a record as HTML, the answer's bytes. The bytes are its line, and its compressed frame if it has one.
     View { line: usize },
+    /// Asks for the charts of a run's methods. The bytes are its `run.jsonl`, of this length, and its pictures: each
+    /// has a path and a length. The answer is a [`Charts`].
+    Methods {
+        lines: usize,
+        pictures: Vec<(String, usize)>,
+    },
 }
 
 /// The selection and the device of a run.
@@ -51,6 +59,8 @@ pub(crate) struct Opened {
     pub(crate) first: Vec<usize>,
     /// The number of matching cases that are left out because they are measured.
     pub(crate) measured: usize,
+    /// True if frames are timed, so that nothing else is drawn or judged meanwhile.
+    pub(crate) timed: bool,
     /// The first line of `run.jsonl`.
     pub(crate) header: String,
     /// The name of the adapter.
@@ -60,18 +70,26 @@ pub(crate) struct Opened {
     pub(crate) software: bool,
 }
 
-/// A case to draw.
+/// What comes next for a case.
 #[derive(Debug, Serialize)]
-pub(crate) enum Drawing {
-    /// The lengths of the requests, which are the bytes.
-    #[serde(rename = "requests")]
-    Requests(Vec<usize>),
-    /// The case is not drawn.
-    #[serde(rename = "outcome")]
-    Undrawn(Outcome),
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Step {
+    /// The device must answer the requests, which are the bytes.
+    Requests {
+        lengths: Vec<usize>,
+        /// True if a fresh device must answer.
+        renew: bool,
+    },
+    /// The case is judged, and [`Ask::Record`] gives the record.
+    Judged {
+        /// True if this device must not draw anything else.
+        renew: bool,
+    },
+    /// The record.
+    Outcome(Outcome),
 }
 
-/// A case that was drawn.
+/// The answers of a device.
 #[derive(Debug, Deserialize)]
 pub(crate) struct Drawn {
     pub(crate) number: usize,
@@ -82,16 +100,16 @@ pub(crate) struct Drawn {
     /// True if the device did not answer in time.
     #[serde(default)]
     pub(crate) timeout: bool,
+    /// The steps of the browser's clock, in seconds.
+    #[serde(default)]
+    pub(crate) clock: f64,
 }
 
-/// The judgement of a drawing.
+/// The charts of methods. The bytes are their HTML.
 #[derive(Debug, Serialize)]
-pub(crate) struct Judging {
-    /// The record, unless the case must be drawn again.
-    pub(crate) outcome: Option<Outcome>,
-    /// True if this device must not draw anything else. If there is no outcome, the case is drawn again on a fresh
-    /// one.
-    pub(crate) renew: bool,
+pub(crate) struct Charts {
+    /// Their style sheet.
+    pub(crate) style: String,
 }
 
 /// A record.
@@ -113,6 +131,23 @@ pub(crate) struct Outcome {
     pub(crate) length: usize,
     /// The length of the line if the frame is not kept, which comes next; 0 if the frame must be kept.
     pub(crate) short: usize,
+    /// The paths and lengths of pictures, which come next.
+    pub(crate) pictures: Vec<(String, usize)>,
     /// The path of the frame, whose file is the rest of the bytes.
     pub(crate) frame: Option<String>,
+}
+
+/// Returns the parts of a message that have these lengths.
+///
+/// # Errors
+/// If the message is too short.
+pub(crate) fn split<'b>(mut bytes: &'b [u8], lengths: &[usize]) -> Result<Vec<&'b [u8]>, String> {
+    let mut parts = Vec::new();
+    for length in lengths {
+        let split = bytes.split_at_checked(*length);
+        let (part, rest) = split.ok_or_else(|| "a message is too short".to_owned())?;
+        parts.push(part);
+        bytes = rest;
+    }
+    Ok(parts)
 }

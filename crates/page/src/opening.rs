@@ -5,10 +5,10 @@ use crate::session::Session;
 use etalon_backend::{AdapterInfo, Fault};
 use etalon_case::{Case, CaseRef, Library, Profile, left_out, select};
 use etalon_frame::Limits;
-use etalon_judge::round_trips;
+use etalon_judge::{pictured, round_trips};
 use etalon_record::{AdapterRecord, Header, Settings, header_line, selection_digest};
 use etalon_webgpu::adapter;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap, HashSet};
 use std::sync::OnceLock;
 
 /// The time limit of a case, in seconds.
@@ -37,23 +37,28 @@ pub(crate) fn open(opening: Opening) -> Result<(Session, Opened), String> {
     let matching = |profile| select(library, profile, &opening.globs).map_err(|e| e.to_string());
     let selected = matching(profile)?.cases;
     let count = selected.len();
-    let selected: Vec<CaseRef<'static>> = selected
-        .into_iter()
-        .filter(|case| !case.is_measured())
-        .collect();
+    let mut selected: Vec<CaseRef<'static>> = selected;
+    if opening.globs.is_empty() {
+        selected.retain(|case| !case.is_measured());
+    }
     let measured = count - selected.len();
     let ids: Vec<String> = selected.iter().map(CaseRef::id).collect();
     if ids.is_empty() {
         let full = matching(Profile::Full)?.cases;
-        return Err(match (measured, full.len()) {
-            (1.., _) => "all matching cases are measured, and this page only judges".to_owned(),
-            (0, 0) => "no case matches".to_owned(),
-            (0, n) => format!("no case of the quick profile matches, of the full one {n}"),
+        return Err(match full.len() {
+            0 => "no case matches".to_owned(),
+            n => format!("no case of the quick profile matches, of the full one {n}"),
         });
     }
     let trips = match opening.trips {
         Some(trips) => trips,
         None => trips_of(library, &selected)?,
+    };
+    let measuring = selected.iter().any(CaseRef::is_measured);
+    let pictured = if measuring {
+        pictured(&built(&selected)?)
+    } else {
+        HashSet::new()
     };
     let mut cases = selected;
     let mut first = Vec::new();
@@ -92,6 +97,7 @@ pub(crate) fn open(opening: Opening) -> Result<(Session, Opened), String> {
         trips,
         first,
         measured,
+        timed: measuring,
         header: String::from_utf8_lossy(&line).into_owned(),
         adapter: info.name.clone(),
         device: info.device.clone(),
@@ -106,7 +112,7 @@ pub(crate) fn open(opening: Opening) -> Result<(Session, Opened), String> {
         .on(&today)
         .about(&record);
     Ok((
-        Session::new(record, device, fault, expectations, cases),
+        Session::new(record, device, fault, expectations, cases, pictured),
         opened,
     ))
 }
@@ -128,10 +134,13 @@ fn trips_of(library: &Library, selected: &[CaseRef<'_>]) -> Result<Vec<String>, 
         let ids = library.cases(Profile::Full).map(|case| case.id());
         return Ok(ids.filter(|id| id.starts_with(ROUND_TRIPS)).collect());
     }
-    let cases: Result<Vec<Case>, _> = selected.iter().map(CaseRef::build).collect();
-    let cases = cases.map_err(|error| error.to_string())?;
-    let trips = round_trips(&[library], &cases).map_err(|error| error.to_string())?;
+    let trips = round_trips(&[library], &built(selected)?).map_err(|error| error.to_string())?;
     Ok(trips.into_iter().map(|trip| trip.id).collect())
+}
+
+fn built(cases: &[CaseRef<'_>]) -> Result<Vec<Case>, String> {
+    let cases: Result<Vec<Case>, _> = cases.iter().map(CaseRef::build).collect();
+    cases.map_err(|error| error.to_string())
 }
 
 /// Returns the adapter's name: the browser in one word, such as `webgpu:chromium`, and the planted fault if there is

@@ -1,17 +1,19 @@
 //! A run on one device.
 
-use crate::case_draw::CaseDraw;
-use crate::message::{Drawing, Drawn, Judging};
+use crate::case_draw::{CaseDraw, timed_request, times};
+use crate::message::{Drawn, Step, split};
 use crate::verdict::{Observation, outcome};
 use etalon_backend::{BackendError, Fault};
-use etalon_case::{Case, CaseRef};
+use etalon_case::{Case, CaseRef, Method};
 use etalon_diagnose::Symptom;
+use etalon_frame::Frame;
 use etalon_judge::{
-    Judge, Judged, RoundTrips, is_due_to_fail, is_unexpectedly_bad, mark_flaky, settled, undrawn,
+    Judge, Judged, RoundTrips, Timing, Truths, is_due_to_fail, is_unexpectedly_bad, keep_pictures,
+    mark_flaky, measured, medians, settled, undrawn,
 };
-use etalon_record::{AdapterRecord, Expectations, Record, Seconds, Verdict};
+use etalon_record::{AdapterRecord, Expectations, Record, RecordError, Verdict, picture_file};
 use etalon_webgpu::Device;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// The number of unexpected bad verdicts of each kind that are drawn again on a fresh device.
 const RECHECKS: u32 = 4;
@@ -27,6 +29,10 @@ pub(crate) struct Session {
     /// The selected cases, and the round trips that are not among them.
     cases: Vec<CaseRef<'static>>,
     trips: RoundTrips,
+    /// The truths of methods.
+    truths: Truths,
+    /// The numbers of the cases whose pictures are kept.
+    pictured: HashSet<usize>,
     /// Cases that are being drawn.
     pending: HashMap<usize, Pending>,
     /// The number of verdicts that were drawn again, by kind.
@@ -38,8 +44,30 @@ struct Pending {
     case: Case,
     draw: CaseDraw,
     judge: Judge,
-    /// The first drawing, if this is the second.
-    first: Option<Observation>,
+    stage: Stage,
+}
+
+/// What the device answers next, or has answered.
+enum Stage {
+    /// The frames of the case.
+    Drawn,
+    /// The frames once more, on a fresh device. The first observation was bad.
+    DrawnAgain(Observation),
+    /// Frames that are timed, after the case was judged.
+    Timed(Timing, Observation),
+    /// Everything.
+    Judged(Observation),
+}
+
+fn judged(observed: Observation) -> (Stage, (Step, Vec<u8>)) {
+    let renew = observed.ends_device;
+    let step = (Step::Judged { renew }, Vec::new());
+    (Stage::Judged(observed), step)
+}
+
+fn requested(requests: &[Vec<u8>], renew: bool) -> (Step, Vec<u8>) {
+    let lengths = requests.iter().map(Vec::len).collect();
+    (Step::Requests { lengths, renew }, requests.concat())
 }
 
 impl Session {
@@ -49,6 +77,7 @@ impl Session {
         fault: Option<Fault>,
         expectations: Expectations,
         cases: Vec<CaseRef<'static>>,
+        pictured: HashSet<usize>,
     ) -> Self {
         Self {
             adapter,
@@ -57,6 +86,8 @@ impl Session {
             expectations,
             cases,
             trips: RoundTrips::default(),
+            truths: Truths::default(),
+            pictured,
             pending: HashMap::new(),
             confirmed: HashMap::new(),
         }
@@ -82,68 +113,107 @@ impl Session {
     ///
     /// # Errors
     /// If there is no case of this number.
-    pub(crate) fn draw(&mut self, number: usize) -> Result<(Drawing, Vec<u8>), String> {
+    pub(crate) fn draw(&mut self, number: usize) -> Result<(Step, Vec<u8>), String> {
         let case = self.built(number)?;
         let record = undrawn(&case, &self.adapter, &self.expectations, Some(&self.trips));
         if let Some(record) = record {
-            return self.not_drawn(number, record);
+            return self.recorded(number, Observation::of(record));
         }
         match CaseDraw::new(&case, &self.device, self.fault) {
             Ok(draw) => {
-                let lengths = draw.requests.iter().map(Vec::len).collect();
-                let bytes = draw.requests.concat();
+                let step = requested(&draw.requests, false);
                 let pending = Pending {
                     case,
                     draw,
                     judge: Judge::default(),
-                    first: None,
+                    stage: Stage::Drawn,
                 };
                 self.pending.insert(number, pending);
-                Ok((Drawing::Requests(lengths), bytes))
+                Ok(step)
             }
             Err(error) => {
                 let mut record = failed(&case, &self.adapter.name, &error);
                 record.due_fail = is_due_to_fail(&case, &self.adapter.limits);
-                self.not_drawn(number, record)
+                self.recorded(number, Observation::of(record))
             }
         }
     }
 
-    fn not_drawn(&self, number: usize, record: Record) -> Result<(Drawing, Vec<u8>), String> {
-        let record = settled(record, &self.expectations, &self.adapter);
-        let (outcome, bytes) = outcome(number, record, None)?;
-        Ok((Drawing::Undrawn(outcome), bytes))
-    }
-
-    /// Judges a drawing. A bad verdict is checked again on a fresh device, if it is unexpected.
+    /// Takes the answers of the device. An unexpected bad verdict is checked again on a fresh device; a method's frames
+    /// are timed.
     ///
     /// # Errors
     /// If the case is not being drawn.
-    pub(crate) fn judge(
-        &mut self,
-        drawn: &Drawn,
-        bytes: &[u8],
-    ) -> Result<(Judging, Vec<u8>), String> {
+    pub(crate) fn judge(&mut self, drawn: &Drawn, bytes: &[u8]) -> Result<(Step, Vec<u8>), String> {
         let number = drawn.number;
-        let pending = self.pending.remove(&number);
-        let mut pending = pending.ok_or_else(|| format!("case {number} is not being drawn"))?;
-        let observed = self.observe(&pending, drawn, bytes)?;
-        let renew = observed.ends_device;
-        let Some(first) = pending.first.take() else {
-            if self.must_be_confirmed(&observed.record) {
-                pending.first = Some(observed);
-                self.pending.insert(number, pending);
-                let judging = Judging {
-                    outcome: None,
-                    renew: true,
-                };
-                return Ok((judging, Vec::new()));
+        let mut pending = self.taken(number)?;
+        let answers = split(bytes, &drawn.answers)?;
+        let (next, step) = match std::mem::replace(&mut pending.stage, Stage::Drawn) {
+            Stage::Timed(timing, observed) => {
+                self.take_times(&pending, timing, observed, drawn, &answers)
             }
-            return self.finish(number, &pending, observed, renew);
+            Stage::Drawn => {
+                let observed = self.observe(&pending, drawn, &answers);
+                if self.must_be_confirmed(&observed.record) {
+                    let step = requested(&pending.draw.requests, true);
+                    (Stage::DrawnAgain(observed), step)
+                } else {
+                    self.timed(&pending, observed)
+                }
+            }
+            Stage::DrawnAgain(first) => {
+                let observed = self.observe(&pending, drawn, &answers);
+                let confirmed = self.confirmed(first, observed);
+                self.timed(&pending, confirmed)
+            }
+            judged @ Stage::Judged(_) => (judged, (Step::Judged { renew: false }, Vec::new())),
         };
-        let (verdict, repeat) = (first.record.verdict, observed.record.verdict);
+        pending.stage = next;
+        self.pending.insert(number, pending);
+        Ok(step)
+    }
+
+    /// Returns the record of a case that is judged.
+    ///
+    /// # Errors
+    /// If the case is not judged.
+    pub(crate) fn record(
+        &mut self,
+        number: usize,
+        seconds: f64,
+    ) -> Result<(Step, Vec<u8>), String> {
+        let Pending { case, stage, .. } = self.taken(number)?;
+        let Stage::Judged(mut observed) = stage else {
+            return Err(format!("case {number} is not judged"));
+        };
+        observed.record.seconds.judge = seconds;
+        self.trips.annotate(&case, &mut observed.record);
+        self.recorded(number, observed)
+    }
+
+    fn taken(&mut self, number: usize) -> Result<Pending, String> {
+        let pending = self.pending.remove(&number);
+        pending.ok_or_else(|| format!("case {number} is not being drawn"))
+    }
+
+    fn recorded(&self, number: usize, observed: Observation) -> Result<(Step, Vec<u8>), String> {
+        let Observation {
+            record,
+            frame,
+            pictures,
+            ..
+        } = observed;
+        let record = settled(record, &self.expectations, &self.adapter);
+        let (outcome, bytes) = outcome(number, record, frame.as_ref(), pictures)?;
+        Ok((Step::Outcome(outcome), bytes))
+    }
+
+    /// Returns the worse of two drawings, the second on a fresh device.
+    fn confirmed(&mut self, mut first: Observation, second: Observation) -> Observation {
+        let (verdict, repeat) = (first.record.verdict, second.record.verdict);
+        first.ends_device = second.ends_device;
         if verdict == repeat {
-            return self.finish(number, &pending, first, renew);
+            return first;
         }
         if let Some(confirmed) = self.confirmed.get_mut(&Symptom::of(&first.record).broad()) {
             *confirmed = confirmed.saturating_sub(1);
@@ -151,7 +221,7 @@ impl Session {
         let mut worst = if first.record.verdict.severity() > repeat.severity() {
             first
         } else {
-            observed
+            second
         };
         mark_flaky(
             &mut worst.record,
@@ -159,79 +229,127 @@ impl Session {
             vec![repeat],
             "on a fresh device",
         );
-        self.finish(number, &pending, worst, renew)
+        worst
     }
 
-    fn finish(
+    /// Returns the stage after a drawing: a method's frames are timed, unless the picture is wrong.
+    fn timed(&self, pending: &Pending, observed: Observation) -> (Stage, (Step, Vec<u8>)) {
+        if observed.record.measured.is_none() || observed.record.verdict.is_bad() {
+            return judged(observed);
+        }
+        self.time(pending, Timing::default(), observed)
+    }
+
+    fn time(
         &self,
-        number: usize,
         pending: &Pending,
+        timing: Timing,
         observed: Observation,
-        renew: bool,
-    ) -> Result<(Judging, Vec<u8>), String> {
-        let Observation {
-            mut record, frame, ..
-        } = observed;
-        self.trips.annotate(&pending.case, &mut record);
-        let record = settled(record, &self.expectations, &self.adapter);
-        let (outcome, bytes) = outcome(number, record, frame.as_ref())?;
-        let judging = Judging {
-            outcome: Some(outcome),
-            renew,
-        };
-        Ok((judging, bytes))
+    ) -> (Stage, (Step, Vec<u8>)) {
+        match timed_request(&pending.case, &self.device, self.fault, timing) {
+            Ok(request) => (Stage::Timed(timing, observed), requested(&[request], false)),
+            Err(_) => judged(observed),
+        }
     }
 
-    fn observe(
+    fn take_times(
         &self,
         pending: &Pending,
+        timing: Timing,
+        mut observed: Observation,
         drawn: &Drawn,
-        bytes: &[u8],
-    ) -> Result<Observation, String> {
+        answers: &[&[u8]],
+    ) -> (Stage, (Step, Vec<u8>)) {
+        let record = &mut observed.record;
+        if drawn.timeout {
+            record.verdict = Verdict::Timeout;
+            record.message = format!("while its frames were timed: {NO_ANSWER}");
+            observed.ends_device = true;
+            return judged(observed);
+        }
+        let found = answers.first().map(|answer| times(answer));
+        match found {
+            Some(Ok(found)) => match (timing.next(&found), &mut record.measured) {
+                (Some(next), _) => self.time(pending, next, observed),
+                (None, measured) => {
+                    if let Some(measured) = measured {
+                        measured.time = medians(&found, drawn.clock);
+                    }
+                    judged(observed)
+                }
+            },
+            // The picture was drawn, so failed frames have no time.
+            Some(Err(error)) => {
+                observed.ends_device = error.ends_drawing();
+                judged(observed)
+            }
+            None => judged(observed),
+        }
+    }
+
+    fn observe(&self, pending: &Pending, drawn: &Drawn, answers: &[&[u8]]) -> Observation {
         let Pending {
             case, draw, judge, ..
         } = pending;
         let adapter = &self.adapter;
-        let mut rest = bytes;
-        let mut answers = Vec::new();
-        for length in &drawn.answers {
-            let split = rest.split_at_checked(*length);
-            let (answer, others) = split.ok_or_else(|| "a message is too short".to_owned())?;
-            answers.push(answer);
-            rest = others;
-        }
         let mut observed = if drawn.timeout {
             let mut record = Record::new(&case.id, &adapter.name, Verdict::Timeout);
             NO_ANSWER.clone_into(&mut record.message);
             Observation {
-                record,
-                frame: None,
                 ends_device: true,
+                ..Observation::of(record)
             }
         } else {
-            match draw.frames(&answers, self.fault) {
+            match draw.frames(answers, self.fault) {
                 Ok(frames) => {
                     let Judged { record, frame } =
                         judge.judge(drawn.number, case, &adapter.name, &adapter.limits, &frames);
-                    Observation {
-                        record,
+                    let mut observed = Observation {
                         frame,
-                        ends_device: false,
+                        ..Observation::of(record)
+                    };
+                    if let (Some(method), Some(frame)) = (&case.method, frames.first()) {
+                        self.measure(drawn.number, case, method, frame, &mut observed);
                     }
+                    observed
                 }
                 Err(error) => Observation {
-                    record: failed(case, &adapter.name, &error),
-                    frame: None,
                     ends_device: error.ends_drawing(),
+                    ..Observation::of(failed(case, &adapter.name, &error))
                 },
             }
         };
         observed.record.due_fail = is_due_to_fail(case, &adapter.limits);
-        observed.record.seconds = Seconds {
-            draw: drawn.seconds,
-            judge: 0.0,
-        };
-        Ok(observed)
+        observed.record.seconds.draw = drawn.seconds;
+        observed
+    }
+
+    /// Compares the picture of a method with the truth.
+    fn measure(
+        &self,
+        number: usize,
+        case: &Case,
+        method: &Method,
+        frame: &Frame,
+        observed: &mut Observation,
+    ) {
+        let truth = self.truths.get(method);
+        let Observation {
+            record, pictures, ..
+        } = observed;
+        record.measured = measured(case, &truth, frame);
+        if let Some(image) = frame
+            .images
+            .first()
+            .filter(|_| self.pictured.contains(&number))
+        {
+            // A picture that cannot be written is left out.
+            let _ = keep_pictures(record, &truth, image, |name, size, rgb| {
+                let (path, file) = picture_file(name, size, rgb)?;
+                pictures.push((path.clone(), file));
+                Ok::<_, RecordError>(path)
+            });
+        }
     }
 
     /// Returns true if a verdict is bad and unexpected, and few of its kind were drawn again.

@@ -1,15 +1,17 @@
 //! Answering messages.
 
-use crate::message::{Ask, Judging};
+use crate::message::{Ask, Charts, split};
 use crate::opening::open;
 use crate::session::Session;
-use etalon_record::{FrameFile, Record};
-use etalon_report::record_html;
+use etalon_record::{FrameFile, Record, Run};
+use etalon_report::{methods_html, record_html};
 use etalon_webgpu::message::{packed, unpacked};
 use flate2::read::GzDecoder;
 use serde::Serialize;
 use serde_json::json;
+use std::collections::HashMap;
 use std::io::Read;
+use std::path::Path;
 
 /// The maximum number of bytes of a frame that is shown.
 const MAX_FRAME: u64 = 256 << 20;
@@ -44,12 +46,16 @@ impl Suite {
                 reply(&json!({}), &[])
             }
             Ask::Draw { number } => {
-                let (drawing, bytes) = self.session()?.draw(number)?;
-                reply(&drawing, &bytes)
+                let (step, bytes) = self.session()?.draw(number)?;
+                reply(&step, &bytes)
             }
             Ask::Judge(drawn) => {
-                let (judging, bytes): (Judging, _) = self.session()?.judge(&drawn, bytes)?;
-                reply(&judging, &bytes)
+                let (step, bytes) = self.session()?.judge(&drawn, bytes)?;
+                reply(&step, &bytes)
+            }
+            Ask::Record { number, seconds } => {
+                let (step, bytes) = self.session()?.record(number, seconds)?;
+                reply(&step, &bytes)
             }
             Ask::View { line } => {
                 let short = || "a message ends in its line".to_owned();
@@ -58,6 +64,19 @@ impl Suite {
                     serde_json::from_slice(line).map_err(|error| error.to_string())?;
                 let html = record_html(&record, frame_of(frame));
                 reply(&json!({}), html.as_bytes())
+            }
+            Ask::Methods { lines, pictures } => {
+                let lengths = pictures.iter().map(|(_, length)| *length);
+                let lengths: Vec<usize> = std::iter::once(lines).chain(lengths).collect();
+                let parts = split(bytes, &lengths)?;
+                let files = pictures.iter().zip(&parts[1..]);
+                let files: HashMap<&str, &[u8]> = files
+                    .map(|((path, _), file)| (path.as_str(), *file))
+                    .collect();
+                let run = run_of(parts[0])?;
+                let charts = methods_html(&run, |path| files.get(path).map(|file| file.to_vec()));
+                let (html, style) = charts.unwrap_or_default();
+                reply(&Charts { style }, html.as_bytes())
             }
         }
     }
@@ -74,6 +93,22 @@ fn frame_of(file: &[u8]) -> Option<FrameFile> {
     let read = GzDecoder::new(file).take(MAX_FRAME).read_to_end(&mut text);
     read.ok()?;
     serde_json::from_slice(&text).ok()
+}
+
+/// Returns the run in a `run.jsonl`.
+fn run_of(lines: &[u8]) -> Result<Run, String> {
+    let begin = |header| Run {
+        header,
+        records: Vec::new(),
+        truncated: false,
+    };
+    let take = |run: &mut Run, record| {
+        run.records.push(record);
+        Ok(())
+    };
+    let (run, _) =
+        Run::fold(Path::new("run.jsonl"), lines, begin, take).map_err(|error| error.to_string())?;
+    Ok(run)
 }
 
 fn reply(header: &impl Serialize, bytes: &[u8]) -> Result<Vec<u8>, String> {

@@ -9,11 +9,25 @@ use etalon_report::RecordLine;
 pub(crate) struct Observation {
     pub(crate) record: Record,
     pub(crate) frame: Option<FrameFile>,
+    /// The paths and files of pictures.
+    pub(crate) pictures: Vec<(String, Vec<u8>)>,
     /// True if the device must not draw anything else.
     pub(crate) ends_device: bool,
 }
 
-/// Returns a record as an outcome, and its lines and its frame file as bytes.
+impl Observation {
+    /// Returns a record without a frame.
+    pub(crate) fn of(record: Record) -> Self {
+        Self {
+            record,
+            frame: None,
+            pictures: Vec::new(),
+            ends_device: false,
+        }
+    }
+}
+
+/// Returns a record as an outcome, and its lines, pictures and frame file as bytes.
 ///
 /// # Errors
 /// If the record cannot be shortened enough.
@@ -21,6 +35,7 @@ pub(crate) fn outcome(
     number: usize,
     mut record: Record,
     frame: Option<&FrameFile>,
+    pictures: Vec<(String, Vec<u8>)>,
 ) -> Result<(Outcome, Vec<u8>), String> {
     let is_kept = record.verdict.is_violation() || record.verdict == Verdict::Flaky;
     let is_kept = is_kept || record.verdict == Verdict::Imprecise;
@@ -41,6 +56,11 @@ pub(crate) fn outcome(
     let mut bytes = line(&record)?;
     let (length, short) = (bytes.len(), short_line.len());
     bytes.extend(short_line);
+    let pictures = pictures.into_iter().map(|(path, file)| {
+        bytes.extend(&file);
+        (path, file.len())
+    });
+    let pictures = pictures.collect();
     let (frame, packed) = file.unzip();
     bytes.extend(packed.unwrap_or_default());
     let outcome = Outcome {
@@ -53,6 +73,7 @@ pub(crate) fn outcome(
         line: RecordLine::new(&record),
         length,
         short,
+        pictures,
         frame,
     };
     Ok((outcome, bytes))

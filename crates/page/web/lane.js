@@ -6,6 +6,10 @@ importScripts("device.js", "executor.js", "scenes.js", "suite.js");
 /** The milliseconds in which a device must answer. */
 const TIMEOUT = 60_000;
 
+/** The number of steps of the clock from which its resolution is found. */
+const TICKS = 10;
+
+let clock = 0;
 let suite = null;
 let scenes = null;
 let device = null;
@@ -40,6 +44,21 @@ function joined(arrays) {
   return whole;
 }
 
+/** Returns the steps of the browser's clock in seconds: browsers make it coarse. */
+function clockStep() {
+  let least = Infinity;
+  let last = performance.now();
+  for (let ticks = 0; ticks < TICKS; ) {
+    const next = performance.now();
+    if (next > last) {
+      least = Math.min(least, next - last);
+      last = next;
+      ticks += 1;
+    }
+  }
+  return Number((least / 1000).toPrecision(2));
+}
+
 /** Returns the result of a promise, or null if it takes too long. */
 function within(promise) {
   let timer;
@@ -49,7 +68,7 @@ function within(promise) {
   return Promise.race([promise, late]).finally(() => clearTimeout(timer));
 }
 
-/** Draws the requests of a case, up to the first failure. */
+/** Draws requests, up to the first failure. Returns what the suite needs to judge the answers. */
 async function drawn(number, requests) {
   const begun = performance.now();
   const answers = [];
@@ -66,29 +85,31 @@ async function drawn(number, requests) {
     }
   }
   const seconds = (performance.now() - begun) / 1000;
-  const judge = { number, seconds, answers: answers.map((answer) => answer.length), timeout };
-  return suite.ask({ judge }, joined(answers));
+  const lengths = answers.map((answer) => answer.length);
+  return [{ number, seconds, answers: lengths, timeout, clock }, joined(answers)];
 }
 
 /** Returns the outcome of a case and its bytes. */
 async function outcome(number) {
-  const [drawing, bytes] = suite.ask({ draw: { number } });
-  if (drawing.outcome !== undefined) {
-    return [drawing.outcome, bytes];
-  }
-  const requests = parts(bytes, drawing.requests);
-  for (;;) {
-    if (scenes === null) {
+  let [step, bytes] = suite.ask({ draw: { number } });
+  let judging = 0;
+  while (step.requests !== undefined) {
+    const { lengths, renew: fresh } = step.requests;
+    if (fresh || scenes === null) {
       await renew();
     }
-    const [judging, bytes] = await drawn(number, requests);
-    if (judging.renew) {
+    const [judge, answers] = await drawn(number, parts(bytes, lengths));
+    const begun = performance.now();
+    [step, bytes] = suite.ask({ judge }, answers);
+    judging += performance.now() - begun;
+  }
+  if (step.judged !== undefined) {
+    if (step.judged.renew) {
       scenes = null;
     }
-    if (judging.outcome !== null) {
-      return [judging.outcome, bytes];
-    }
+    [step, bytes] = suite.ask({ record: { number, seconds: judging / 1000 } });
   }
+  return [step.outcome, bytes];
 }
 
 /** What the page can ask for. Each answer is a message with the same key. */
@@ -98,7 +119,8 @@ const tasks = {
     suite = await Suite.of(module);
     const hello = await renew();
     const [opened] = suite.ask({ open: { ...opening, hello } });
-    return { opened };
+    clock = opened.timed ? clockStep() : 0;
+    return { opened, clock };
   },
   /** Reports the result of a round trip. */
   async trip({ number, line }) {
@@ -108,10 +130,13 @@ const tasks = {
   /** Draws and judges a case. */
   async draw({ number }) {
     const [found, bytes] = await outcome(number);
-    const { length, short, ...rest } = found;
-    const [line, brief] = parts(bytes, [length, short]);
-    const file = found.frame === null ? null : bytes.slice(length + short);
-    return { outcome: rest, line, short: short > 0 ? brief : null, file };
+    const { length, short, pictures: named, ...rest } = found;
+    const lengths = [length, short, ...named.map(([, size]) => size)];
+    const [line, brief, ...files] = parts(bytes, lengths);
+    const pictures = named.map(([path], i) => [path, files[i]]);
+    const end = lengths.reduce((sum, size) => sum + size, 0);
+    const file = found.frame === null ? null : bytes.slice(end);
+    return { outcome: rest, line, short: short > 0 ? brief : null, pictures, file };
   },
 };
 

@@ -1,6 +1,7 @@
 // The page: its address, its buttons, and the run that this browser keeps.
 //
 //   #run=cull/lines depth/*    draws these cases; also #q=
+//   #methods=transparency      measures the methods of a question, and shows their charts
 //   &profile=full              of the full profile
 //   &save                      and saves the run when it is done
 //   #case=ID                   shows a case of the run
@@ -37,7 +38,9 @@ const words = (text) => text.split(/\s+/).filter(Boolean);
 /** Returns the selection that the address names, or null. */
 function named() {
   const found = parameters();
-  const globs = found.get("run") ?? found.get("q");
+  const question = found.get("methods");
+  const methods = question === undefined ? undefined : `methods/${question}`;
+  const globs = found.get("run") ?? found.get("q") ?? methods;
   const profile = found.get("profile") === "full" ? "full" : "quick";
   return globs === undefined ? null : { globs: words(globs), profile, fault: found.get("fault") ?? "" };
 }
@@ -50,6 +53,7 @@ function take(next) {
   $("globs").value = run.selection.globs.join(" ");
   $("profile").value = run.selection.profile;
   new View(run);
+  showCharts(run, suite);
 }
 
 async function begin(selection) {
@@ -66,7 +70,11 @@ async function goOn() {
   const mine = run;
   await store.note(false);
   await mine.start();
-  if (mine === run && mine.complete && parameters().has("save")) {
+  if (mine !== run) {
+    return;
+  }
+  await showCharts(run, suite);
+  if (mine.complete && parameters().has("save")) {
     await save();
   }
 }

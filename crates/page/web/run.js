@@ -60,16 +60,16 @@ class Lane {
     };
   }
 
-  /** Begins a run. Returns what the suite says about it. */
+  /** Begins a run. Returns what the suite says about it, and the steps of the clock. */
   async open(module, opening) {
-    const { opened, error } = await new Promise((resolve) => {
+    const { opened, clock, error } = await new Promise((resolve) => {
       this.#answers.push(resolve);
       this.#worker.postMessage({ task: "open", module, opening });
     });
     if (error !== undefined) {
       throw new Error(error);
     }
-    return opened;
+    return { ...opened, clock };
   }
 
   trip(number, line) {
@@ -91,7 +91,7 @@ class Lane {
 class Run extends EventTarget {
   selection;
   opened = null;
-  /** Records by number: outcome, line, the line without its frame, the frame's file. */
+  /** Records by number: outcome, line, the line without its frame, pictures, the frame's file. */
   records = new Map();
   /** The reason why the run stopped by itself. */
   problem = null;
@@ -199,7 +199,9 @@ class Run extends EventTarget {
     }
     this.#changed();
     const cores = navigator.hardwareConcurrency ?? 2;
-    const more = Math.min(LANES, Math.max(2, cores), opened.cases.length) - 1;
+    // Nothing else is drawn or judged while frames are timed.
+    const most = opened.timed ? 1 : LANES;
+    const more = Math.min(most, Math.max(2, cores), opened.cases.length) - 1;
     const others = Array.from({ length: more }, () => this.#lane().catch(() => null));
     // A device that refuses more lanes has at least one.
     this.#lanes.push(...(await Promise.all(others)).filter((lane) => lane !== null));
@@ -260,13 +262,13 @@ class Run extends EventTarget {
     if (!this.#lanes.includes(lane)) {
       return;
     }
-    const { number, outcome, line, short, file, error } = answer;
+    const { outcome, line, short, pictures, file, number, error } = answer;
     if (error !== undefined) {
       this.#replace(lane, number, error);
       return;
     }
     this.#failures = 0;
-    this.#keep(outcome.number, { outcome, line, short, file });
+    this.#keep(outcome.number, { outcome, line, short, pictures, file });
     this.#feed(lane);
   };
 
@@ -343,7 +345,7 @@ class Run extends EventTarget {
       frame: null,
     };
     const line = new TextEncoder().encode(`${JSON.stringify(record)}\n`);
-    return { outcome, line, short: null, file: null };
+    return { outcome, line, short: null, pictures: [], file: null };
   }
 
   async #write() {
@@ -356,9 +358,25 @@ class Run extends EventTarget {
 
   /** Returns the run folder as one compressed file. */
   async file() {
+    return archive(await this.#folder());
+  }
+
+  /** Returns the charts of methods as HTML, and their style sheet; null if nothing is measured. */
+  async charts(suite) {
+    const [[, lines], ...files] = await this.#folder();
+    const pictures = files.filter(([path]) => path.startsWith("pictures/"));
+    const sizes = pictures.map(([path, file]) => [path, file.length]);
+    const bytes = await new Blob([lines, ...pictures.map(([, file]) => file)]).arrayBuffer();
+    const methods = { lines: lines.length, pictures: sizes };
+    const [{ style }, html] = suite.ask({ methods }, new Uint8Array(bytes));
+    return html.length === 0 ? null : { style, html: new TextDecoder().decode(html) };
+  }
+
+  /** Returns the files of the run folder: pairs of a path and bytes, `run.jsonl` first. */
+  async #folder() {
     const { cases, header } = this.opened;
     const lines = [new TextEncoder().encode(header)];
-    const frames = [];
+    const files = [];
     const imprecise = new Map();
     for (const [number, id] of cases.entries()) {
       const record = this.records.get(number);
@@ -373,12 +391,13 @@ class Run extends EventTarget {
       }
       lines.push(kept || record.short === null ? record.line : record.short);
       if (kept) {
-        frames.push([record.outcome.frame, record.file]);
+        files.push([record.outcome.frame, record.file]);
       }
+      files.push(...(record.pictures ?? []));
     }
     const text = new Uint8Array(await new Blob(lines).arrayBuffer());
     const ids = new TextEncoder().encode(`${cases.join("\n")}\n`);
-    return archive([["run.jsonl", text], ["cases.txt", ids], ...frames]);
+    return [["run.jsonl", text], ["cases.txt", ids], ...files];
   }
 }
 

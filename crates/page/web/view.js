@@ -173,9 +173,9 @@ class View {
 
   #state() {
     const run = this.#run;
-    const { cases, measured } = run.opened;
+    const { cases, measured, timed, clock } = run.opened;
     const progress = `${run.done.toLocaleString("en")} of ${counted(cases.length, "case")}`;
-    const others = measured > 0 ? ` ${counted(measured, "case")} that only measure time or quality are left out.` : "";
+    const others = measured > 0 ? ` ${counted(measured, "case")} that only measure time or quality are left out.` : clockText(timed, clock);
     if (run.complete) {
       return `Done: ${progress}.${others}`;
     }
@@ -185,6 +185,31 @@ class View {
     const { left } = run;
     const time = left === null ? "" : left < 90 ? `, about ${Math.ceil(left)} s left` : `, about ${Math.ceil(left / 60)} min left`;
     return `${progress}${time}.`;
+  }
+}
+
+/** Returns what the clock of this browser tells about times. */
+function clockText(timed, clock) {
+  if (!timed) {
+    return "";
+  }
+  const step = `${Number((clock * 1000).toPrecision(2))} ms`;
+  return ` The browser's clock has steps of ${step}; the intervals of frame times include them.`;
+}
+
+/** Shows the charts of methods, unless the run is going on: drawing them would disturb its times. */
+async function showCharts(run, suite) {
+  const timed = run.opened?.timed && !run.running;
+  const charts = timed ? await run.charts(await suite()) : null;
+  $("charts").hidden = charts === null;
+  // The suite escapes all texts.
+  $("charts").innerHTML = charts?.html ?? "";
+  $("viewer")?.remove();
+  if (charts !== null) {
+    const sheet = new CSSStyleSheet();
+    sheet.replaceSync(charts.style);
+    document.adoptedStyleSheets = [sheet];
+    showMethods();
   }
 }
 

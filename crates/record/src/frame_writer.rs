@@ -3,8 +3,7 @@
 
 use crate::error::RecordError;
 use crate::frame_file::FrameFile;
-use crate::line::frame_file;
-use crate::paths::picture_path;
+use crate::line::{frame_file, picture_file};
 use std::collections::HashSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -46,9 +45,7 @@ impl FrameWriter {
     /// If the file cannot be written.
     pub fn write_frame(&self, frame: &FrameFile) -> Result<String, RecordError> {
         let (relative, bytes) = frame_file(frame)?;
-        let path = self.folder.join(&relative);
-        self.make_folder_of(&path)?;
-        fs::write(&path, bytes).map_err(RecordError::io("write", &path))?;
+        self.write(&relative, &bytes)?;
         Ok(relative)
     }
 
@@ -60,15 +57,17 @@ impl FrameWriter {
     pub fn write_picture(
         &self,
         case: &str,
-        [width, height]: [u32; 2],
+        size: [u32; 2],
         rgb: &[u8],
     ) -> Result<String, RecordError> {
-        let relative = picture_path(case);
-        let path = self.folder.join(&relative);
-        self.make_folder_of(&path)?;
-        image::save_buffer(&path, rgb, width, height, image::ColorType::Rgb8)
-            .map_err(std::io::Error::other)
-            .map_err(RecordError::io("write", &path))?;
+        let (relative, bytes) = picture_file(case, size, rgb)?;
+        self.write(&relative, &bytes)?;
         Ok(relative)
+    }
+
+    fn write(&self, relative: &str, bytes: &[u8]) -> Result<(), RecordError> {
+        let path = self.folder.join(relative);
+        self.make_folder_of(&path)?;
+        fs::write(&path, bytes).map_err(RecordError::io("write", &path))
     }
 }

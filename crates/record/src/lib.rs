@@ -70,7 +70,7 @@ pub use frame_writer::FrameWriter;
 pub use grade::Grade;
 pub use header::{FORMAT, Header, Settings, Shard};
 pub use hunt::{AreaTally, Catch, HUNT_FORMAT, Hunt, MutantInfo, MutantRecord, Sighting};
-pub use line::{frame_file, header_line, record_line};
+pub use line::{frame_file, header_line, picture_file, record_line};
 pub use lists::{About, Imported, ListError, ListKind, Lists};
 pub use lock::FolderLock;
 pub use machine::Machine;

@@ -50,6 +50,7 @@ pub use error::ReportError;
 pub use history::{HISTORY_PAGE_FILE, write_history};
 pub use hunt::{HUNT_PAGE, WrittenHunt, hunt_table, write_hunt};
 pub use matrix::matrix_table;
+pub use methods::methods_html;
 pub use news::{News, NewsEntry, Since, news_table};
 pub use picture::{Ringed, ringed_pictures};
 pub use run::{

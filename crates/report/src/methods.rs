@@ -18,6 +18,7 @@ mod summary;
 pub(crate) use data::Methods;
 pub(crate) use driver::section as driver_section;
 pub(crate) use name::PAGE;
+pub use page::methods_html;
 pub(crate) use page::page;
 pub(crate) use summary::{lines, section};
 

@@ -8,7 +8,6 @@ mod adapter_queue;
 mod adapter_run;
 mod budget;
 mod execute;
-mod pictures;
 mod plan;
 mod second_look;
 mod shared;

@@ -1,9 +1,9 @@
 //! The distance of a picture from the truth.
 
-use super::picture::TruthPicture;
-use super::rgb8::{decode, quantized};
+use crate::flip::mean_flip;
+use crate::picture::TruthPicture;
+use crate::rgb8::{decode, quantized};
 use etalon_frame::{Aspect, ChannelEncoding, Distance, Image};
-use nv_flip::{DEFAULT_PIXELS_PER_DEGREE, FlipImageRgb8, flip};
 
 /// The difference of a channel above which a texel counts as wrong: two codes of 255, plus a margin for
 /// rounding.
@@ -26,10 +26,11 @@ pub fn distance(truth: &TruthPicture, picture: &Image) -> Option<Distance> {
         && texels > 0
         && texels == width as usize * height as usize
         && !picture.channels.is_empty()
-        && !picture.channels.iter().any(|c| matches!(c, ChannelEncoding::Uint(_)))
-        && picture.codes.len() == picture.expected_len()
-        // FLIP takes sizes as signed 32-bit integers.
-        && texels < i32::MAX as usize / 3;
+        && !picture
+            .channels
+            .iter()
+            .any(|c| matches!(c, ChannelEncoding::Uint(_)))
+        && picture.codes.len() == picture.expected_len();
     if !comparable {
         return None;
     }
@@ -74,11 +75,4 @@ pub fn distance(truth: &TruthPicture, picture: &Image) -> Option<Distance> {
     result.wrong = wrong as f64 / texels as f64;
     result.flip = mean_flip(picture.size, &should, &is);
     Some(result)
-}
-
-fn mean_flip([width, height]: [u32; 2], should: &[u8], is: &[u8]) -> f64 {
-    let [should, is] = [should, is].map(|rgb| FlipImageRgb8::with_data(width, height, rgb));
-    let differences = flip(should, is, DEFAULT_PIXELS_PER_DEGREE).to_vec();
-    let sum: f64 = differences.iter().map(|&d| f64::from(d)).sum();
-    sum / differences.len() as f64
 }

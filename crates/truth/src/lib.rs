@@ -7,6 +7,7 @@
 mod area;
 mod cell;
 mod distance;
+mod flip;
 mod order;
 mod paint;
 mod picture;

@@ -52,7 +52,7 @@ const TABLE: [(&str, &[&str], &[&str]); 32] = [
     ("record", &["frame", "stats"], &[]),
     (
         "judge",
-        &["case", "frame", "record", "reference", "scene"],
+        &["case", "frame", "record", "reference", "scene", "truth"],
         &[],
     ),
     ("findings", &["record"], &[]),
@@ -61,7 +61,7 @@ const TABLE: [(&str, &[&str], &[&str]); 32] = [
         "runner",
         &[
             "backend", "case", "diagnose", "explore", "frame", "judge", "mutants", "process",
-            "record", "scene", "stats", "truth",
+            "record", "scene", "stats",
         ],
         &[],
     ),
@@ -70,7 +70,7 @@ const TABLE: [(&str, &[&str], &[&str]); 32] = [
         "page",
         &[
             "backend", "case", "diagnose", "findings", "frame", "judge", "record", "report",
-            "webgpu",
+            "scene", "webgpu",
         ],
         &[],
     ),

@@ -9,6 +9,7 @@ use crate::etalon::etalon;
 use crate::house::root;
 use driven::Driven;
 use etalon_record::{Record, Run, Seconds, Verdict};
+use serde_json::Value;
 use server::Server;
 use std::collections::BTreeMap;
 use std::fs;
@@ -156,6 +157,12 @@ fn quick_in_a_page_of_chromium_is_a_run_of_the_browser() {
     );
     browser.wait(QUICK, COMPLETE);
     println!("webgpu:chromium, page: {:.1?}", begun.elapsed());
+    let lines = browser.eval("[...run.records.values()].map(r => JSON.parse(new TextDecoder().decode(r.line))).filter(r => r.seconds?.draw > 0)");
+    let judged = lines.as_array().unwrap().iter();
+    let judging: f64 = judged
+        .map(|r| r["seconds"]["judge"].as_f64().unwrap())
+        .sum();
+    assert!(judging > 0.1, "{judging}");
     assert_eq!(
         browser.eval("JSON.parse(run.opened.header).started"),
         started
@@ -211,6 +218,85 @@ fn a_page_of_a_browser_survives_a_lost_device() {
     for (verdict, why) in bad {
         assert_eq!(verdict, Verdict::Flaky, "{why}");
         assert!(why.contains("device-lost, then pass"), "{why}");
+    }
+}
+
+#[test]
+fn a_page_of_a_browser_charts_the_methods_of_a_question() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = site(folder.path());
+    let browser = Driven::start("webgpu:chromium");
+    browser.narrow();
+    browser.go(&address(&server, "methods=stencil-effects"));
+    browser.wait(QUICK, COMPLETE);
+    browser.wait(30, "!document.getElementById('charts').hidden");
+    let state = browser.eval("document.getElementById('state').innerText");
+    assert!(
+        state.as_str().unwrap().contains("clock has steps of"),
+        "{state}"
+    );
+    let wide = "document.documentElement.scrollWidth > innerWidth";
+    assert_eq!(browser.eval(wide), false);
+    let charts = "document.querySelectorAll('#charts .charts svg .of path.spread').length";
+    assert!(browser.eval(charts).as_u64().unwrap() > 3);
+    // The script of the charts compares pictures with the truth.
+    browser.eval("document.querySelector('#charts figure.shot').scrollIntoView()");
+    browser.wait(20, "document.querySelector('#charts figure.shot canvas')");
+    let questions = browser.eval(
+        "[...document.querySelectorAll('#questions a')].map(a => a.hash.replace('#methods=', ''))",
+    );
+    let questions: Vec<String> = serde_json::from_value(questions).unwrap();
+    let folders = fs::read_dir(root().join("cases/methods"))
+        .unwrap()
+        .flatten();
+    let mut folders: Vec<String> = folders
+        .map(|folder| folder.file_name().into_string().unwrap())
+        .collect();
+    folders.sort();
+    assert_eq!(questions, folders);
+    let points = browser.eval("document.querySelector('#charts .card').dataset.points");
+    let points: Value = serde_json::from_str(points.as_str().unwrap()).unwrap();
+    let answer = browser.eval("document.querySelector('#charts .answer').textContent");
+    let saved = save(&browser, folder.path());
+    drop(browser);
+    let text = run(&["report", saved.to_str().unwrap()], &[0]);
+    assert!(text.contains(answer.as_str().unwrap()), "{answer}:\n{text}");
+    let page = folder.path().join("page");
+    let html = fs::read_to_string(page.join("methods.html")).unwrap();
+    let (_, rest) = html.split_once("data-points=\"").unwrap();
+    let (in_report, _) = rest.split_once('"').unwrap();
+    let in_report: Value = serde_json::from_str(&in_report.replace("&quot;", "\"")).unwrap();
+    assert_eq!(points, in_report);
+    let relay = folder.path().join("relay");
+    let arguments = [
+        "run",
+        "methods/stencil-effects",
+        "--adapter",
+        "webgpu:chromium",
+    ];
+    run(
+        &[&arguments[..], &["--out", relay.to_str().unwrap()]].concat(),
+        &[0],
+    );
+    let [found, expected] = [&page, &relay].map(|folder| records(folder));
+    assert_eq!(found.len(), 10);
+    for (case, mut record) in found {
+        let mut other = expected[&case].clone();
+        let [Some(measured), Some(by_relay)] = [&mut record.measured, &mut other.measured] else {
+            panic!("{case} is not measured");
+        };
+        assert!(measured.time.take().unwrap().interval.is_some(), "{case}");
+        assert!(by_relay.time.take().is_some(), "{case}");
+        // A power of a tiny difference enlarges the last digit of a mathematical function.
+        let flips = [measured.distance.flip, by_relay.distance.flip];
+        assert!((flips[0] - flips[1]).abs() < 1e-9, "{case}: {flips:?}");
+        measured.distance.flip = by_relay.distance.flip;
+        for path in [&measured.picture, &measured.truth].into_iter().flatten() {
+            let [picture, by_relay] =
+                [&page, &relay].map(|folder| fs::read(folder.join(path)).unwrap());
+            assert!(picture == by_relay, "{path}");
+        }
+        assert_eq!(record, other, "{case}");
     }
 }
 

@@ -2,7 +2,7 @@
 //! that fit a budget.
 
 use super::data::{Methods, Point, Question, Shown};
-use super::front::front;
+use super::front::{front, undecided};
 use super::scatter::steps;
 use crate::chart::{
     BOTTOM, LEFT, Plot, RIGHT, Scale, TOP, color, key, marker, n, polyline, zero_band,
@@ -23,6 +23,8 @@ struct Timed<'a> {
     method: &'a str,
     adapter: usize,
     time: f64,
+    /// The interval of the time.
+    interval: Option<[f64; 2]>,
     error: f64,
 }
 
@@ -164,6 +166,7 @@ fn timed<'a>(shown: &Shown<'_, 'a>) -> Vec<Timed<'a>> {
             method,
             adapter: point.adapter,
             time: point.wall()?,
+            interval: point.interval(),
             error: point.error()?,
         })
     };
@@ -226,9 +229,23 @@ fn chart(
 }
 
 /// Returns the recommended methods: the most accurate one within a short time, and the most accurate one
-/// overall.
+/// overall. Names the methods that are on the front or not, depending on where times are in their intervals.
 fn answer(points: &[Timed<'_>], adapter: usize) -> String {
     let here: Vec<&Timed<'_>> = points.iter().filter(|t| t.adapter == adapter).collect();
+    let intervals = here
+        .iter()
+        .map(|t| (t.interval.unwrap_or([t.time; 2]), t.error));
+    let open = undecided(&intervals.collect::<Vec<_>>());
+    let open: Vec<&str> = open.into_iter().map(|i| here[i].method).collect();
+    let best = recommended(&here);
+    if open.is_empty() {
+        best
+    } else {
+        format!("{best}; the times do not decide on {}", open.join(", "))
+    }
+}
+
+fn recommended(here: &[&Timed<'_>]) -> String {
     let costs: Vec<(f64, f64)> = here.iter().map(|t| (t.time, t.error)).collect();
     let leaders: Vec<&Timed<'_>> = front(&costs).into_iter().map(|i| here[i]).collect();
     let (Some(fastest), Some(best)) = (leaders.first(), leaders.last()) else {
@@ -263,6 +280,7 @@ mod tests {
             method,
             adapter: 0,
             time,
+            interval: None,
             error,
         }
     }
@@ -289,5 +307,11 @@ mod tests {
         assert!(answer(&points[2..], 0).starts_with("exact: lists"));
         let slow = [timed("a", 0.002, 0.5), timed("b", 0.004, 0.1)];
         assert!(answer(&slow, 0).starts_with("fastest: a, "));
+        // The clock does not tell which one is faster.
+        let coarse = slow.map(|timed| Timed {
+            interval: Some([0.001, 0.005]),
+            ..timed
+        });
+        assert!(answer(&coarse, 0).ends_with("; the times do not decide on a"));
     }
 }

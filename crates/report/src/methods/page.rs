@@ -32,15 +32,42 @@ const SCRIPT: &str = concat!(
 
 /// Returns the whole page. Pictures are read from the folder when they are needed.
 pub(crate) fn page(folder: &Path, run: &Run, methods: &Methods<'_>) -> String {
-    let mut pictures = Pictures::new(folder);
-    let shown = methods.shown();
-    let scenes: Vec<Markup> = shown
-        .iter()
-        .map(|shown| in_scene(run, &mut pictures, shown))
-        .collect();
     let main = html! {
         (head(run, methods))
         noscript { p.note { "Scripts are off: each scene shows one setting, and its pictures cannot be enlarged." } }
+        (sections(run, methods, &mut Pictures::in_folder(folder)))
+        (page::script(SCRIPT))
+    };
+    Page::new(
+        &format!("etalon methods {}", run.header.started),
+        "run.jsonl and pictures/ in this folder",
+        &main,
+    )
+    .style(&style())
+    .script(SCRIPT, false)
+    .html()
+}
+
+/// Returns the sections of the page of a run's methods as HTML, and their style sheet; `None` if the run has no
+/// methods. `read` returns the PNG file of a path below the run folder. Without the page's script, each scene shows one
+/// setting.
+pub fn methods_html(run: &Run, read: impl Fn(&str) -> Option<Vec<u8>>) -> Option<(String, String)> {
+    let methods = Methods::of(run)?;
+    let html = sections(run, &methods, &mut Pictures::new(&read));
+    Some((html.into_string(), style()))
+}
+
+fn style() -> String {
+    chart::style() + STYLE
+}
+
+fn sections(run: &Run, methods: &Methods<'_>, pictures: &mut Pictures<'_>) -> Markup {
+    let shown = methods.shown();
+    let scenes: Vec<Markup> = shown
+        .iter()
+        .map(|shown| in_scene(run, pictures, shown))
+        .collect();
+    html! {
         (overview::section(methods, &shown))
         (breaks(methods, &shown))
         @for (q, question) in methods.questions.iter().enumerate() {
@@ -61,17 +88,7 @@ pub(crate) fn page(folder: &Path, run: &Run, methods: &Methods<'_>) -> String {
             h2 { "Claims of the literature" }
             (claims::section(methods))
         }
-        (page::script(SCRIPT))
-    };
-    Page::new(
-        &format!("etalon methods {}", run.header.started),
-        "run.jsonl and pictures/ in this folder",
-        &main,
-    )
-    .style(&chart::style())
-    .style(STYLE)
-    .script(SCRIPT, false)
-    .html()
+    }
 }
 
 fn head(run: &Run, methods: &Methods<'_>) -> Markup {

@@ -13,9 +13,12 @@ use std::path::Path;
 const PICTURE: u64 = 256 << 10;
 const PICTURES: usize = 12 << 20;
 
-/// Pictures below the run folder, up to the number of bytes that the page has room for.
+/// Returns the PNG file of a path below the run folder.
+type Reader<'a> = dyn Fn(&str) -> Option<Vec<u8>> + 'a;
+
+/// Pictures of a run, up to the number of bytes that the page has room for.
 pub(super) struct Pictures<'a> {
-    folder: &'a Path,
+    read: Box<Reader<'a>>,
     room: usize,
 }
 
@@ -27,12 +30,17 @@ struct Shot<'s, 'a> {
 }
 
 impl<'f> Pictures<'f> {
-    /// Returns the pictures of a run folder.
-    pub(super) fn new(folder: &'f Path) -> Self {
+    /// Returns the pictures that `read` finds.
+    pub(super) fn new(read: impl Fn(&str) -> Option<Vec<u8>> + 'f) -> Self {
         Self {
-            folder,
+            read: Box::new(read),
             room: PICTURES,
         }
+    }
+
+    /// Returns the pictures of a run folder.
+    pub(super) fn in_folder(folder: &'f Path) -> Self {
+        Self::new(|path| Run::read_picture(folder, path, PICTURE).ok()?)
     }
 
     /// Returns the truth and each method's picture at each setting, from the first adapter that has a
@@ -79,7 +87,7 @@ impl<'f> Pictures<'f> {
 
     /// Returns a picture as a `data:` URL, or `None` if it cannot be read or the page has no room for it.
     fn read(&mut self, path: &str) -> Option<String> {
-        let bytes = Run::read_picture(self.folder, path, PICTURE).ok()??;
+        let bytes = (self.read)(path)?;
         self.room = self.room.checked_sub(bytes.len())?;
         Some(format!("data:image/png;base64,{}", STANDARD.encode(bytes)))
     }

@@ -8,16 +8,15 @@ use crate::event::Event;
 use crate::failure_report::FailureReport;
 use crate::loss::Failure;
 use crate::loss::Loss;
-use crate::measure::measured;
 use crate::process::Wait;
 use crate::sync::lock;
 use etalon_case::Case;
 use etalon_frame::Frame;
 use etalon_judge::{
-    IMPRECISE_FRAMES, Judged, Shown, is_due_to_fail, note_validation, settled, shorten, undrawn,
+    IMPRECISE_FRAMES, Judged, Shown, is_due_to_fail, keep_pictures, measured, note_validation,
+    settled, shorten, undrawn,
 };
 use etalon_record::{FrameFile, Record, RecordError, Seconds, Verdict};
-use etalon_truth::TruthPicture;
 use std::time::{Duration, Instant};
 
 /// The factor by which a case that is measured may take longer than other cases.
@@ -166,36 +165,15 @@ impl<'s> AdapterRun<'s, '_> {
         if let (Some(method), Some(frame)) = (&case.method, observed.frames.first()) {
             let truth = self.shared.truths.get(method);
             record.measured = measured(case, &truth, frame);
-            self.keep_picture(number, record, &truth, frame)?;
+            let kept = self.shared.pictures.contains(&number)
+                && self.shared.picture_adapter == self.queue.launch.adapter;
+            if let Some(image) = frame.images.first().filter(|_| kept) {
+                let writer = &self.shared.frames;
+                keep_pictures(record, &truth, image, |name, size, rgb| {
+                    writer.write_picture(name, size, rgb)
+                })?;
+            }
         }
-        Ok(())
-    }
-
-    /// Writes the pictures of a method and of the truth, if this case and adapter are chosen for that.
-    fn keep_picture(
-        &self,
-        number: usize,
-        record: &mut Record,
-        truth: &TruthPicture,
-        frame: &Frame,
-    ) -> Result<(), RecordError> {
-        let shared = self.shared;
-        if !shared.pictures.contains(&number) || shared.picture_adapter != self.queue.launch.adapter
-        {
-            return Ok(());
-        }
-        let Some(measured) = &mut record.measured else {
-            return Ok(());
-        };
-        let Some(image) = frame.images.first() else {
-            return Ok(());
-        };
-        let writer = &shared.frames;
-        let drawn = etalon_truth::rgb8(image);
-        measured.picture = Some(writer.write_picture(&record.case, image.size, &drawn)?);
-        let exact = truth.rgb8();
-        measured.truth =
-            Some(writer.write_picture(&format!("truth/{}", record.case), truth.size, &exact)?);
         Ok(())
     }
 

@@ -2,16 +2,14 @@
 
 use super::adapter_queue::{self, AdapterQueue, First};
 use super::budget::Budget;
-use super::pictures::pictured;
 use super::plan::{Plan, Rechecks, RunError, RunSummary};
 use super::shared::Shared;
 use super::worker_loop::WorkerLoop;
 use crate::event::Event;
-use crate::measure::Truths;
 use crate::sync::lock;
 use etalon_case::Case;
 use etalon_frame::threads::share;
-use etalon_judge::Judge;
+use etalon_judge::{Judge, Truths, pictured};
 use etalon_record::{LossKind, Record, RunWriter, selection_digest};
 use std::collections::{HashMap, HashSet};
 use std::sync::{Mutex, RwLock};

@@ -3,10 +3,9 @@
 use super::budget::Budget;
 use super::plan::{Options, RunSummary};
 use crate::event::Event;
-use crate::measure::Truths;
 use crate::sync::lock;
 use etalon_case::Case;
-use etalon_judge::Judge;
+use etalon_judge::{Judge, Truths};
 use etalon_record::{Expectations, FrameWriter, RecordError, RunWriter};
 use std::collections::HashSet;
 use std::sync::atomic::{AtomicBool, Ordering};

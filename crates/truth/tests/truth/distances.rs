@@ -178,3 +178,51 @@ fn two_known_pictures_have_the_flip_that_pages_must_find() {
     let found = distance(&expected, &drawn).unwrap();
     assert!((found.flip - 0.7392).abs() < 5e-5, "{}", found.flip);
 }
+
+#[test]
+fn flip_is_that_of_its_authors() {
+    let mut state = 1_u32;
+    let mut byte = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (state >> 24) as u8
+    };
+    for size @ [width, height] in [[1, 1], [7, 3], [40, 64]] {
+        let length = 3 * (width * height) as usize;
+        let truth: Vec<u8> = (0..length).map(|_| byte()).collect();
+        // Small and large differences, and none.
+        let picture = truth
+            .iter()
+            .enumerate()
+            .map(|(place, code)| match place / 3 % 3 {
+                0 => *code,
+                1 => code.saturating_add(9),
+                _ => byte(),
+            });
+        let picture: Vec<u8> = picture.collect();
+        let [expected, drawn] =
+            [&truth, &picture].map(|codes| nv_flip::FlipImageRgb8::with_data(width, height, codes));
+        let map = nv_flip::flip(expected, drawn, nv_flip::DEFAULT_PIXELS_PER_DEGREE).to_vec();
+        let expected = map.iter().map(|v| f64::from(*v)).sum::<f64>() / map.len() as f64;
+        let value = |codes: &[u8], place: usize| f64::from(codes[place]) / 255.0;
+        let texels = 0..length / 3;
+        let truth = TruthPicture {
+            size,
+            rgb: texels
+                .map(|t| [0, 1, 2].map(|c| value(&truth, 3 * t + c)))
+                .collect(),
+            error: 0.0,
+        };
+        let channels = TextureFormat::Rgba8Unorm.color_channels();
+        let drawn = Image {
+            size,
+            channels: channels[..3].to_vec(),
+            codes: picture.iter().map(|code| u32::from(*code)).collect(),
+            ..image(TextureFormat::Rgba8Unorm, |_, _| vec![0.0; 4])
+        };
+        let found = distance(&truth, &drawn).unwrap().flip;
+        assert!(
+            (found - expected).abs() < 1e-5,
+            "{size:?}: {found}, {expected}"
+        );
+    }
+}

@@ -15,9 +15,8 @@ for (const input of document.querySelectorAll(".setting input")) {
   input.disabled = false;
   input.addEventListener("input", () => show(input.closest(".scene"), Number(input.value)));
 }
-document.addEventListener("click", event => {
-  const link = event.target.closest?.("a[data-go]");
-  if (link) {
+for (const link of document.querySelectorAll("a[data-go]")) {
+  link.addEventListener("click", event => {
     const scene = $(link.hash.slice(1));
     show(scene, Number(link.dataset.go));
     const pictures = scene.querySelector(".pictures:not(.off)");
@@ -28,11 +27,12 @@ document.addEventListener("click", event => {
       pictures.setAttribute("tabindex", "-1");
       pictures.focus({ preventScroll: true });
     }
-  }
-  const key = event.target.closest?.("button.key");
-  if (key) {
+  });
+}
+for (const key of document.querySelectorAll("button.key")) {
+  key.addEventListener("click", () => {
     const pressed = key.getAttribute("aria-pressed") !== "true";
     for (const other of key.parentElement.querySelectorAll(".key")) other.setAttribute("aria-pressed", "false");
     key.setAttribute("aria-pressed", pressed);
-  }
-});
+  });
+}
