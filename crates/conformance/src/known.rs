@@ -158,7 +158,7 @@ const GL: Lacks = Lacks {
 const GL_SOFTPIPE: Lacks = Lacks {
     features: &[
         "advanced-blend advanced-blend-coherent cull-distances depth-bias-clamp fragment-storage inherited-queries min-sample-shading \
-        mirrored-viewport sample-mask-input sample-mask-output sample-mask-output-with-alpha-to-coverage \
+        mirrored-viewport sample-interpolation sample-mask-input sample-mask-output sample-mask-output-with-alpha-to-coverage \
         sample-shading storage-counters tessellation upper-left-domain",
         RESOLVES,
     ],
@@ -267,7 +267,7 @@ const WGPU_SOFTPIPE: Lacks = Lacks {
     features: &[
         WGPU_FEATURES,
         RESOLVES,
-        "depth-bias-clamp fragment-invocations independent-blend sample-shading",
+        "depth-bias-clamp fragment-invocations independent-blend sample-interpolation sample-shading",
     ],
     drawing: &["rgba8snorm"],
     blending: &["rgba32float"],

@@ -36,7 +36,7 @@ pub fn shorten(record: &mut Record, shown: Shown, has_frame: bool) {
             }
         }
         Shown::Whole if !record.due_fail => {}
-        // Nobody looks for the cause of a failure that the case itself makes.
+        // The case itself makes this failure, so its cause needs no search.
         Shown::Example if record.due_fail => {
             record.wrong.truncate(1);
             record.story = None;

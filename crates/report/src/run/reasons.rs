@@ -6,7 +6,7 @@ use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
 /// The verdicts of cases that were not drawn, the gravest first.
-const UNDRAWN: [Verdict; 3] = [Verdict::Blocked, Verdict::NotSupported, Verdict::Skipped];
+const UNDRAWN: [Verdict; 3] = [Verdict::Blocked, Verdict::Skipped, Verdict::NotSupported];
 
 /// Records of one verdict and one reason.
 #[derive(Clone, Debug, PartialEq, Eq)]

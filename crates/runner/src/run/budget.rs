@@ -14,7 +14,7 @@ pub(super) struct Budget {
 }
 
 impl Budget {
-    /// Begins a limit for `adapters` adapters, of which `jobs` draw at the same time.
+    /// Begins a limit for `adapters` adapters. `jobs` adapters draw at the same time.
     pub(super) fn new(limit: Duration, adapters: usize, jobs: usize) -> Self {
         Self {
             end: Instant::now() + limit,

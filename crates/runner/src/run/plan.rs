@@ -83,7 +83,7 @@ pub struct Options {
     pub recheck: u32,
     /// The failures whose frames are kept.
     pub frames: KeptFrames,
-    /// The time after which no further case is drawn. Adapters share it equally, and those that begin later
+    /// The time after which no further case is drawn. Adapters share it equally, and adapters that begin later
     /// also get what others left. The cases left out become `Skipped`.
     pub within: Option<Duration>,
 }
