@@ -241,7 +241,7 @@ fn answer(points: &[Timed<'_>], adapter: usize) -> String {
     if open.is_empty() {
         best
     } else {
-        format!("{best}; the times do not decide on {}", open.join(", "))
+        format!("{best}; too close in time to rank: {}", open.join(", "))
     }
 }
 
@@ -312,6 +312,6 @@ mod tests {
             interval: Some([0.001, 0.005]),
             ..timed
         });
-        assert!(answer(&coarse, 0).ends_with("; the times do not decide on a"));
+        assert!(answer(&coarse, 0).ends_with("; too close in time to rank: a"));
     }
 }
