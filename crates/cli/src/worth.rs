@@ -42,12 +42,9 @@ pub(crate) fn sort_by_worth(cases: &mut [Case]) {
 
 /// Returns the file with the order that a hunt gives. The hunt must have drawn every case with every bug.
 pub(crate) fn order(cases: &[Case], hunted: &Hunted) -> String {
-    let mut left: HashSet<usize> = HashSet::new();
-    for (number, record) in hunted.records.iter().enumerate() {
-        if record.mutant.legal.is_none() {
-            left.insert(number);
-        }
-    }
+    let bugs = (0..).zip(&hunted.records);
+    let bugs = bugs.filter(|(_, record)| record.mutant.legal.is_none());
+    let mut left: HashSet<usize> = bugs.map(|(number, _)| number).collect();
     let mut text = String::from(
         "# Cases by the planted bugs that each one catches beyond those before it, per second.\n\
          # Written by: etalon mutants --full --order cases/order.txt\n",

@@ -1,8 +1,8 @@
 //! The judge: takes a case, the frames that a driver drew of its scenes, and its limits, and returns the
 //! verdict with its grade, the assertions, and the story of the first wrong sample.
 //!
-//! Pictures of rendering methods are compared with `truth`. Legal sets come from `reference`; records and frame files go to `record`. Nothing here draws, waits or
-//! writes, so the crate also compiles for WebAssembly.
+//! Legal sets come from `reference`, and `truth` has the pictures that methods are compared with. Records and frame
+//! files go to `record`. Nothing here draws, waits or writes, so the crate also compiles for WebAssembly.
 
 mod expected_values;
 mod frame_file;

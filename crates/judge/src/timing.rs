@@ -53,7 +53,7 @@ impl Timing {
             Self::First if last < BUDGET => Some(Self::WarmUp),
             Self::First | Self::WarmUp => {
                 let [fewest, most] = FRAMES;
-                let fit = (BUDGET / last.max(1e-6)) as u32;
+                let fit = (BUDGET / last.max(SHORTEST)) as u32;
                 Some(Self::Timed(fit.clamp(fewest, most)))
             }
             Self::Timed(_) => None,

@@ -102,7 +102,8 @@ fn try_case(
     let mut seen: Vec<(Vec<Frame>, Sighting)> = Vec::new();
     let large = is_large(case);
     for mutant in share {
-        if large && mutant.record.mutant.area != case.area() {
+        let foreign = mutant.record.mutant.area != case.area();
+        if large && foreign {
             continue;
         }
         let area = mutant.area(case.area());
@@ -115,8 +116,6 @@ fn try_case(
         };
         let start = Instant::now();
         let sighting = match draw(backend.as_ref(), case) {
-            // A bug that panics in a scene that it was not made for proves nothing.
-            Err(_) if mutant.record.mutant.area != case.area() => continue,
             Err(message) => broken(case, message),
             Ok(frames) => match seen.iter().find(|(known, _)| *known == frames) {
                 Some((_, sighting)) => sighting.clone(),
@@ -131,6 +130,10 @@ fn try_case(
                 }
             },
         };
+        // A bug that panics in a scene that it was not made for proves nothing.
+        if foreign && sighting.verdict == Verdict::InternalError {
+            continue;
+        }
         if catches.cost.is_zero() {
             catches.cost = start.elapsed();
         }

@@ -66,8 +66,7 @@ impl Seen {
             .chunks_exact(3)
             .map(|code| {
                 let linear = [0, 1, 2].map(|c| linear(code[c]));
-                let [x, y, z] = relative(linear);
-                [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+                opponent(relative(linear))
             })
             .collect();
         let planes = [0, 1, 2].map(|c| opponents.iter().map(|color| color[c]).collect::<Plane>());
@@ -126,14 +125,13 @@ impl Convert for Color {
     /// Returns linear red, green and blue as Lab.
     fn lab(self) -> Color {
         const BEND: f64 = 6.0 / 29.0;
-        let [x, y, z] = relative(self).map(|value| {
+        opponent(relative(self).map(|value| {
             if value > BEND.powi(3) {
                 value.cbrt()
             } else {
                 value / (3.0 * BEND * BEND) + 4.0 / 29.0
             }
-        });
-        [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+        }))
     }
 
     /// Returns Lab with less chroma in the dark.
@@ -147,6 +145,11 @@ impl Convert for Color {
 fn relative(linear: Color) -> Color {
     let (color, white) = (linear.xyz(), [1.0; 3].xyz());
     [0, 1, 2].map(|c| color[c] / white[c])
+}
+
+/// Returns luminance, red against green, and blue against yellow, on the scales of Lab.
+fn opponent([x, y, z]: Color) -> Color {
+    [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
 }
 
 /// Returns the linear value of an sRGB code.

@@ -269,7 +269,6 @@ fn fuzzed(seed: u64, scenes: u64, chosen: &[MutantInfo]) -> (Vec<MutantRecord>, 
         };
         let found = etalon_runner::hunt(plan, &open, &|| {});
         for (index, record) in left.into_iter().zip(found.records) {
-            let record = without_panics(record);
             match &mut records[index] {
                 Some(before) => before.add(record),
                 none => *none = Some(record),
@@ -280,20 +279,6 @@ fn fuzzed(seed: u64, scenes: u64, chosen: &[MutantInfo]) -> (Vec<MutantRecord>, 
     }
     bar.finish_and_clear();
     (records.into_iter().flatten().collect(), failing)
-}
-
-/// Returns a record as if its bug had not panicked. A bug that panics in a scene that it was not made for
-/// proves nothing.
-fn without_panics(mut record: MutantRecord) -> MutantRecord {
-    if record.outcome == Catch::Broken {
-        if record.areas.iter().any(|a| a.fail > 0) {
-            record.outcome = Catch::Caught;
-        } else {
-            record.outcome = Catch::Survived;
-            record.first = None;
-        }
-    }
-    record
 }
 
 /// Separates the cases that the rasterizer fails without a bug: they would catch every bug.
