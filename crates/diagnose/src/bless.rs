@@ -118,6 +118,8 @@ fn entry(record: &Record, adapter: &AdapterRecord, run: &Run, today: &str) -> En
     Entry {
         adapter: globset::escape(&record.adapter),
         driver: globset::escape(&adapter.driver_text()),
+        // A browser is the driver by name, and the device below it is another's.
+        device: (adapter.backend == "webgpu").then(|| globset::escape(&adapter.device)),
         version: version_of(adapter).map(|v| format!("={v}")),
         case: globset::escape(&record.case),
         verdict: record.verdict,
@@ -146,6 +148,7 @@ fn findings(new: &[(&Record, Entry)], run: &Run, today: &str) -> Vec<(String, Fi
         let file = record.case_file();
         let key = (
             &entry.driver,
+            &entry.device,
             &entry.version,
             entry.verdict,
             file,
@@ -155,7 +158,7 @@ fn findings(new: &[(&Record, Entry)], run: &Run, today: &str) -> Vec<(String, Fi
         groups.entry(key).or_default().push(symptom);
     }
     let mut found: Vec<(String, Finding)> = Vec::new();
-    for ((driver, version, verdict, file, adapter, kind), group) in groups {
+    for ((driver, device, version, verdict, file, adapter, kind), group) in groups {
         let failing: Vec<&str> = group
             .iter()
             .map(|(record, _)| record.case.as_str())
@@ -180,6 +183,7 @@ fn findings(new: &[(&Record, Entry)], run: &Run, today: &str) -> Vec<(String, Fi
             .unwrap_or_else(each);
         let same = found.iter_mut().find(|(_, f)| {
             f.driver == *driver
+                && f.device == *device
                 && f.versions == *version
                 && f.verdict == Some(verdict)
                 && f.cases == cases
@@ -201,6 +205,7 @@ fn findings(new: &[(&Record, Entry)], run: &Run, today: &str) -> Vec<(String, Fi
                 ),
                 adapters: vec![adapter.clone()],
                 driver: driver.clone(),
+                device: device.clone(),
                 versions: version.clone(),
                 cases,
                 verdict: Some(verdict),

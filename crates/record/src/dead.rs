@@ -242,9 +242,10 @@ fn covers(by: &Known, known: &Known) -> bool {
         (Some(by), Some(known)) => by >= known,
     };
     let symptom = by.symptom.is_none() || by.symptom == known.symptom;
+    let device = by.device.is_none() || by.device == known.device;
     let machine = by.processor.is_none() || by.processor == known.processor;
     let labels = by.labels.iter().all(|label| known.labels.contains(label));
-    verdict && driver && version && day && symptom && machine && labels
+    verdict && driver && device && version && day && symptom && machine && labels
 }
 
 fn is_pattern(glob: &str) -> bool {

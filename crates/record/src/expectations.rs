@@ -29,6 +29,9 @@ pub struct Entry {
     pub adapter: String,
     /// A glob over [`AdapterRecord::driver_text`], driver and version; `*` for any.
     pub driver: String,
+    /// A glob over the device's name; any device if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub device: Option<String>,
     /// The driver versions to which the entry applies, as comparisons that must all be true: `>=22.3, <25.1`;
     /// every version if absent. A driver that reports no version with a dot is in no range.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -85,6 +88,8 @@ pub struct Known {
     pub adapters: Vec<String>,
     /// A glob over driver and version.
     pub driver: String,
+    /// A glob over the device's name.
+    pub device: Option<String>,
     /// A range of driver versions.
     pub version: Option<String>,
     /// Globs over case ids.
@@ -114,6 +119,7 @@ impl Known {
         Self {
             adapters: vec![entry.adapter.clone()],
             driver: entry.driver.clone(),
+            device: entry.device.clone(),
             version: entry.version.clone(),
             cases: vec![entry.case.clone()],
             verdict: entry.verdict,
@@ -132,6 +138,7 @@ impl Known {
         Self {
             adapters: finding.adapters.clone(),
             driver: finding.driver.clone(),
+            device: finding.device.clone(),
             version: finding.versions.clone(),
             cases: finding.cases.clone(),
             verdict: finding.expected(),
@@ -199,6 +206,7 @@ pub struct Expectations {
 struct Globs {
     adapters: Vec<GlobMatcher>,
     driver: GlobMatcher,
+    device: Option<GlobMatcher>,
     version: Option<VersionReq>,
     processor: Option<GlobMatcher>,
     /// False if the machine has another processor, or if the run lacks a label.
@@ -235,6 +243,11 @@ fn is_special(c: char) -> bool {
     "*?[]{}!\\".contains(c)
 }
 
+/// Returns true if a glob matches or is absent.
+fn matches_if_given(glob: Option<&GlobMatcher>, text: &str) -> bool {
+    glob.is_none_or(|glob| glob.is_match(text))
+}
+
 /// Returns true if a glob matches only its own text.
 fn is_plain(glob: &str) -> bool {
     !glob.contains(is_special)
@@ -246,6 +259,7 @@ impl Globs {
         self.applies
             && (named(&adapter.name) || named(adapter.without_release()))
             && self.driver.is_match(adapter.driver_text())
+            && matches_if_given(self.device.as_ref(), &adapter.device)
             && self.version.as_ref().is_none_or(|range| {
                 version_of(adapter).is_some_and(|version| range.matches(&version))
             })
@@ -406,6 +420,9 @@ impl Expectations {
             let each = globs.iter().map(|glob| build(key, glob));
             each.collect::<Result<Vec<_>, _>>()
         };
+        let build_if_given = |key: &str, glob: &Option<String>| {
+            glob.as_ref().map(|glob| build(key, glob)).transpose()
+        };
         let (plain, globs): (Vec<_>, Vec<_>) =
             known.cases.iter().cloned().partition(|g| is_plain(g));
         if let Some(symptom) = &known.symptom {
@@ -430,10 +447,8 @@ impl Expectations {
         }
         let globs = Globs {
             version,
-            processor: match &known.processor {
-                Some(glob) => Some(build("processor", glob)?),
-                None => None,
-            },
+            processor: build_if_given("processor", &known.processor)?,
+            device: build_if_given("device", &known.device)?,
             applies: true,
             adapters: each(keys[0], &known.adapters)?,
             driver: build("driver", &known.driver)?,
@@ -477,8 +492,7 @@ impl Expectations {
     #[must_use]
     pub fn of_run(mut self, processor: &str, labels: &[String]) -> Self {
         for (known, globs) in self.all.iter().zip(&mut self.globs) {
-            let machine = globs.processor.as_ref();
-            globs.applies = machine.is_none_or(|glob| glob.is_match(processor))
+            globs.applies = matches_if_given(globs.processor.as_ref(), processor)
                 && known.labels.iter().all(|label| labels.contains(label));
         }
         self
@@ -770,6 +784,18 @@ mod tests {
         assert!(matches!(agrees, Expectation::Agrees(_)), "{agrees:?}");
         assert!(described("23") && described("22.3.0.1"));
         assert!(!described("26"));
+    }
+
+    #[test]
+    fn a_device_is_a_condition() {
+        let software = one(r#", "device": "a software rasterizer*""#, "fail");
+        let found = |device: &str| {
+            let mut adapter = adapter("webgpu:firefox", "Firefox", "153.0");
+            device.clone_into(&mut adapter.device);
+            software.look_up(&adapter, "a/b", Verdict::Fail) != Expectation::None
+        };
+        assert!(found("a software rasterizer without a name"));
+        assert!(!found("a device without a name"));
     }
 
     #[test]

@@ -28,6 +28,10 @@ pub struct Finding {
     pub adapters: Vec<String>,
     /// A glob over driver and version; `*` for any.
     pub driver: String,
+    /// A glob over the device's name, if the bug depends on the device, or if the driver does not name what it
+    /// draws over, such as a browser; any device if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub device: Option<String>,
     /// The driver versions that have the bug, such as `>=22.3, <25.1`; every version if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub versions: Option<String>,

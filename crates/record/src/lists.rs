@@ -173,6 +173,7 @@ fn entry(id: &str, verdict: Verdict, about: &About) -> Entry {
     Entry {
         adapter: about.adapter.clone(),
         driver: about.driver.clone(),
+        device: None,
         version: about.version.clone(),
         case: globset::escape(id),
         verdict,

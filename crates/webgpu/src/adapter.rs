@@ -23,6 +23,7 @@ pub fn info(name: &str, hello: &Hello) -> AdapterInfo {
         .filter(|part| !part.is_empty())
         .collect();
     let device = match (adapter.description.as_str(), named.join(" ").as_str()) {
+        ("", "") if software => "a software rasterizer without a name".to_owned(),
         ("", "") => "a device without a name".to_owned(),
         ("", named) => named.to_owned(),
         (description, _) => description.to_owned(),
