@@ -43,7 +43,10 @@ pub use catalogue::{
     CATALOGUE, Catalogue, CatalogueCase, reference_picture, reference_png, write_catalogue,
 };
 pub use command::quoted;
-pub use diff::benches::{BenchDiff, BenchFacts, TimeChange, Untimed, diff, diff_table, write_diff};
+pub use diff::benches::{
+    BenchDiff, BenchFacts, InstructionChange, InstructionOutcome, TimeChange, Untimed, diff,
+    diff_table, write_diff,
+};
 pub use diff::runs;
 pub use error::ReportError;
 #[cfg(feature = "history")]

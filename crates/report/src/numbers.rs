@@ -19,6 +19,22 @@ pub(crate) fn duration(seconds: f64) -> String {
     }
 }
 
+/// Returns a number of instructions with four significant digits: `1.234 M`.
+pub(crate) fn instructions(n: f64) -> String {
+    let (value, unit) = match n {
+        n if n >= 1e9 => (n / 1e9, " G"),
+        n if n >= 1e6 => (n / 1e6, " M"),
+        n if n >= 1e3 => (n / 1e3, " k"),
+        n => (n, ""),
+    };
+    let decimals = match value {
+        v if v >= 100.0 => 1,
+        v if v >= 10.0 => 2,
+        _ => 3,
+    };
+    format!("{value:.decimals$}{unit}")
+}
+
 /// Returns a chosen time, such as a limit or an axis tick: `20 s`, `0.5 ms`.
 pub(crate) fn round_duration(seconds: f64) -> String {
     let (value, unit) = scaled(seconds);

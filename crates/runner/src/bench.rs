@@ -6,6 +6,7 @@
 //! adapters' workers run during a round, but only one works at a time.
 
 mod clock;
+mod instructions;
 mod round;
 mod ruler;
 
@@ -20,9 +21,11 @@ use etalon_frame::{Limits, WrongTexel};
 use etalon_judge::{Judge, changed_picture};
 use etalon_record::{
     AdapterRecord, BenchHeader, BenchLine, BenchRecord, BenchWriter, CellRate, Done, Ended, Enough,
-    Expectations, Picture, Record, RecordError, ReportFiles, Round, Time, Verdict, cell,
+    Expectations, InstructionCounter, Picture, Record, RecordError, ReportFiles, Round, Time,
+    Verdict, cell,
 };
 use etalon_stats::{MIN_ROUNDS, is_within, median_interval, quantile};
+pub use instructions::instruction_counter;
 use round::{fingerprint, seconds};
 use std::collections::HashMap;
 use std::path::Path;
@@ -40,6 +43,8 @@ pub struct BenchPlan<'a> {
     pub budget: Duration,
     /// The time limit for each answer of a worker.
     pub timeout: Duration,
+    /// The program that counts the instructions of a frame on software adapters; `None` counts none.
+    pub counter: Option<InstructionCounter>,
     /// The known bad verdicts.
     pub expectations: &'a Expectations,
     /// True to continue the bench in the folder by measuring its missing rounds.
@@ -63,6 +68,15 @@ pub enum BenchEvent {
         unexpected: bool,
         /// The number of rounds that the bench already has.
         known: u32,
+    },
+    /// The instructions of a case's frame were counted on an adapter.
+    Counted {
+        /// The case.
+        case: String,
+        /// The adapter.
+        adapter: String,
+        /// The reason if they could not be counted.
+        failed: Option<String>,
     },
     /// A round of a case on an adapter is complete.
     Timed {
@@ -142,6 +156,7 @@ pub fn bench(
         .map(|(launch, worker)| Adapter {
             spent: Duration::ZERO,
             record: AdapterRecord::from(&worker),
+            launch: launch.clone(),
             supervisor: Supervisor::new(launch, None, FailedStarts::default(), Some(worker)),
         })
         .collect();
@@ -160,9 +175,11 @@ pub fn bench(
         within: plan.header.settings.within,
         limit: plan.header.settings.limit.map(Duration::from_secs_f64),
         budget: plan.budget,
+        counter: plan.counter,
     };
     let run = |bench: &mut Bench<'_, '_>| -> Result<(), RecordError> {
         let mut pairs = bench.judge()?;
+        bench.count(&mut pairs)?;
         for number in 0..bench.rounds {
             bench.finish(number, &mut pairs)?;
             bench.round(number, &mut pairs)?;
@@ -177,6 +194,7 @@ pub fn bench(
 /// An adapter and its worker.
 struct Adapter {
     record: AdapterRecord,
+    launch: Launch,
     supervisor: Supervisor,
     /// The time that the adapter's rounds took.
     spent: Duration,
@@ -223,6 +241,7 @@ struct Bench<'a, 'e> {
     within: Option<f64>,
     limit: Option<Duration>,
     budget: Duration,
+    counter: Option<InstructionCounter>,
 }
 
 impl Bench<'_, '_> {
@@ -236,6 +255,7 @@ impl Bench<'_, '_> {
                 let known = self.before.remove(&key);
                 if let Some(known) = &known
                     && !self.lacks_rounds(known)
+                    && !self.lacks_count(known, index)
                 {
                     self.skip(known);
                     continue;
@@ -271,6 +291,7 @@ impl Bench<'_, '_> {
                         cell: cell(&case.id),
                         record: known.unwrap_or_else(|| BenchRecord {
                             picture: judged.clone(),
+                            counted: None,
                             rounds: Vec::new(),
                             ended: None,
                             enough: None,
@@ -290,6 +311,47 @@ impl Bench<'_, '_> {
     /// Returns true if a case on an adapter is not complete.
     fn lacks_rounds(&self, known: &BenchRecord) -> bool {
         known.is_open() && known.rounds.len() < self.rounds as usize
+    }
+
+    /// Returns true if the instructions of a case on an adapter must still be counted.
+    fn lacks_count(&self, known: &BenchRecord, adapter: usize) -> bool {
+        self.counter.is_some()
+            && self.adapters[adapter].record.software
+            && known.picture.may_be_timed()
+            && known.counted.is_none()
+    }
+
+    /// Counts the instructions of all pairs on software adapters, before their frames are timed, and keeps the
+    /// pairs that may still be timed.
+    fn count(&mut self, pairs: &mut Vec<Pair>) -> Result<(), RecordError> {
+        let Some(counter) = self.counter else {
+            return Ok(());
+        };
+        for pair in pairs.iter_mut() {
+            if !self.lacks_count(&pair.record, pair.adapter) {
+                continue;
+            }
+            let case = &self.cases[pair.case];
+            let adapter = &self.adapters[pair.adapter];
+            let names = [case.id.as_str(), adapter.record.name.as_str()];
+            let (launch, scene) = (&adapter.launch, &case.scene);
+            let counted = instructions::count(counter, launch, names, scene, self.timeout);
+            let failed = match counted {
+                Ok(counted) => {
+                    self.writer.append(&BenchLine::Counted(counted.clone()))?;
+                    pair.record.counted = Some(counted);
+                    None
+                }
+                Err(reason) => Some(reason),
+            };
+            (self.events)(BenchEvent::Counted {
+                case: case.id.clone(),
+                adapter: adapter.record.name.clone(),
+                failed,
+            });
+        }
+        pairs.retain(|pair| pair.record.is_open());
+        Ok(())
     }
 
     /// Counts a case on an adapter that is already complete.

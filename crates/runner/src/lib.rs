@@ -33,7 +33,9 @@ mod version_search;
 mod worker;
 
 pub use batch::Batches;
-pub use bench::{BenchError, BenchEvent, BenchPlan, BenchSummary, bench, ruler};
+pub use bench::{
+    BenchError, BenchEvent, BenchPlan, BenchSummary, bench, instruction_counter, ruler,
+};
 pub use drawing::draw_frames;
 pub use event::Event;
 pub use hunt::{Catches, HuntPlan, Hunted, hunt};

@@ -279,6 +279,14 @@ impl WorkerProcess {
     }
 }
 
+impl WorkerProcess {
+    /// Asks the worker to exit. Returns false if it does not within `patience`, and kills it.
+    pub(crate) fn close(mut self, patience: Duration) -> bool {
+        self.requests = None;
+        self.wait(patience).is_some()
+    }
+}
+
 impl Drop for WorkerProcess {
     /// Closes the pipe, which asks the worker to exit, and kills it if it does not.
     fn drop(&mut self) {

@@ -14,7 +14,7 @@ use etalon_record::{
     BENCH_FORMAT, Bench, BenchHeader, BenchSettings, FolderKind, Shard, cell, selection_digest,
 };
 use etalon_report::WrittenBench;
-use etalon_runner::{BenchError, BenchEvent, BenchPlan, BenchSummary};
+use etalon_runner::{BenchError, BenchEvent, BenchPlan, BenchSummary, instruction_counter};
 use indicatif::ProgressBar;
 use serde_json::json;
 use std::collections::{BTreeSet, HashMap};
@@ -60,6 +60,10 @@ pub(crate) struct Arguments {
     /// completed
     #[arg(long, value_name = "S", value_parser = parse_timeout)]
     pub(crate) limit: Option<f64>,
+    /// Also count the instructions of a frame on adapters that draw with the processor, with perf or Valgrind:
+    /// a second clock, which a busy machine does not disturb
+    #[arg(long)]
+    pub(crate) instructions: bool,
     /// Disable the drivers' shader caches on disk: the first frame of each round compiles every shader
     #[arg(long)]
     pub(crate) cold: bool,
@@ -80,6 +84,8 @@ const MATRIX: &str = "perf/matrix/";
 /// Judges the pictures of the selected cases, measures the correct ones, writes samples and reports.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let selected = Selected::new(arguments)?;
+    let counter = arguments.instructions.then(instruction_counter).transpose();
+    let counter = counter.map_err(Failure::usage)?;
     // The samples of a concurrent or an earlier bench must not be lost.
     let claim = Out {
         folder: &arguments.out,
@@ -108,6 +114,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         adapters: adapters.ready,
         budget: Duration::from_secs_f64(arguments.seconds),
         timeout: Duration::from_secs_f64(arguments.timeout),
+        counter,
         expectations: &expectations,
         resume,
         folder: &arguments.out,
@@ -221,6 +228,16 @@ fn show(bar: &ProgressBar, rounds: u64, event: BenchEvent) {
                 bar.suspend(|| {
                     say!("{verdict} {adapter} {}: {}", picture.case, picture.message);
                 });
+            }
+        }
+        BenchEvent::Counted {
+            case,
+            adapter,
+            failed,
+        } => {
+            bar.set_message(format!("counting the instructions of {adapter}"));
+            if let Some(reason) = failed {
+                bar.suspend(|| say!("instructions not counted: {adapter} {case}: {reason}"));
             }
         }
         BenchEvent::Timed { adapter, .. } => {

@@ -101,6 +101,35 @@ fn a_slower_rasterizer_answers_as_cpu_and_is_not_listed() {
 }
 
 #[test]
+fn instructions_are_counted_beside_the_times() {
+    let cases = cases();
+    let counted = |adapter: &str| {
+        let out = tempfile::tempdir().unwrap();
+        let arguments = ["perf/right", "--adapter", adapter, "--instructions"];
+        bench(cases.path(), out.path(), &arguments)
+            .code(0)
+            .stdout(contains("instructions"));
+        let recorded = Bench::read(out.path()).unwrap();
+        let record = recorded.record("perf/right", "cpu").unwrap();
+        assert_eq!(record.rounds.len(), 2);
+        let counted = record.counted.as_ref().unwrap();
+        assert_eq!(counted.processes.len(), 3);
+        (out, counted.per_frame().unwrap())
+    };
+    let (before, instructions) = counted("cpu");
+    // The slower rasterizer spends its time in a loop.
+    let (after, more) = counted("cpu:slower=50%");
+    assert!(more > instructions, "{instructions} {more}");
+    let folders = [before.path(), after.path()].map(|path| path.to_str().unwrap().to_owned());
+    let diff = etalon(&["diff", &folders[0], &folders[1]]).assert();
+    diff.code(1)
+        .stdout(contains("Instructions of a frame").and(contains("1 with more instructions")));
+    let same = etalon(&["diff", &folders[0], &folders[0], "--format", "json"]).assert();
+    let same: Value = serde_json::from_slice(&same.get_output().stdout).unwrap();
+    assert_eq!(same["instructions"][0]["outcome"], "as-many", "{same}");
+}
+
+#[test]
 fn wrong_usage_is_64_and_nothing_chosen_is_4() {
     let cases = cases();
     let out = tempfile::tempdir().unwrap();

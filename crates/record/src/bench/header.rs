@@ -6,8 +6,9 @@ use crate::machine::Machine;
 use crate::shader_cache::ShaderCache;
 use serde::{Deserialize, Serialize};
 
-/// The format of `bench.jsonl` that this crate reads and writes.
-pub const BENCH_FORMAT: u32 = 1;
+/// The format of `bench.jsonl` that this crate writes. It reads format 1 too, which has no counted
+/// instructions.
+pub const BENCH_FORMAT: u32 = 2;
 
 /// The cases, adapters, machine and time of a bench.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,5 +1,6 @@
 //! The lines of a bench after the first.
 
+use super::counted::Counted;
 use super::time::Time;
 use crate::verdict::Verdict;
 use etalon_frame::{Work, state_enum};
@@ -13,6 +14,8 @@ use std::slice;
 pub enum BenchLine {
     /// The verdict of a picture, before any frame of it was timed.
     Picture(Picture),
+    /// The instructions of a frame.
+    Counted(Counted),
     /// A round of frame times.
     Round(Round),
     /// The reason why a case has no more rounds on an adapter.

@@ -1,5 +1,6 @@
 //! Reading a bench folder.
 
+use super::counted::Counted;
 use super::header::{BENCH_FORMAT, BenchHeader};
 use super::line::{BenchLine, Done, Ended, Picture, Round};
 use super::record::BenchRecord;
@@ -119,6 +120,7 @@ impl Assembly {
     fn take(&mut self, line: BenchLine) -> Result<(), String> {
         match line {
             BenchLine::Picture(picture) => self.picture(picture),
+            BenchLine::Counted(counted) => self.counted(counted),
             BenchLine::Round(round) => self.round(round),
             BenchLine::Ended(ended) => self.ended(ended),
             BenchLine::Done(done) => self.done(done),
@@ -141,6 +143,7 @@ impl Assembly {
         }
         self.records.push(BenchRecord {
             picture,
+            counted: None,
             rounds: Vec::new(),
             ended: None,
             enough: None,
@@ -149,7 +152,7 @@ impl Assembly {
     }
 
     /// Returns the record that a line belongs to.
-    fn open(&mut self, case: &str, adapter: &str) -> Result<&mut BenchRecord, String> {
+    fn right(&mut self, case: &str, adapter: &str) -> Result<&mut BenchRecord, String> {
         let key = (case.to_owned(), adapter.to_owned());
         let place = self.places.get(&key).copied();
         let record = place.and_then(|place| self.records.get_mut(place));
@@ -162,12 +165,27 @@ impl Assembly {
                 "{case:?} on {adapter:?} has the verdict {verdict} and so no frame times"
             ));
         }
+        Ok(record)
+    }
+
+    /// Returns the record that a line belongs to, which must not have ended.
+    fn open(&mut self, case: &str, adapter: &str) -> Result<&mut BenchRecord, String> {
+        let record = self.right(case, adapter)?;
         if record.ended.is_some() || record.enough.is_some() {
             return Err(format!(
                 "{case:?} on {adapter:?} already ended before this line"
             ));
         }
         Ok(record)
+    }
+
+    fn counted(&mut self, counted: Counted) -> Result<(), String> {
+        if let Some(wrong) = counted.wrong() {
+            return Err(wrong.to_owned());
+        }
+        let record = self.right(&counted.case, &counted.adapter)?;
+        record.counted = Some(counted);
+        Ok(())
     }
 
     fn round(&mut self, round: Round) -> Result<(), String> {

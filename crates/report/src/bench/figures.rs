@@ -1,7 +1,7 @@
 //! The figures of a bench.
 
 use crate::lists::grouped;
-use crate::numbers::{count, duration, percent, round_duration};
+use crate::numbers::{count, duration, instructions, percent, round_duration};
 use etalon_record::{AdapterRecord, Bench, BenchRecord, BenchSettings, Time, Verdict};
 use etalon_stats::{Conclusion, Samples, Summary, compare, summarize};
 use maud::{Markup, html};
@@ -54,6 +54,12 @@ impl Timed<'_> {
         self.others
             .get(&time)
             .map(|summary| duration(summary.median))
+    }
+
+    /// Returns the instructions of a frame, if they were counted.
+    pub(crate) fn instructions(&self) -> Option<String> {
+        let counted = self.record.counted.as_ref()?;
+        Some(instructions(counted.per_frame()?))
     }
 
     /// Returns the number of rounds and of frames in each.

@@ -95,7 +95,7 @@ fn explanation() -> Markup {
                 b { "Wall" } " lasts until the device is done, " b { "cpu" }
                 " until the last call that submits work has returned, " b { "gpu" }
                 " is between timestamps of the device. " b { "Prepare" } " and " b { "first" }
-                " are what a scene costs once. Adapters with the same rank do not differ provably. Software "
+                " are what a scene costs once. " b { "Instructions" } " of a frame are counted in processes of their own. Adapters with the same rank do not differ provably. Software "
                 "and hardware have tables of their own."
             }
         }
@@ -183,6 +183,9 @@ fn table(rows: &[Timed<'_>], title: &str) -> Markup {
         if rows.iter().any(|row| row.others.contains_key(&time)) {
             table = table.number(as_is(time.name()), move |row| row.other(time));
         }
+    }
+    if rows.iter().any(|row| row.instructions().is_some()) {
+        table = table.number("Instructions", |row| row.instructions());
     }
     let spread = html! { "Spread" br; small { (scale.caption()) } };
     let spread = Cell::from("Spread").on_page(spread);

@@ -24,7 +24,11 @@ pub fn bench_table(bench: &Bench, options: TableOptions) -> String {
             .collect();
         if !rows.is_empty() {
             let optional = ["n", "gpu", "cpu", "visible", "p95", "interval"];
-            let (table, _) = table().terminal(rows, options, &optional);
+            let mut table = table();
+            if rows.iter().any(|(_, timed)| timed.instructions().is_some()) {
+                table = table.number("instructions", |(_, timed)| timed.instructions());
+            }
+            let (table, _) = table.terminal(rows, options, &optional);
             text += &format!("{title}\n{table}\n\n");
         }
     }

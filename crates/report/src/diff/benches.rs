@@ -1,9 +1,11 @@
 //! The comparison of two benches: as data, for a terminal, and as a page.
 
 mod compare;
+mod instructions;
 mod page;
 mod table;
 
 pub use compare::{BenchDiff, BenchFacts, TimeChange, Untimed, diff};
+pub use instructions::{InstructionChange, InstructionOutcome};
 pub use page::write_diff;
 pub use table::diff_table;

@@ -114,6 +114,7 @@ fn bench(adapters: Vec<(Launch, Worker)>) -> (Bench, BenchSummary, Vec<String>) 
         adapters,
         budget: Duration::from_millis(2),
         timeout: std::time::Duration::from_secs(60),
+        counter: None,
         resume: false,
         expectations: &Expectations::default(),
         folder: &out,
@@ -126,6 +127,7 @@ fn bench(adapters: Vec<(Launch, Worker)>) -> (Bench, BenchSummary, Vec<String>) 
             BenchEvent::Judged { picture, .. } => {
                 format!("judged {} {}", picture.adapter, picture.case)
             }
+            BenchEvent::Counted { .. } => unreachable!("nothing is counted"),
             BenchEvent::Timed { case, adapter } => format!("timed {adapter} {case}"),
             BenchEvent::Done { done, spared } => {
                 format!("done {} {} {spared}", done.adapter, done.case)
@@ -288,6 +290,7 @@ fn a_folder_that_cannot_be_written_to_is_told_before_anything_is_timed() {
         cases: &cases,
         budget: Duration::from_millis(1),
         timeout: std::time::Duration::from_secs(60),
+        counter: None,
         resume: false,
         expectations: &Expectations::default(),
         folder: &blocked,

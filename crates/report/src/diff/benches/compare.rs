@@ -1,5 +1,6 @@
 //! Compares two benches from their recorded samples.
 
+use super::instructions::{self, InstructionChange, InstructionOutcome};
 use crate::bench::figures::{self, software};
 use crate::numbers::count;
 use crate::words::machine;
@@ -31,6 +32,9 @@ pub struct BenchDiff {
     pub changes: Vec<TimeChange>,
     /// Cases that were timed in one bench only.
     pub gone: Vec<Untimed>,
+    /// Cases whose instructions were counted in both benches. They do not influence the outcomes of times.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub instructions: Vec<InstructionChange>,
 }
 
 /// The identity of one of the benches.
@@ -132,9 +136,17 @@ impl BenchDiff {
         counts
     }
 
-    /// Returns true if anything is worse: slower, no longer right, or on an adapter that vanished.
+    /// Returns true if anything is worse: slower, with more instructions, no longer right, or on an adapter that
+    /// vanished.
     pub fn worse(&self) -> bool {
-        self.counts()[0] > 0 || self.gone.iter().any(|g| g.worse)
+        self.counts()[0] > 0 || self.more() > 0 || self.gone.iter().any(|g| g.worse)
+    }
+
+    /// Returns the number of cases that take more instructions.
+    fn more(&self) -> usize {
+        let more = self.instructions.iter();
+        more.filter(|c| c.outcome == InstructionOutcome::More)
+            .count()
     }
 
     /// Returns the number of undecided comparisons, and of cases that only one bench timed.
@@ -168,6 +180,9 @@ impl BenchDiff {
         let mut parts = Vec::new();
         if self.worse() {
             parts.push(format!("{} slower", self.counts()[0]));
+            if self.more() > 0 {
+                parts.push(format!("{} with more instructions", self.more()));
+            }
             let wrong = self.gone.iter().filter(|g| g.worse && !g.vanished).count();
             parts.push(format!("{wrong} no longer right"));
         } else {
@@ -206,7 +221,11 @@ pub fn diff(before: &Bench, after: &Bench, time: Time) -> BenchDiff {
         notes: notes(before, after),
         changes: Vec::new(),
         gone: Vec::new(),
+        instructions: Vec::new(),
     };
+    let (counted, note) = instructions::compare(before, after);
+    found.instructions = counted;
+    found.notes.extend(note);
     for old in &before.records {
         let (case, adapter) = (&old.picture.case, &old.picture.adapter);
         let new = after.record(case, adapter);

@@ -1,11 +1,12 @@
 //! The comparison of two benches as a page.
 
 use super::compare::{BenchDiff, BenchFacts};
+use super::instructions::{SMALLEST, instructions_table};
 use super::table::changes_table;
 use crate::bench::figures::KINDS;
 use crate::error::ReportError;
 use crate::files::replace_at;
-use crate::numbers::change;
+use crate::numbers::{change, percent};
 use crate::page::Page;
 use crate::page::adapter::breakable;
 use maud::{Markup, html};
@@ -35,6 +36,16 @@ fn page(diff: &BenchDiff) -> String {
             @let changes = diff.of_kind(kind);
             @if !changes.is_empty() {
                 section { h2 { (title) " adapters" } (changes_table().page(changes)) }
+            }
+        }
+        @if !diff.instructions.is_empty() {
+            section {
+                h2 { "Instructions of a frame" }
+                (instructions_table().page(&diff.instructions))
+                p.cap {
+                    "Counted in processes of their own, and compared apart from the times. A change counts if it is above "
+                    (percent(SMALLEST, 0)) " and above the scatter of both counts."
+                }
             }
         }
         @if !diff.gone.is_empty() {

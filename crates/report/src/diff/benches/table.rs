@@ -1,6 +1,7 @@
 //! The comparison of two benches for a terminal.
 
 use super::compare::{BenchDiff, TimeChange};
+use super::instructions::instructions_table;
 use crate::bench::figures::KINDS;
 use crate::numbers::{between, change, duration};
 use crate::page::adapter::adapter;
@@ -37,6 +38,11 @@ pub fn diff_table(diff: &BenchDiff, options: TableOptions) -> String {
             let (table, _) = changes_table().terminal(changes, options, &optional);
             text += &format!("{title}, {} times\n{table}\n\n", diff.time);
         }
+    }
+    if !diff.instructions.is_empty() {
+        let (table, _) =
+            instructions_table().terminal(diff.instructions.iter(), options, &["before", "after"]);
+        text += &format!("Instructions of a frame\n{table}\n\n");
     }
     if !diff.gone.is_empty() {
         text.push_str("Timed in one bench only\n");
