@@ -163,6 +163,10 @@ fn normalized() -> impl Strategy<Value = f32> {
     prop_oneof![0.0_f32..=1.0, code().prop_map(|code| code as f32 / 255.0)]
 }
 
+fn factor() -> impl Strategy<Value = f32> {
+    prop_oneof![-8.0_f32..=8.0, -0.01_f32..=0.01]
+}
+
 /// Rounds to a float with a significand of `bits` bits: down, up or to the nearest.
 fn short(bits: i32, direction: i8, value: f64) -> f64 {
     if value == 0.0 {
@@ -178,7 +182,14 @@ fn short(bits: i32, direction: i8, value: f64) -> f64 {
 }
 
 /// The source weighted by the complement of the destination's alpha, and the destination by the source's
-/// alpha, with every operand and result rounded by `short`.
+/// alpha.
+const SHORT_BLEND: BlendComponent = BlendComponent {
+    operation: BlendOperation::Add,
+    src_factor: BlendFactor::OneMinusDstAlpha,
+    dst_factor: BlendFactor::SrcAlpha,
+};
+
+/// Blends by [`SHORT_BLEND`], with every operand and result rounded by `short`.
 fn short_blend(
     encoding: ChannelEncoding,
     short: impl Fn(f64) -> f64,
@@ -196,6 +207,7 @@ fn short_blend(
 fn decoded(encoding: ChannelEncoding, code: u32) -> f64 {
     match encoding {
         ChannelEncoding::Srgb8 => etalon_frame::srgb_to_linear(f64::from(code) / 255.0),
+        ChannelEncoding::Float16 => encoding.value_of_order(encoding.order_of_code(code)),
         _ => f64::from(code) / 255.0,
     }
 }
@@ -212,14 +224,32 @@ proptest! {
         srgb in any::<bool>(),
     ) {
         let encoding = if srgb { ChannelEncoding::Srgb8 } else { ChannelEncoding::Unorm(8) };
-        let component = BlendComponent {
-            operation: BlendOperation::Add,
-            src_factor: BlendFactor::OneMinusDstAlpha,
-            dst_factor: BlendFactor::SrcAlpha,
-        };
-        let state = BlendState { color: component, alpha: component };
+        let state = BlendState { color: SHORT_BLEND, alpha: SHORT_BLEND };
         let results = short_blend(encoding, |v| short(bits, direction, v), src, dst);
         let codes = results.map(|v| encoding.position(v.clamp(0.0, 1.0)).map_or(0, |p| p.round() as i64));
+        let mut remaining = all_rules();
+        remaining.pop();
+        for rules in remaining {
+            let intervals = judged(&rules, encoding, &(state, src, dst, [0.0; 4], [0.0; 4]));
+            assert_inside(rules.name, codes, intervals)?;
+        }
+    }
+
+    #[test]
+    fn a_blend_in_floats_of_16_bits_is_legal_in_attachments_of_them(
+        src in [factor(), factor(), factor(), factor()],
+        dst in [factor(), factor(), factor(), factor()],
+        bits in 11_i32..=24,
+        direction in -1_i8..=1,
+    ) {
+        let encoding = ChannelEncoding::Float16;
+        let dst = dst.map(|v| encoding.nearest_code(f64::from(v)));
+        let results = short_blend(encoding, |v| short(bits, direction, v), src, dst);
+        let codes = results.map(|v| match direction {
+            1 => encoding.order_above(v),
+            _ => encoding.order_below(v),
+        });
+        let state = BlendState { color: SHORT_BLEND, alpha: SHORT_BLEND };
         let mut remaining = all_rules();
         remaining.pop();
         for rules in remaining {
