@@ -47,16 +47,18 @@ pub(crate) fn depth_bias(context: &PassContext<'_>, draw: &Draw, polygon: &Biase
             };
             let low = if low > 1.0 { inside } else { low };
             let high = z.iter().map(|z| z.high).fold(0.0, f64::max);
-            if high == 0.0 {
-                // Zero has no exponent, so the rules give no unit.
+            let least = 2_f64.powi(exponent(low) - 23);
+            let greatest = 2_f64.powi(exponent(high) - 23);
+            if greatest < f64::from(f32::MIN_POSITIVE) {
+                // No unit of the normal numbers; the rules promise no others. Zero has no exponent at all.
                 Interval {
                     low: 0.0,
                     high: 1.0,
                 }
             } else {
                 Interval {
-                    low: 2_f64.powi(exponent(low) - 23) * range.0,
-                    high: 2_f64.powi(exponent(high) - 23) * range.1,
+                    low: least * range.0,
+                    high: greatest * range.1,
                 }
             }
         }

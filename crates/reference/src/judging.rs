@@ -309,9 +309,14 @@ impl<'r> Judging<'r> {
                 }
             }
             ChannelEncoding::Float16 | ChannelEncoding::Ufloat(_) => {
-                let low = encoding.value_of_order(encoding.order_below(value.low));
+                // Blending into a format without a sign may be computed without one, or with one and the
+                // format's magnitudes.
+                let low = if value.low < encoding.value_of_order(encoding.min_order()) {
+                    -encoding.value_of_order(encoding.order_above(-value.low))
+                } else {
+                    encoding.value_of_order(encoding.order_below(value.low))
+                };
                 let high = encoding.value_of_order(encoding.order_above(value.high));
-                // Blending into a format without a sign may be computed without one.
                 Interval {
                     low: low.min(value.low),
                     high: high.max(value.high),

@@ -601,22 +601,13 @@ fn may_be_biased_to<const N: usize>(z: f32, depths: [f32; N]) -> [bool; N] {
 }
 
 #[test]
-fn a_bias_that_is_no_normal_number_may_be_nothing() {
-    let z = f32::MIN_POSITIVE * 64.0;
+fn a_bias_whose_unit_is_no_normal_number_is_unknown() {
+    let depths = [0.0, f32::MIN_POSITIVE, 0.5];
+    assert_eq!(may_be_biased_to(0.0, depths), [true; 3]);
+    let z = f32::MIN_POSITIVE * 8_388_608.0;
+    assert_eq!(may_be_biased_to(z / 2.0, [z / 2.0, 0.5]), [true, true]);
     let biased = f32::from_bits(z.to_bits() + 255);
-    let beyond = z + f32::MIN_POSITIVE;
-    assert_eq!(
-        may_be_biased_to(z, [z, biased, beyond]),
-        [true, true, false]
-    );
-}
-
-#[test]
-fn a_polygon_whose_depths_are_all_zero_has_no_exponent_and_any_bias() {
-    assert_eq!(
-        may_be_biased_to(0.0, [0.0, f32::MIN_POSITIVE, 0.5]),
-        [true; 3]
-    );
+    assert_eq!(may_be_biased_to(z, [biased, z * 1.5]), [true, false]);
 }
 
 #[test]

@@ -207,7 +207,9 @@ fn short_blend(
 fn decoded(encoding: ChannelEncoding, code: u32) -> f64 {
     match encoding {
         ChannelEncoding::Srgb8 => etalon_frame::srgb_to_linear(f64::from(code) / 255.0),
-        ChannelEncoding::Float16 => encoding.value_of_order(encoding.order_of_code(code)),
+        ChannelEncoding::Float16 | ChannelEncoding::Ufloat(_) => {
+            encoding.value_of_order(encoding.order_of_code(code))
+        }
         _ => f64::from(code) / 255.0,
     }
 }
@@ -236,19 +238,21 @@ proptest! {
     }
 
     #[test]
-    fn a_blend_in_floats_of_16_bits_is_legal_in_attachments_of_them(
+    fn a_blend_in_floats_of_the_destinations_bits_is_legal(
         src in [factor(), factor(), factor(), factor()],
         dst in [factor(), factor(), factor(), factor()],
-        bits in 11_i32..=24,
+        is_short in any::<bool>(),
+        more_bits in 0_i32..=13,
         direction in -1_i8..=1,
     ) {
-        let encoding = ChannelEncoding::Float16;
+        let (encoding, bits) = if is_short {
+            (ChannelEncoding::Ufloat(6), 7)
+        } else {
+            (ChannelEncoding::Float16, 11)
+        };
         let dst = dst.map(|v| encoding.nearest_code(f64::from(v)));
-        let results = short_blend(encoding, |v| short(bits, direction, v), src, dst);
-        let codes = results.map(|v| match direction {
-            1 => encoding.order_above(v),
-            _ => encoding.order_below(v),
-        });
+        let results = short_blend(encoding, |v| short(bits + more_bits, direction, v), src, dst);
+        let codes = results.map(|v| encoding.order_below(v));
         let state = BlendState { color: SHORT_BLEND, alpha: SHORT_BLEND };
         let mut remaining = all_rules();
         remaining.pop();
