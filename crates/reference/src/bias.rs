@@ -47,13 +47,25 @@ pub(crate) fn depth_bias(context: &PassContext<'_>, draw: &Draw, polygon: &Biase
             };
             let low = if low > 1.0 { inside } else { low };
             let high = z.iter().map(|z| z.high).fold(0.0, f64::max);
-            Interval {
-                low: 2_f64.powi(exponent(low) - 23) * range.0,
-                high: 2_f64.powi(exponent(high) - 23) * range.1,
+            let least = 2_f64.powi(exponent(low) - 23);
+            let greatest = 2_f64.powi(exponent(high) - 23);
+            if greatest < f64::from(f32::MIN_POSITIVE) {
+                // No unit of the normal numbers; the rules promise no others. Zero has no exponent at all.
+                Interval {
+                    low: 0.0,
+                    high: 1.0,
+                }
+            } else {
+                Interval {
+                    low: least * range.0,
+                    high: greatest * range.1,
+                }
             }
         }
     };
-    let by_constant = flushed(unit).times(Interval::exact(f64::from(state.constant)));
+    let by_constant = unit
+        .may_underflow()
+        .times(Interval::exact(f64::from(state.constant)));
     let by_slope = (polygon.slope)().times(Interval::exact(f64::from(state.slope)));
     let sum = by_constant
         .plus(by_slope)
@@ -93,17 +105,6 @@ pub(crate) fn clamped_at_vertices(bias: Interval, z: &[Interval]) -> Interval {
         low: held(farthest + bias.low) - farthest,
         high: held(nearest + bias.high) - nearest,
     })
-}
-
-/// Returns a unit that includes 0 if it is too small for a normal number: the specifications promise a
-/// relative accuracy and no denormalized numbers (OpenGL 4.6 and OpenGL ES 3.2, 2.3.4.1; Vulkan,
-/// Floating-Point Computation).
-fn flushed(unit: Interval) -> Interval {
-    if unit.low < f64::from(f32::MIN_POSITIVE) {
-        unit.hull(Interval::exact(0.0))
-    } else {
-        unit
-    }
 }
 
 /// Returns the least and the greatest slope of a plane that grows by `across` and `down` over a texel.

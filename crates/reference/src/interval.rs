@@ -156,7 +156,13 @@ impl Interval {
     /// float can be infinite.
     #[inline]
     pub fn may_overflow(self) -> Self {
-        let greatest = f64::from(f32::MAX);
+        self.may_exceed(f64::from(f32::MAX))
+    }
+
+    /// Returns the results of a step that may be computed in a format with this greatest number: an end
+    /// beyond it can be infinite.
+    #[inline]
+    pub fn may_exceed(self, greatest: f64) -> Self {
         Self {
             low: if self.low < -greatest {
                 f64::NEG_INFINITY
@@ -168,6 +174,19 @@ impl Interval {
             } else {
                 self.high
             },
+        }
+    }
+
+    /// Returns the results of a step that may be computed in 32-bit floats without subnormal numbers: a result
+    /// below the least normal one can be 0. The specifications promise a relative accuracy and no subnormal
+    /// numbers (OpenGL 4.6 and OpenGL ES 3.2, 2.3.4.1; Vulkan, Floating-Point Computation).
+    #[inline]
+    pub fn may_underflow(self) -> Self {
+        let least = f64::from(f32::MIN_POSITIVE);
+        if self.low < least && self.high > -least {
+            self.hull(Self::exact(0.0))
+        } else {
+            self
         }
     }
 

@@ -198,7 +198,8 @@ impl<'r> Judging<'r> {
     /// Returns the floats that one step of a blend may compute for an exact result.
     #[inline]
     fn float_step(&self, encoding: ChannelEncoding, exact: Interval) -> Interval {
-        self.float_outward(encoding, exact, exact.widen_relative(self.error()))
+        let computed = exact.widen_relative(self.error()).may_underflow();
+        self.float_outward(encoding, exact, computed)
     }
 
     /// Returns the results that one step of a blend may compute for an exact result.
@@ -226,6 +227,27 @@ impl<'r> Judging<'r> {
             float: value.float,
             codes,
             fixed,
+        }
+    }
+
+    /// Rounds a product or a sum that is not computed in floating-point of 32 bits. The range of a blend may
+    /// be the destination's, whose infinity stands for magnitudes beyond the greatest number (OpenGL 4.6,
+    /// 17.3.6.1 and 2.3.4.1).
+    #[inline]
+    fn result_on_grids(&self, encoding: ChannelEncoding, value: Range) -> Range {
+        let rounded = self.on_grids(encoding, value);
+        if !matches!(
+            encoding,
+            ChannelEncoding::Float16 | ChannelEncoding::Ufloat(_)
+        ) || !self.is_coarse()
+        {
+            return rounded;
+        }
+        let greatest = encoding.value_of_order(encoding.max_order());
+        Range {
+            float: rounded.float,
+            codes: rounded.codes.may_exceed(greatest),
+            fixed: rounded.fixed.may_exceed(greatest),
         }
     }
 
@@ -287,9 +309,14 @@ impl<'r> Judging<'r> {
                 }
             }
             ChannelEncoding::Float16 | ChannelEncoding::Ufloat(_) => {
-                let low = encoding.value_of_order(encoding.order_below(value.low));
+                // Blending into a format without a sign may be computed without one, or with one and the
+                // format's magnitudes.
+                let low = if value.low < encoding.value_of_order(encoding.min_order()) {
+                    -encoding.value_of_order(encoding.order_above(-value.low))
+                } else {
+                    encoding.value_of_order(encoding.order_below(value.low))
+                };
                 let high = encoding.value_of_order(encoding.order_above(value.high));
-                // Blending into a format without a sign may be computed without one.
                 Interval {
                     low: low.min(value.low),
                     high: high.max(value.high),
@@ -568,10 +595,10 @@ impl Arithmetic for Judging<'_> {
         } else {
             self.float_step(encoding, exact.float)
         };
-        let rounded = if self.advanced {
-            self.on_grids(encoding, exact)
-        } else {
-            exact
+        let rounded = match encoding {
+            // The complement of an integer is an integer.
+            ChannelEncoding::Unorm(_) | ChannelEncoding::Snorm(_) if !self.advanced => exact,
+            _ => self.on_grids(encoding, exact),
         };
         Range { float, ..rounded }
     }
@@ -607,7 +634,7 @@ impl Arithmetic for Judging<'_> {
         };
         Range {
             float: float.may_overflow(),
-            ..self.on_grids(encoding, product)
+            ..self.result_on_grids(encoding, product)
         }
     }
 
@@ -635,7 +662,7 @@ impl Arithmetic for Judging<'_> {
             // A sum of floats is rounded like any result; one of integers is an integer.
             _ if self.advanced => self.on_grids(encoding, sum),
             ChannelEncoding::Float16 | ChannelEncoding::Ufloat(_) | ChannelEncoding::Srgb8 => {
-                self.on_grids(encoding, sum)
+                self.result_on_grids(encoding, sum)
             }
             _ => sum,
         };

@@ -584,19 +584,30 @@ fn alpha_does_nothing_to_the_coverage_of_integers() {
     }
 }
 
-#[test]
-fn a_bias_that_is_no_normal_number_may_be_nothing() {
+/// Returns true for each depth that a polygon of one depth may have after a constant bias of 255.
+fn may_be_biased_to<const N: usize>(z: f32, depths: [f32; N]) -> [bool; N] {
     let scene = scene(
         &format!(r#"{COLOR},"depth":{{"format":"depth32float","clear":1}}"#),
-        r#"{"mesh":{"kind":"full","z":0},"shader":"uniform_color","depth_bias":{"constant":255},
-            "depth":{"compare":"always","write":true}}"#,
+        &format!(
+            r#"{{"mesh":{{"kind":"full","z":{z:e}}},"shader":"uniform_color","depth_bias":{{"constant":255}},
+                "depth":{{"compare":"always","write":true}}}}"#
+        ),
         r#""depth""#,
     );
     let limits = limits(Api::Vulkan);
     let set = legal_set(&scene, &limits, &Rules::of(&limits));
     let sample = set.groups[0].sample(0, 0, 0);
-    assert!(sample.allows(&[0]) && sample.allows(&[255]));
-    assert!(!sample.allows(&[i64::from(f32::MIN_POSITIVE.to_bits())]));
+    depths.map(|depth| sample.allows(&[i64::from(depth.to_bits())]))
+}
+
+#[test]
+fn a_bias_whose_unit_is_no_normal_number_is_unknown() {
+    let depths = [0.0, f32::MIN_POSITIVE, 0.5];
+    assert_eq!(may_be_biased_to(0.0, depths), [true; 3]);
+    let z = f32::MIN_POSITIVE * 8_388_608.0;
+    assert_eq!(may_be_biased_to(z / 2.0, [z / 2.0, 0.5]), [true, true]);
+    let biased = f32::from_bits(z.to_bits() + 255);
+    assert_eq!(may_be_biased_to(z, [biased, z * 1.5]), [true, false]);
 }
 
 #[test]

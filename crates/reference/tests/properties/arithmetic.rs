@@ -163,6 +163,10 @@ fn normalized() -> impl Strategy<Value = f32> {
     prop_oneof![0.0_f32..=1.0, code().prop_map(|code| code as f32 / 255.0)]
 }
 
+fn factor() -> impl Strategy<Value = f32> {
+    prop_oneof![-8.0_f32..=8.0, -0.01_f32..=0.01]
+}
+
 /// Rounds to a float with a significand of `bits` bits: down, up or to the nearest.
 fn short(bits: i32, direction: i8, value: f64) -> f64 {
     if value == 0.0 {
@@ -178,7 +182,14 @@ fn short(bits: i32, direction: i8, value: f64) -> f64 {
 }
 
 /// The source weighted by the complement of the destination's alpha, and the destination by the source's
-/// alpha, with every operand and result rounded by `short`.
+/// alpha.
+const SHORT_BLEND: BlendComponent = BlendComponent {
+    operation: BlendOperation::Add,
+    src_factor: BlendFactor::OneMinusDstAlpha,
+    dst_factor: BlendFactor::SrcAlpha,
+};
+
+/// Blends by [`SHORT_BLEND`], with every operand and result rounded by `short`.
 fn short_blend(
     encoding: ChannelEncoding,
     short: impl Fn(f64) -> f64,
@@ -196,6 +207,9 @@ fn short_blend(
 fn decoded(encoding: ChannelEncoding, code: u32) -> f64 {
     match encoding {
         ChannelEncoding::Srgb8 => etalon_frame::srgb_to_linear(f64::from(code) / 255.0),
+        ChannelEncoding::Float16 | ChannelEncoding::Ufloat(_) => {
+            encoding.value_of_order(encoding.order_of_code(code))
+        }
         _ => f64::from(code) / 255.0,
     }
 }
@@ -212,14 +226,34 @@ proptest! {
         srgb in any::<bool>(),
     ) {
         let encoding = if srgb { ChannelEncoding::Srgb8 } else { ChannelEncoding::Unorm(8) };
-        let component = BlendComponent {
-            operation: BlendOperation::Add,
-            src_factor: BlendFactor::OneMinusDstAlpha,
-            dst_factor: BlendFactor::SrcAlpha,
-        };
-        let state = BlendState { color: component, alpha: component };
+        let state = BlendState { color: SHORT_BLEND, alpha: SHORT_BLEND };
         let results = short_blend(encoding, |v| short(bits, direction, v), src, dst);
         let codes = results.map(|v| encoding.position(v.clamp(0.0, 1.0)).map_or(0, |p| p.round() as i64));
+        let mut remaining = all_rules();
+        remaining.pop();
+        for rules in remaining {
+            let intervals = judged(&rules, encoding, &(state, src, dst, [0.0; 4], [0.0; 4]));
+            assert_inside(rules.name, codes, intervals)?;
+        }
+    }
+
+    #[test]
+    fn a_blend_in_floats_of_the_destinations_bits_is_legal(
+        src in [factor(), factor(), factor(), factor()],
+        dst in [factor(), factor(), factor(), factor()],
+        is_short in any::<bool>(),
+        more_bits in 0_i32..=13,
+        direction in -1_i8..=1,
+    ) {
+        let (encoding, bits) = if is_short {
+            (ChannelEncoding::Ufloat(6), 7)
+        } else {
+            (ChannelEncoding::Float16, 11)
+        };
+        let dst = dst.map(|v| encoding.nearest_code(f64::from(v)));
+        let results = short_blend(encoding, |v| short(bits + more_bits, direction, v), src, dst);
+        let codes = results.map(|v| encoding.order_below(v));
+        let state = BlendState { color: SHORT_BLEND, alpha: SHORT_BLEND };
         let mut remaining = all_rules();
         remaining.pop();
         for rules in remaining {
