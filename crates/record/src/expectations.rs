@@ -13,7 +13,7 @@ use crate::grade::Grade;
 use crate::json::without_position;
 use crate::verdict::Verdict;
 use etalon_frame::{shortened, without_mark};
-use globset::{GlobBuilder, GlobMatcher};
+use etalon_glob::Glob;
 use semver::VersionReq;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
@@ -197,10 +197,10 @@ pub struct Expectations {
 
 #[derive(Clone, Debug)]
 struct Globs {
-    adapters: Vec<GlobMatcher>,
-    driver: GlobMatcher,
+    adapters: Vec<Glob>,
+    driver: Glob,
     version: Option<VersionReq>,
-    processor: Option<GlobMatcher>,
+    processor: Option<Glob>,
     /// False if the machine has another processor, or if the run lacks a label.
     applies: bool,
     /// Globs without wildcards, that is, plain ids. Most findings name only those.
@@ -213,11 +213,11 @@ struct Globs {
 #[derive(Clone, Debug)]
 struct CaseGlob {
     prefix: String,
-    glob: GlobMatcher,
+    glob: Glob,
 }
 
 impl CaseGlob {
-    fn new(text: &str, glob: GlobMatcher) -> Self {
+    fn new(text: &str, glob: Glob) -> Self {
         let prefix = text.split(is_special).next().unwrap_or_default();
         Self {
             prefix: prefix.to_owned(),
@@ -245,7 +245,7 @@ impl Globs {
         let named = |name: &str| self.adapters.iter().any(|g| g.is_match(name));
         self.applies
             && (named(&adapter.name) || named(adapter.without_release()))
-            && self.driver.is_match(adapter.driver_text())
+            && self.driver.is_match(&adapter.driver_text())
             && self.version.as_ref().is_none_or(|range| {
                 version_of(adapter).is_some_and(|version| range.matches(&version))
             })
@@ -278,12 +278,6 @@ pub enum Expectation<'a> {
 /// The maximum number of bytes of a file that are read; a longer file does not parse.
 const MAX_BYTES: u64 = 64 << 20;
 const REMEDY: &str = "each entry needs adapter, driver, case, verdict, reason and evidence";
-
-/// Compiles a glob, in which `*` also matches `/`.
-pub fn compile_glob(glob: &str) -> Result<GlobMatcher, globset::Error> {
-    let built = GlobBuilder::new(glob).literal_separator(false).build();
-    built.map(|g| g.compile_matcher())
-}
 
 impl Expectations {
     /// Reads a list of entries, a finding, or a folder of findings in the order of their names.
@@ -383,7 +377,7 @@ impl Expectations {
             remedy,
         };
         let build = |key: &str, glob: &String| {
-            compile_glob(glob).map_err(|e| {
+            Glob::new(glob).map_err(|e| {
                 let e = shortened(&e.to_string());
                 fail(glob, format!("\"{key}\": {e}"))
             })

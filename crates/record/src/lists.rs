@@ -174,7 +174,7 @@ fn entry(id: &str, verdict: Verdict, about: &About) -> Entry {
         adapter: about.adapter.clone(),
         driver: about.driver.clone(),
         version: about.version.clone(),
-        case: globset::escape(id),
+        case: etalon_glob::escape(id),
         verdict,
         reason: about.reason.clone(),
         evidence: about.evidence.clone(),
