@@ -1,6 +1,6 @@
 //! Matching: all steps that a text can have reached, character by character.
 
-use crate::Step;
+use crate::step::Step;
 
 /// Returns true if the steps take the whole text.
 pub(crate) fn is_match(steps: &[Step], text: &str) -> bool {

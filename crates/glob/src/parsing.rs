@@ -1,6 +1,6 @@
 //! Parsing.
 
-use crate::Step;
+use crate::step::Step;
 use std::iter::Peekable;
 use std::str::Chars;
 use thiserror::Error;

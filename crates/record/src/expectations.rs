@@ -674,6 +674,7 @@ mod tests {
             api_version: String::new(),
             software: true,
             release: None,
+            offer: None,
             limits: Limits {
                 api: Api::OpenGl,
                 version: etalon_frame::ApiVersion::UNKNOWN,

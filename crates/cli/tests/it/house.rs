@@ -121,6 +121,7 @@ const TABLE: [(&str, &[&str], &[&str]); 33] = [
             "stats",
             "truth",
             "vulkan",
+            "webgpu",
             "wgpu",
         ],
         &[],
