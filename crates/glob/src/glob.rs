@@ -9,8 +9,10 @@ use crate::step::Step;
 pub struct Glob {
     /// The text with which everything that matches begins.
     prefix: String,
-    /// The steps after the prefix.
+    /// The steps between prefix and suffix.
     steps: Vec<Step>,
+    /// The text with which everything that matches ends.
+    suffix: String,
 }
 
 impl Glob {
@@ -20,25 +22,38 @@ impl Glob {
     /// If a bracket or a brace has no partner, a range is reversed, or a backslash ends the glob.
     pub fn new(glob: &str) -> Result<Self, GlobError> {
         let mut steps = parsing::steps(glob)?;
-        let plain = steps.iter().map_while(|step| match step {
+        let plain = |step: &Step| match step {
             Step::Char(c) => Some(*c),
             _ => None,
-        });
-        let prefix: String = plain.collect();
+        };
+        let prefix: String = steps.iter().map_while(plain).collect();
         let removed = prefix.chars().count();
         steps.drain(..removed);
+        // After the last target of a jump, every match takes the same steps.
+        let mut joined = 0;
         for step in &mut steps {
             if let Step::Jump(targets) = step {
                 targets.iter_mut().for_each(|target| *target -= removed);
+                joined = targets
+                    .iter()
+                    .fold(joined, |joined, target| joined.max(*target));
             }
         }
-        Ok(Self { prefix, steps })
+        let suffix = steps[joined..].iter().rev().map_while(plain);
+        let suffix: Vec<char> = suffix.collect();
+        steps.truncate(steps.len() - suffix.len());
+        Ok(Self {
+            prefix,
+            steps,
+            suffix: suffix.into_iter().rev().collect(),
+        })
     }
 
     /// Returns true if the whole text matches.
     pub fn is_match(&self, text: &str) -> bool {
         let rest = text.strip_prefix(&self.prefix);
-        rest.is_some_and(|rest| matching::is_match(&self.steps, rest))
+        let middle = rest.and_then(|rest| rest.strip_suffix(&self.suffix));
+        middle.is_some_and(|middle| matching::is_match(&self.steps, middle))
     }
 }
 
@@ -109,6 +124,7 @@ mod tests {
             &["ae", "abce"],
         );
         check("a{,b}", &["a", "ab"], &["b"]);
+        check("x{a,bc}d", &["xad", "xbcd"], &["xcd", "xd"]);
         check("a,b", &["a,b"], &["a"]);
         check("[{]a[}]", &["{a}"], &["a"]);
     }
