@@ -29,7 +29,7 @@ pub use recording::{
     RecordedCounter, RecordedImage, Recording, VulkanNeeds,
 };
 
-use etalon_frame::{ErrorKind, Frame, Limits, Requirement};
+use etalon_frame::{DeviceOffer, ErrorKind, Frame, Limits, Requirement};
 use etalon_scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
@@ -56,6 +56,9 @@ pub struct AdapterInfo {
     pub api_version: String,
     /// True for a software rasterizer.
     pub software: bool,
+    /// What the device offers, in backend `webgpu`.
+    #[serde(default)]
+    pub offer: Option<DeviceOffer>,
 }
 
 /// An open connection to one driver.

@@ -50,7 +50,6 @@ pub enum Source {
 pub struct BrowserBackend {
     info: AdapterInfo,
     device: Device,
-    features: Vec<String>,
     session: Session,
     options: Options,
     next_slot: Cell<u64>,
@@ -93,8 +92,7 @@ pub fn open(name: &str, mut options: Options) -> Result<BrowserBackend, Unavaila
         .map_err(failed)?;
     Ok(BrowserBackend {
         info: adapter::info(name, &hello),
-        device: adapter::device(&hello).map_err(failed)?,
-        features: hello.features,
+        device: adapter::device(&hello.offer).map_err(failed)?,
         session,
         options,
         next_slot: Cell::new(0),
@@ -136,8 +134,9 @@ impl Backend for BrowserBackend {
 
     fn recording(&self) -> Option<Recording> {
         let list = self.recorded.borrow_mut().take()?;
-        let device = &self.info.device;
-        etalon_webgpu::recording(&list, "webgpu", device, self.features.clone()).ok()
+        let offer = self.info.offer.as_ref()?;
+        let features = offer.features.clone();
+        etalon_webgpu::recording(&list, "webgpu", &self.info.device, features).ok()
     }
 
     fn messages(&self) -> Vec<String> {

@@ -23,8 +23,8 @@ pub struct Report {
     pub expected: Vec<Expected>,
     /// The states that differ from the default.
     pub states: Vec<String>,
-    /// The number of runs that failed, and of all runs.
-    pub frequency: [u32; 2],
+    /// The number of runs that failed, and of all runs; `None` if the case was not drawn for the report.
+    pub frequency: Option<[u32; 2]>,
     /// The result of the API's own checks.
     pub checks: Checks,
     /// The program's language.
@@ -108,11 +108,13 @@ impl Report {
                 plain(&wrong.actual)
             );
         }
-        let [failed, runs] = self.frequency;
-        let _ = write!(
-            text,
-            "\nIt fails in {failed} of {runs} runs, each in its own process. "
-        );
+        let _ = match self.frequency {
+            Some([failed, runs]) => write!(
+                text,
+                "\nIt fails in {failed} of {runs} runs, each in its own process. "
+            ),
+            None => write!(text, "\nThe values come from a saved run. "),
+        };
         text.push_str(&match &self.checks {
             Checks::Clean => {
                 "The API's own checks (debug output, validation) report nothing.\n".to_owned()
@@ -237,6 +239,7 @@ mod tests {
                 driver_id: String::new(),
                 api_version: "OpenGL 3.3 core".to_owned(),
                 software: true,
+                offer: None,
             },
             machine: "Linux".to_owned(),
             versions: Some(Versions {
@@ -249,7 +252,7 @@ mod tests {
                 actual: "0".to_owned(),
             }],
             states: vec!["cull_mode: back".to_owned()],
-            frequency: [20, 20],
+            frequency: Some([20, 20]),
             checks: Checks::Clean,
             language: Language::C,
             run: "GALLIUM_DRIVER=softpipe ./repro".to_owned(),

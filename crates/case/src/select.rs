@@ -2,7 +2,7 @@
 
 use crate::file::{CaseRef, Profile};
 use crate::library::Library;
-use globset::{GlobBuilder, GlobSet, GlobSetBuilder};
+use etalon_glob::{Glob, GlobError};
 use std::collections::BTreeSet;
 use thiserror::Error;
 
@@ -17,19 +17,19 @@ pub struct Selection<'a> {
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum SelectError {
     /// A glob does not parse.
-    #[error("`{glob}` is not a glob: {message}")]
+    #[error("`{glob}` is not a glob: {error}")]
     Glob {
         /// The glob.
         glob: String,
         /// The error.
-        message: String,
+        error: GlobError,
     },
 }
 
 /// Globs over ids or names, in which `*` also matches `/`. A glob without special characters also matches
 /// everything below it: `depth` includes `depth/*`. An empty list matches everything.
 #[derive(Clone, Debug)]
-pub struct Globs(Option<GlobSet>);
+pub struct Globs(Vec<Glob>);
 
 impl Globs {
     /// Parses globs.
@@ -37,13 +37,27 @@ impl Globs {
     /// # Errors
     /// If a glob does not parse.
     pub fn new(globs: &[String]) -> Result<Self, SelectError> {
-        let set = glob_set(globs)?;
-        Ok(Self((!globs.is_empty()).then_some(set)))
+        let mut parsed = Vec::new();
+        for glob in globs {
+            let mut add = |text: &str| -> Result<(), SelectError> {
+                let error = |error| SelectError::Glob {
+                    glob: glob.clone(),
+                    error,
+                };
+                parsed.push(Glob::new(text).map_err(error)?);
+                Ok(())
+            };
+            add(glob)?;
+            if !glob.contains(['*', '?', '[', '{']) {
+                add(&format!("{}/*", glob.trim_end_matches('/')))?;
+            }
+        }
+        Ok(Self(parsed))
     }
 
     /// Returns true if any of the globs matches.
     pub fn matches(&self, name: &str) -> bool {
-        self.0.as_ref().is_none_or(|set| set.is_match(name))
+        self.0.is_empty() || self.0.iter().any(|glob| glob.is_match(name))
     }
 }
 
@@ -87,29 +101,6 @@ pub fn left_out(
     Ok(in_areas.count().saturating_sub(selected.len()) as u64)
 }
 
-fn glob_set(globs: &[String]) -> Result<GlobSet, SelectError> {
-    let fail = |glob: &str, error: &globset::Error| SelectError::Glob {
-        glob: glob.to_owned(),
-        message: error.kind().to_string(),
-    };
-    let mut builder = GlobSetBuilder::new();
-    for glob in globs {
-        let mut add = |text: &str| -> Result<(), SelectError> {
-            let parsed = GlobBuilder::new(text)
-                .literal_separator(false)
-                .build()
-                .map_err(|e| fail(glob, &e))?;
-            builder.add(parsed);
-            Ok(())
-        };
-        add(glob)?;
-        if !glob.contains(['*', '?', '[', '{']) {
-            add(&format!("{}/*", glob.trim_end_matches('/')))?;
-        }
-    }
-    builder.build().map_err(|e| fail("", &e))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -118,12 +109,12 @@ mod tests {
     fn a_star_matches_slashes_and_a_plain_name_what_is_below() {
         let selected = |globs: &[&str]| {
             let globs: Vec<String> = globs.iter().map(|g| (*g).to_owned()).collect();
-            glob_set(&globs).expect("globs")
+            Globs::new(&globs).expect("globs")
         };
-        assert!(selected(&["depth/*"]).is_match("depth/compare/compare=less/write=true"));
-        assert!(selected(&["*write=true"]).is_match("depth/compare/compare=less/write=true"));
-        assert!(selected(&["depth"]).is_match("depth/compare/compare=less"));
-        assert!(!selected(&["depth"]).is_match("depths/compare"));
-        assert!(glob_set(&["a[".to_owned()]).is_err());
+        assert!(selected(&["depth/*"]).matches("depth/compare/compare=less/write=true"));
+        assert!(selected(&["*write=true"]).matches("depth/compare/compare=less/write=true"));
+        assert!(selected(&["depth"]).matches("depth/compare/compare=less"));
+        assert!(!selected(&["depth"]).matches("depths/compare"));
+        assert!(Globs::new(&["a[".to_owned()]).is_err());
     }
 }

@@ -39,6 +39,7 @@ mod provenance;
 mod recorded_frame;
 mod reducing;
 mod report_files;
+mod saved_recording;
 mod saved_run;
 mod scene_text;
 mod shard;

@@ -2,21 +2,29 @@
 
 use crate::failure::Failure;
 use crate::saved_run::folder;
-use etalon_case::Case;
-use etalon_frame::{Aspect, Frame, Image, Limits, ReadPath};
-use etalon_record::{FrameImage, Record, Run};
+use etalon_frame::{Aspect, Frame, Image, ReadPath};
+use etalon_record::{AdapterRecord, FrameImage, Machine, Record, Run};
+use etalon_scene::Scene;
 use std::path::Path;
 
-/// Returns an adapter's limits and its frame of a case's own scene, from a run folder or a saved run. `adapter` can be
-/// `None` if the case has one record.
+/// A frame, and who drew it.
+pub(crate) struct RecordedFrame {
+    pub(crate) machine: Machine,
+    pub(crate) adapter: AdapterRecord,
+    pub(crate) frame: Frame,
+}
+
+/// Returns an adapter's frame of a case's own scene from a run folder or a saved run. `adapter` can be `None` if the
+/// case has one record.
 ///
 /// # Errors
 /// If the run keeps no such frame.
 pub(crate) fn recorded_frame(
     run: &Path,
     adapter: Option<&str>,
-    case: &Case,
-) -> Result<(Limits, Frame), Failure> {
+    case: &str,
+    scene: &Scene,
+) -> Result<RecordedFrame, Failure> {
     let folder = folder(run)?;
     let recorded = Run::read(&folder).map_err(Failure::usage)?;
     let refuse = |why: &str| Failure::usage(format!("{}: {why}", run.display()));
@@ -24,7 +32,7 @@ pub(crate) fn recorded_frame(
     let mut records = recorded
         .records
         .iter()
-        .filter(|r| r.case == case.id)
+        .filter(|r| r.case == case)
         .filter(named);
     let record = records
         .next()
@@ -43,11 +51,8 @@ pub(crate) fn recorded_frame(
     }
     let path = record.frame.as_deref();
     let path = path.ok_or_else(|| refuse("no frame of this case is kept"))?;
-    let limits = recorded.header.adapter(&record.adapter);
-    let limits = limits
-        .ok_or_else(|| refuse("the header lacks the adapter"))?
-        .limits
-        .clone();
+    let adapter = recorded.header.adapter(&record.adapter);
+    let adapter = adapter.ok_or_else(|| refuse("the header lacks the adapter"))?;
     let file = Run::read_frame(&folder, path).map_err(Failure::usage)?;
     if !file.images.iter().all(FrameImage::is_whole) {
         return Err(refuse("the kept frame is damaged"));
@@ -57,9 +62,9 @@ pub(crate) fn recorded_frame(
         if aspect == Aspect::Stencil {
             return ReadPath::Copy;
         }
-        let mut attachments = case.scene.attachments.iter();
+        let mut attachments = scene.attachments.iter();
         let found = attachments.find(|a| a.name == attachment);
-        let support = found.and_then(|a| limits.formats.get(&a.format));
+        let support = found.and_then(|a| adapter.limits.formats.get(&a.format));
         support.map_or(ReadPath::Copy, |support| support.read)
     };
     let images = file.images.into_iter().map(|image| Image {
@@ -75,5 +80,9 @@ pub(crate) fn recorded_frame(
         images: images.collect(),
         counters: record.counters.iter().map(|c| c.actual).collect(),
     };
-    Ok((limits, frame))
+    Ok(RecordedFrame {
+        machine: recorded.header.machine.clone(),
+        adapter: adapter.clone(),
+        frame,
+    })
 }

@@ -60,6 +60,23 @@ impl FailingArguments {
         Duration::from_secs_f64(self.timeout)
     }
 
+    /// Returns the name of the reduced case's file, which is also its id.
+    pub(crate) fn name(&self) -> String {
+        file_name(&self.case, &self.adapter)
+    }
+
+    /// Finds the case.
+    pub(crate) fn candidate(&self) -> Result<Candidate, Failure> {
+        let id = &self.case;
+        let library = library(self.cases.as_ref())?;
+        let document = find(&library, id)?.document().map_err(Failure::usage)?;
+        let case = build(&self.name(), &document).map_err(|e| {
+            let message = format!("the scene of `{id}` cannot be written as a case file: {e}");
+            Failure::usage(message)
+        })?;
+        Ok(Candidate { document, case })
+    }
+
     /// Returns the file of adapters.
     pub(crate) fn adapter_file(&self) -> Option<&Path> {
         self.file.adapter_file.as_deref()
@@ -78,24 +95,17 @@ pub(crate) struct Failing {
 impl Failing {
     /// Finds a case by its id, and starts the adapter.
     pub(crate) fn find(arguments: &FailingArguments) -> Result<Self, Failure> {
-        let FailingArguments {
-            case: id, adapter, ..
-        } = arguments;
-        let library = library(arguments.cases.as_ref())?;
-        let document = find(&library, id)?.document().map_err(Failure::usage)?;
-        let name = file_name(id, adapter);
-        let case = build(&name, &document).map_err(|e| {
-            let message = format!("the scene of `{id}` cannot be written as a case file: {e}");
-            Failure::usage(message)
-        })?;
+        let candidate = arguments.candidate()?;
+        let adapter = &arguments.adapter;
         let (launch, worker) = start(adapter, arguments.adapter_file())?;
-        if let Some(missing) = worker.hello.limits.missing(&case.requirements()) {
+        let limits = &worker.hello.limits;
+        if let Some(missing) = limits.missing(&candidate.case.requirements()) {
             let message = format!("{adapter} does not support {missing}");
             return Err(Failure::usage(message));
         }
         Ok(Self {
-            name,
-            candidate: Candidate { document, case },
+            name: arguments.name(),
+            candidate,
             launch,
             worker,
         })

@@ -35,6 +35,7 @@ pub(crate) fn predict(check: &Check, known: &Known) -> Option<Prediction> {
             driver_id: String::new(),
             api_version: String::new(),
             software: true,
+            offer: None,
         },
         limits: known.lacks?.limits(known.api),
     };

@@ -67,6 +67,7 @@ impl CpuBackend {
                     .to_owned(),
                 api_version: "the reference pipeline in 32-bit floats".to_owned(),
                 software: true,
+                offer: None,
             },
             limits: Limits {
                 api: Api::Vulkan,

@@ -116,12 +116,12 @@ fn entry(record: &Record, adapter: &AdapterRecord, run: &Run, today: &str) -> En
         message => message.chars().take(200).collect(),
     };
     Entry {
-        adapter: globset::escape(&record.adapter),
-        driver: globset::escape(&adapter.driver_text()),
+        adapter: etalon_glob::escape(&record.adapter),
+        driver: etalon_glob::escape(&adapter.driver_text()),
         // A browser is the driver by name, and the device below it is another's.
-        device: (adapter.backend == "webgpu").then(|| globset::escape(&adapter.device)),
+        device: (adapter.backend == "webgpu").then(|| etalon_glob::escape(&adapter.device)),
         version: version_of(adapter).map(|v| format!("={v}")),
-        case: globset::escape(&record.case),
+        case: etalon_glob::escape(&record.case),
         verdict: record.verdict,
         reason: format!("Not explained yet; blessed on {today}."),
         evidence: format!(

@@ -1,6 +1,6 @@
 //! The shortest condition on axes that separates the failing cases of a file from the other drawn cases.
 
-use etalon_record::compile_glob;
+use etalon_glob::Glob;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The maximum number of globs with which a condition is written.
@@ -115,11 +115,15 @@ impl Condition {
         if self.axes.is_empty() {
             return Some(vec![format!("{file}/*")]);
         }
-        let mut globs = vec![globset::escape(file)];
+        let mut globs = vec![etalon_glob::escape(file)];
         for (axis, values) in &self.axes {
-            let parts = values
-                .iter()
-                .map(|value| format!("{}={}", globset::escape(axis), globset::escape(value)));
+            let parts = values.iter().map(|value| {
+                format!(
+                    "{}={}",
+                    etalon_glob::escape(axis),
+                    etalon_glob::escape(value)
+                )
+            });
             let parts: Vec<String> = parts.collect();
             // An axis can come directly after the prefix or after other axes, and is always a whole part of
             // the id.
@@ -152,7 +156,7 @@ impl Condition {
 
 /// Returns true if a glob, in which `*` also matches `/`, matches an id.
 fn names(glob: &str, id: &str) -> bool {
-    compile_glob(glob).is_ok_and(|glob| glob.is_match(id))
+    Glob::new(glob).is_ok_and(|glob| glob.is_match(id))
 }
 
 fn axes(id: &str) -> BTreeMap<&str, &str> {

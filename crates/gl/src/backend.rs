@@ -95,6 +95,7 @@ fn info(name: &str, context: &Context) -> AdapterInfo {
             format!("OpenGL {major}.{minor} core")
         },
         software: context.is_software(),
+        offer: None,
     }
 }
 

@@ -74,7 +74,7 @@ pub(crate) fn open(opening: Opening) -> Result<(Session, Opened), String> {
         }
     }
     let name = name_of(&opening.hello.browser.name, &opening.fault);
-    let device = adapter::device(&opening.hello)?;
+    let device = adapter::device(&opening.hello.offer)?;
     let info = adapter::info(&name, &opening.hello);
     let record = record_of(&info, &device.limits);
     let left_out = left_out(library, profile, &opening.globs, &ids).map_err(|e| e.to_string())?;
@@ -166,6 +166,7 @@ fn record_of(info: &AdapterInfo, limits: &Limits) -> AdapterRecord {
         api_version: info.api_version.clone(),
         software: info.software,
         release: None,
+        offer: info.offer.clone(),
         limits: limits.clone(),
     }
 }

@@ -1,6 +1,6 @@
 //! The adapters of a run or bench, and the adapters that it could not use.
 
-use etalon_frame::Limits;
+use etalon_frame::{DeviceOffer, Limits};
 use serde::{Deserialize, Serialize};
 
 /// An adapter of a run or bench.
@@ -27,6 +27,9 @@ pub struct AdapterRecord {
     /// The release of the driver, if the adapter's description states it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub release: Option<Release>,
+    /// What the device offers, in backend `webgpu`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub offer: Option<DeviceOffer>,
     /// The adapter's limits and features.
     pub limits: Limits,
 }

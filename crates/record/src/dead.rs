@@ -5,11 +5,12 @@
 //! it may be alive.
 
 use crate::error::RecordError;
-use crate::expectations::{Expectations, Known, compile_glob};
+use crate::expectations::{Expectations, Known};
 use crate::folder::DEAD_FILE;
 use crate::run::Run;
 use crate::verdict::Verdict;
 use etalon_frame::state_enum;
+use etalon_glob::Glob;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -234,7 +235,7 @@ fn covers(by: &Known, known: &Known) -> bool {
     let driver = by.driver == "*"
         || by.driver == known.driver
         || !is_pattern(&known.driver)
-            && compile_glob(&by.driver).is_ok_and(|glob| glob.is_match(&known.driver));
+            && Glob::new(&by.driver).is_ok_and(|glob| glob.is_match(&known.driver));
     let version = by.version.is_none() || by.version == known.version;
     let day = match (&by.expires, &known.expires) {
         (None, _) => true,
@@ -301,7 +302,7 @@ fn matches(glob: &str, names: &[String]) -> Vec<usize> {
         let found = names.binary_search_by(|name| name.as_str().cmp(glob));
         return found.into_iter().collect();
     }
-    let Ok(compiled) = compile_glob(glob) else {
+    let Ok(compiled) = Glob::new(glob) else {
         return Vec::new();
     };
     let end = glob.find(['*', '?', '[', '{', '\\']).unwrap_or(glob.len());

@@ -13,7 +13,7 @@ use crate::grade::Grade;
 use crate::json::without_position;
 use crate::verdict::Verdict;
 use etalon_frame::{shortened, without_mark};
-use globset::{GlobBuilder, GlobMatcher};
+use etalon_glob::Glob;
 use semver::VersionReq;
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
@@ -204,11 +204,11 @@ pub struct Expectations {
 
 #[derive(Clone, Debug)]
 struct Globs {
-    adapters: Vec<GlobMatcher>,
-    driver: GlobMatcher,
-    device: Option<GlobMatcher>,
+    adapters: Vec<Glob>,
+    driver: Glob,
+    device: Option<Glob>,
     version: Option<VersionReq>,
-    processor: Option<GlobMatcher>,
+    processor: Option<Glob>,
     /// False if the machine has another processor, or if the run lacks a label.
     applies: bool,
     /// Globs without wildcards, that is, plain ids. Most findings name only those.
@@ -221,11 +221,11 @@ struct Globs {
 #[derive(Clone, Debug)]
 struct CaseGlob {
     prefix: String,
-    glob: GlobMatcher,
+    glob: Glob,
 }
 
 impl CaseGlob {
-    fn new(text: &str, glob: GlobMatcher) -> Self {
+    fn new(text: &str, glob: Glob) -> Self {
         let prefix = text.split(is_special).next().unwrap_or_default();
         Self {
             prefix: prefix.to_owned(),
@@ -244,7 +244,7 @@ fn is_special(c: char) -> bool {
 }
 
 /// Returns true if a glob matches or is absent.
-fn matches_if_given(glob: Option<&GlobMatcher>, text: &str) -> bool {
+fn matches_if_given(glob: Option<&Glob>, text: &str) -> bool {
     glob.is_none_or(|glob| glob.is_match(text))
 }
 
@@ -258,7 +258,7 @@ impl Globs {
         let named = |name: &str| self.adapters.iter().any(|g| g.is_match(name));
         self.applies
             && (named(&adapter.name) || named(adapter.without_release()))
-            && self.driver.is_match(adapter.driver_text())
+            && self.driver.is_match(&adapter.driver_text())
             && matches_if_given(self.device.as_ref(), &adapter.device)
             && self.version.as_ref().is_none_or(|range| {
                 version_of(adapter).is_some_and(|version| range.matches(&version))
@@ -292,12 +292,6 @@ pub enum Expectation<'a> {
 /// The maximum number of bytes of a file that are read; a longer file does not parse.
 const MAX_BYTES: u64 = 64 << 20;
 const REMEDY: &str = "each entry needs adapter, driver, case, verdict, reason and evidence";
-
-/// Compiles a glob, in which `*` also matches `/`.
-pub fn compile_glob(glob: &str) -> Result<GlobMatcher, globset::Error> {
-    let built = GlobBuilder::new(glob).literal_separator(false).build();
-    built.map(|g| g.compile_matcher())
-}
 
 impl Expectations {
     /// Reads a list of entries, a finding, or a folder of findings in the order of their names.
@@ -397,7 +391,7 @@ impl Expectations {
             remedy,
         };
         let build = |key: &str, glob: &String| {
-            compile_glob(glob).map_err(|e| {
+            Glob::new(glob).map_err(|e| {
                 let e = shortened(&e.to_string());
                 fail(glob, format!("\"{key}\": {e}"))
             })
@@ -694,6 +688,7 @@ mod tests {
             api_version: String::new(),
             software: true,
             release: None,
+            offer: None,
             limits: Limits {
                 api: Api::OpenGl,
                 version: etalon_frame::ApiVersion::UNKNOWN,

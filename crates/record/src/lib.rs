@@ -59,7 +59,7 @@ pub use content::{Content, is_marked, overlap};
 pub use dead::{Dead, DeadKind};
 pub use driver_version::version_of;
 pub use error::RecordError;
-pub use expectations::{Entry, Expectation, Expectations, Known, Source, compile_glob};
+pub use expectations::{Entry, Expectation, Expectations, Known, Source};
 pub use expected_symptom::{ExpectedSymptom, Shown, Side};
 pub use findings::{Evidence, Finding, Reading, ReadingVerdict, Seen};
 pub use folder::{

@@ -175,7 +175,7 @@ fn entry(id: &str, verdict: Verdict, about: &About) -> Entry {
         driver: about.driver.clone(),
         device: None,
         version: about.version.clone(),
-        case: globset::escape(id),
+        case: etalon_glob::escape(id),
         verdict,
         reason: about.reason.clone(),
         evidence: about.evidence.clone(),

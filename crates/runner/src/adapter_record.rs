@@ -16,6 +16,7 @@ impl From<&Worker> for AdapterRecord {
             api_version: info.api_version.clone(),
             software: info.software,
             release: worker.release.clone(),
+            offer: info.offer.clone(),
             limits: worker.hello.limits.clone(),
         }
     }

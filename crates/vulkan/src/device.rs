@@ -103,6 +103,7 @@ pub(crate) fn identify(instance: &Instance, physical: vk::PhysicalDevice) -> Ide
         ),
         api_version: version(properties.api_version),
         software: properties.device_type == vk::PhysicalDeviceType::CPU,
+        offer: None,
     };
     Identity { properties, info }
 }

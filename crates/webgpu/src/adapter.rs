@@ -4,7 +4,7 @@ use crate::device::{Abilities, Device};
 use crate::message::Hello;
 use crate::offer::{DeviceLimits, Level, Offer, standard_formats};
 use etalon_backend::AdapterInfo;
-use etalon_frame::Feature;
+use etalon_frame::{DeviceOffer, Feature};
 use std::collections::BTreeSet;
 
 /// Words in the names of software rasterizers.
@@ -38,26 +38,27 @@ pub fn info(name: &str, hello: &Hello) -> AdapterInfo {
             .chain(named)
             .collect::<Vec<_>>()
             .join(", "),
-        api_version: if hello.compatibility {
+        api_version: if hello.offer.compatibility {
             "WebGPU, compatibility mode".to_owned()
         } else {
             "WebGPU".to_owned()
         },
         software,
+        offer: Some(hello.offer.clone()),
     }
 }
 
-/// Returns the facts about a page's device that lowering uses, or the reason if a limit is missing.
-pub fn device(hello: &Hello) -> Result<Device, String> {
-    let has = |name: &str| hello.features.iter().any(|feature| feature == name);
+/// Returns the facts about a device that lowering uses, or the reason if a limit is missing.
+pub fn device(offer: &DeviceOffer) -> Result<Device, String> {
+    let has = |name: &str| offer.features.iter().any(|feature| feature == name);
     let limit = |name: &str| {
-        let value = hello.limits.get(name);
+        let value = offer.limits.get(name);
         let value = value.and_then(|value| u32::try_from(*value).ok());
-        value.ok_or_else(|| format!("the page does not report the limit {name}"))
+        value.ok_or_else(|| format!("the device does not report the limit {name}"))
     };
     let storage = limit("maxStorageBuffersInFragmentStage")
         .or_else(|_| limit("maxStorageBuffersPerShaderStage"))?;
-    let core = !hello.compatibility;
+    let core = !offer.compatibility;
     let level = if core {
         Level::Core
     } else {

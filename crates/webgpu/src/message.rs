@@ -5,9 +5,9 @@
 
 use crate::calls::CallList;
 use etalon_backend::BackendError;
+use etalon_frame::DeviceOffer;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 
 /// The version of the protocol.
 pub const PROTOCOL: u32 = 1;
@@ -34,15 +34,11 @@ pub struct Hello {
     pub protocol: u32,
     /// The browser.
     pub browser: Named,
-    /// True if the device has the feature level `compatibility`.
-    #[serde(default)]
-    pub compatibility: bool,
     /// The adapter of the device.
     pub adapter: Adapter,
-    /// The features of the device, by WebGPU's names.
-    pub features: Vec<String>,
-    /// The limits of the device, by WebGPU's names.
-    pub limits: BTreeMap<String, u64>,
+    /// What the device offers.
+    #[serde(flatten)]
+    pub offer: DeviceOffer,
 }
 
 /// A browser.

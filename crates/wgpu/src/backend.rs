@@ -267,6 +267,7 @@ fn info(via: Via, adapter: &wgpu::Adapter) -> AdapterInfo {
         driver_id: format!("{}, {:04x}:{:04x}", api(via), found.vendor, found.device),
         api_version: format!("WebGPU (wgpu 30 over {})", api(via)),
         software,
+        offer: None,
     }
 }
 

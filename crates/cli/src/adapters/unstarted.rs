@@ -31,6 +31,7 @@ pub(crate) fn take_unstarted(adapters: &mut Adapters) -> Vec<(AdapterRecord, Str
             api_version: String::new(),
             software: false,
             release: None,
+            offer: None,
             limits: Limits {
                 api,
                 version: etalon_frame::ApiVersion::UNKNOWN,

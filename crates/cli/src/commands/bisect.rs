@@ -197,7 +197,7 @@ fn selected(arguments: &Arguments) -> Result<Vec<Case>, Failure> {
         let records = run.records.iter();
         let failed = records.filter(|r| bad(r.verdict) && r.area() != "selftest");
         let before = globs.len();
-        globs.extend(failed.map(|r| globset::escape(&r.case)));
+        globs.extend(failed.map(|r| etalon_glob::escape(&r.case)));
         if globs.len() == before {
             say!("{input}: no case has a bad verdict");
         }

@@ -3,13 +3,15 @@
 use crate::adapters::{Query, discover, releases_of};
 use crate::built_program::{ProgramRun, built_and_run};
 use crate::expectations;
-use crate::failure::{Failure, UNEXPECTED};
+use crate::failure::{Failure, NOTHING, UNEXPECTED};
 use crate::flags::Format;
 use crate::interruption::listen;
 use crate::out_folder::apart;
 use crate::output::{print_json, say, summarize};
 use crate::provenance;
+use crate::recorded_frame::recorded_frame;
 use crate::reducing::{Failing, FailingArguments, started};
+use crate::saved_recording::saved_recording;
 use clap::Args;
 use etalon_backend::{AdapterInfo, Recording};
 use etalon_bundle::{
@@ -18,14 +20,14 @@ use etalon_bundle::{
 };
 use etalon_case::Case;
 use etalon_diagnose::{Subject, Symptom};
-use etalon_explore::states;
-use etalon_frame::{ChannelMismatch, Frame, Limits, WrongTexel};
+use etalon_explore::{Candidate, states};
+use etalon_frame::{ChannelMismatch, Frame, WrongTexel};
 use etalon_judge::{Judge, Judged, judge_texel};
-use etalon_record::{AdapterRecord, Finding, Record, Source};
+use etalon_record::{AdapterRecord, Finding, Machine, Record, Source};
 use etalon_report::{ReducedCase, story_text};
 use etalon_runner::{Launch, Recorded, Worker, smallest};
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// The largest number of wrong samples that a program checks.
@@ -42,6 +44,10 @@ pub(crate) struct Arguments {
     /// Line of a driver; its newest release draws the case too
     #[arg(long, value_name = "LINE")]
     pub(crate) latest: Option<String>,
+    /// Draw nothing, and use the frame that this run keeps: a run folder, or a run that the page saved (`*.tar.gz`).
+    /// The case is not reduced. Only for browsers
+    #[arg(long, value_name = "RUN", conflicts_with = "latest")]
+    pub(crate) run: Option<PathBuf>,
     /// Folder for the bundle, which is a folder with the case's name, and the same as .tar.gz
     #[arg(long, value_name = "DIR", default_value = "reports/bundles")]
     pub(crate) out: PathBuf,
@@ -50,18 +56,25 @@ pub(crate) struct Arguments {
     pub(crate) force: bool,
 }
 
-/// Reduces a failing case, and writes a program that shows the bug without the suite, and a report.
+/// Writes a program that shows a failing case without the suite, and a report.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    apart(&arguments.out, arguments.failing.cases.as_deref())?;
+    match &arguments.run {
+        Some(run) => saved(arguments, run),
+        None => drawn(arguments),
+    }
+}
+
+/// Reduces the case, and draws the smallest one.
+fn drawn(arguments: &Arguments) -> Result<u8, Failure> {
     let failing = &arguments.failing;
-    apart(&arguments.out, failing.cases.as_deref())?;
     let Failing {
         name,
         candidate,
         launch,
         worker,
     } = Failing::find(failing)?;
-    let hello = worker.hello.clone();
-    etalon_bundle::free(&arguments.out, &name, arguments.force).map_err(Failure::usage)?;
+    free(arguments, &name)?;
     let adapter = AdapterRecord::from(&worker);
     let timeout = failing.timeout();
     let smallest = smallest(
@@ -72,37 +85,74 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         timeout,
         listen()?,
     )?;
-    let document = &smallest.reduction.smallest.document;
-    let reduced = Reduced {
+    let bundled = Bundled {
         arguments,
         case: &alone(smallest.reduction.smallest.case.clone()),
-        document,
+        document: &smallest.reduction.smallest.document,
         symptom: &smallest.symptom,
-        limits: &hello.limits,
-        device: &hello.info,
         adapter: &adapter,
+        machine: &provenance::machine(),
+    };
+    let driver = Driver {
         launch: &launch,
         timeout,
     };
-    let evidence = reduced.evidence()?;
-    let (program, ran) = reduced.program(&evidence)?;
-    let mut files = reduced.files(&evidence)?;
-    let made = ran.as_ref().map_or(&[][..], |ran| ran.made.as_slice());
-    files.splice(0..0, program.files.iter().chain(made).cloned());
-    let report = reduced.report(&evidence, program.language, ran.map(|ran| ran.line), &files);
-    files.insert(0, File::text("report.md", "the report", report.markdown()));
-    let written = etalon_bundle::write(&arguments.out, &name, &files, arguments.force)
-        .map_err(Failure::incomplete)?;
-    print(arguments, &report, &written)?;
-    Ok(0)
+    let evidence = bundled.evidence(driver)?;
+    bundled.write(&name, &evidence, Some(driver))
+}
+
+/// Takes the frame from a run.
+fn saved(arguments: &Arguments, run: &Path) -> Result<u8, Failure> {
+    let failing = &arguments.failing;
+    let Candidate { document, case } = failing.candidate()?;
+    let name = failing.name();
+    free(arguments, &name)?;
+    let case = alone(case);
+    let adapter = Some(failing.adapter.as_str());
+    let recorded = recorded_frame(run, adapter, &failing.case, &case.scene)?;
+    let frames = std::slice::from_ref(&recorded.frame);
+    let judged = Judge::default().judge(0, &case, "", &recorded.adapter.limits, frames);
+    if !judged.record.verdict.is_violation() {
+        return Err(Failure {
+            code: NOTHING,
+            message: format!("{}: the frame of this case is not wrong", run.display()),
+        });
+    }
+    let bundled = Bundled {
+        arguments,
+        case: &case,
+        document: &document,
+        symptom: &Symptom::of(&judged.record),
+        adapter: &recorded.adapter,
+        machine: &recorded.machine,
+    };
+    bundled.require_value()?;
+    let recording = saved_recording(&recorded.adapter, &case.scene);
+    let evidence = Evidence {
+        checks: Checks::Absent,
+        recording: recording.map_err(|why| bundled.refused(&why))?,
+        due: bundled.due(&recorded.frame, &judged.record)?,
+        judged,
+        frequency: None,
+        finding: finding(&recorded.adapter, &failing.case)?,
+        newest: None,
+    };
+    bundled.write(&name, &evidence, None)
+}
+
+/// Fails if the folder has a bundle of this name that must not be replaced.
+fn free(arguments: &Arguments, name: &str) -> Result<(), Failure> {
+    etalon_bundle::free(&arguments.out, name, arguments.force).map_err(Failure::usage)
 }
 
 fn print(arguments: &Arguments, report: &Report, written: &Written) -> Result<(), Failure> {
     let FailingArguments { case, adapter, .. } = &arguments.failing;
-    let [failed, runs] = report.frequency;
+    let frequency = report.frequency.map_or(String::new(), |[failed, runs]| {
+        format!("  fails in {failed} of {runs} processes\n")
+    });
     match arguments.failing.format {
         Format::Text => summarize(&format!(
-            "{case} on {adapter}\n  {}\n  {}\n  fails in {failed} of {runs} processes\n  {}\nBundle: {}\nArchive: {}\n",
+            "{case} on {adapter}\n  {}\n  {}\n{frequency}  {}\nBundle: {}\nArchive: {}\n",
             report.title,
             report.sentence,
             report.way(),
@@ -115,8 +165,8 @@ fn print(arguments: &Arguments, report: &Report, written: &Written) -> Result<()
             "title": report.title,
             "sentence": report.sentence,
             "clause": report.clause,
-            "failed": failed,
-            "runs": runs,
+            "failed": report.frequency.map(|[failed, _]| failed),
+            "runs": report.frequency.map(|[_, runs]| runs),
             "clean": report.checks != Checks::Absent,
             "folder": written.folder,
             "archive": written.archive,
@@ -154,54 +204,91 @@ fn alone(mut case: Case) -> Case {
     case
 }
 
-/// The smallest case, and the driver on which it fails.
-struct Reduced<'a> {
+/// The case of a bundle, and the adapter on which it fails.
+struct Bundled<'a> {
     arguments: &'a Arguments,
     case: &'a Case,
     document: &'a Value,
     symptom: &'a Symptom,
-    limits: &'a Limits,
-    device: &'a AdapterInfo,
     adapter: &'a AdapterRecord,
+    machine: &'a Machine,
+}
+
+/// A driver that can draw here.
+#[derive(Clone, Copy)]
+struct Driver<'a> {
     launch: &'a Launch,
     timeout: Duration,
 }
 
-/// The driver's results on the smallest case.
+/// The driver's results on the case.
 struct Evidence {
     checks: Checks,
     recording: Recording,
     judged: Judged,
     due: Due,
-    frequency: [u32; 2],
+    /// The number of processes in which the case failed, and of all that drew it.
+    frequency: Option<[u32; 2]>,
     finding: Option<Finding>,
     /// The newest release of a line, and whether it draws the case wrong.
     newest: Option<(String, bool)>,
 }
 
-impl Reduced<'_> {
+impl Bundled<'_> {
     /// Returns the error of a case that has no bundle.
     fn refused(&self, why: &str) -> Failure {
         let FailingArguments { case, adapter, .. } = &self.arguments.failing;
+        let other = match self.arguments.run {
+            Some(_) => "",
+            None => "; `etalon reduce` writes it as a case file",
+        };
         Failure {
             code: UNEXPECTED,
             message: format!(
-                "no bundle of {case} on {adapter}: {why} ({}); `etalon reduce` writes it as a case file",
+                "no bundle of {case} on {adapter}: {why} ({}){other}",
                 self.symptom
             ),
         }
     }
 
-    fn evidence(&self) -> Result<Evidence, Failure> {
-        let (Subject::Picture(_) | Subject::Counter(_)) = self.symptom.subject else {
-            return Err(self.refused("it is not a wrong value in one picture"));
-        };
+    /// Writes the bundle, and prints a summary.
+    fn write(
+        &self,
+        name: &str,
+        evidence: &Evidence,
+        driver: Option<Driver<'_>>,
+    ) -> Result<u8, Failure> {
+        let arguments = self.arguments;
+        let (program, ran) = self.program(evidence, driver)?;
+        let mut files = self.files(evidence)?;
+        let made = ran.as_ref().map_or(&[][..], |ran| ran.made.as_slice());
+        files.splice(0..0, program.files.iter().chain(made).cloned());
+        let run = driver.map_or(String::new(), |driver| run_command(driver.launch));
+        let built = ran.map(|ran| ran.line);
+        let report = self.report(evidence, program.language, (run, built), &files);
+        files.insert(0, File::text("report.md", "the report", report.markdown()));
+        let written = etalon_bundle::write(&arguments.out, name, &files, arguments.force)
+            .map_err(Failure::incomplete)?;
+        print(arguments, &report, &written)?;
+        Ok(0)
+    }
+
+    /// Fails if the symptom is not a wrong value in one picture.
+    fn require_value(&self) -> Result<(), Failure> {
+        match self.symptom.subject {
+            Subject::Picture(_) | Subject::Counter(_) => Ok(()),
+            _ => Err(self.refused("it is not a wrong value in one picture")),
+        }
+    }
+
+    fn evidence(&self, driver: Driver<'_>) -> Result<Evidence, Failure> {
+        self.require_value()?;
         let checks = self.checks()?;
         let recorded = self.recorded()?;
         let judged = self.judged(&recorded.frame)?;
         let demanded = self.due(&recorded.frame, &judged.record)?;
         let Some(recording) = recorded.recording else {
-            let backend = &self.device.backend;
+            let backend = &self.adapter.backend;
             return Err(self.refused(&format!("calls of backend {backend} are not recorded")));
         };
         let newest = self.arguments.latest.as_ref();
@@ -210,9 +297,9 @@ impl Reduced<'_> {
             recording,
             judged,
             due: demanded,
-            frequency: self.frequency()?,
+            frequency: Some(self.frequency(driver)?),
             finding: finding(self.adapter, &self.arguments.failing.case)?,
-            newest: newest.map(|line| self.newest(line)).transpose()?,
+            newest: newest.map(|line| self.newest(line, driver)).transpose()?,
         })
     }
 
@@ -232,18 +319,25 @@ impl Reduced<'_> {
     }
 
     /// Returns the program, and its run if it ran here. Fails if that run does not show the bug.
-    fn program(&self, evidence: &Evidence) -> Result<(Program, Option<ProgramRun>), Failure> {
+    fn program(
+        &self,
+        evidence: &Evidence,
+        driver: Option<Driver<'_>>,
+    ) -> Result<(Program, Option<ProgramRun>), Failure> {
         let head = Head {
             title: self.title(evidence.finding.as_ref()),
             sentence: self.described(evidence).sentence(),
-            run: run_command(self.launch),
+            run: driver.map_or(String::new(), |driver| run_command(driver.launch)),
         };
         let (program, ran) = shortest(
             |trim| {
                 etalon_bundle::program(&head, &evidence.recording, &evidence.due, trim)
                     .map_err(|e| self.refused(&format!("no program can be printed: {e}")))
             },
-            |program| built_and_run(program, self.launch, self.timeout),
+            |program| match driver {
+                Some(Driver { launch, timeout }) => built_and_run(program, launch, timeout),
+                None => Ok(None),
+            },
         )?;
         if let Some(run) = ran.as_ref().filter(|run| run.status != Some(BUG)) {
             return Err(self.refused(&format!(
@@ -257,7 +351,10 @@ impl Reduced<'_> {
     /// Returns the files next to the program: the case and the pictures.
     fn files(&self, evidence: &Evidence) -> Result<Vec<File>, Failure> {
         let FailingArguments { case, adapter, .. } = &self.arguments.failing;
-        let origin = format!("Reduced from {case} on {adapter}.");
+        let origin = match self.arguments.run {
+            Some(_) => format!("Drawn as {case} on {adapter}."),
+            None => format!("Reduced from {case} on {adapter}."),
+        };
         let mut document = self.document.clone();
         document["about"] = json!(self.described(evidence).about(&origin));
         let text = serde_json::to_string_pretty(&document).map_err(Failure::incomplete)?;
@@ -267,13 +364,13 @@ impl Reduced<'_> {
         Ok(files)
     }
 
-    /// Returns the report. `built` is the program's last line of output, if it ran here; `files` are the
-    /// files next to the report.
+    /// Returns the report. `run` is the command that runs the program, and `built` the program's last line of output, if
+    /// it ran here; `files` are the files next to the report.
     fn report(
         &self,
         evidence: &Evidence,
         language: Language,
-        built: Option<String>,
+        (run, built): (String, Option<String>),
         files: &[File],
     ) -> Report {
         let finding = evidence.finding.as_ref();
@@ -285,10 +382,11 @@ impl Reduced<'_> {
             title: self.title(finding),
             sentence: described.sentence(),
             clause: known.or_else(|| described.clause()),
-            device: self.device.clone(),
+            device: info(self.adapter),
             machine: {
-                let machine = provenance::machine();
-                format!("{}, {}", machine.os, machine.cpu)
+                let known = [self.machine.os.as_str(), self.machine.cpu.as_str()];
+                let known = known.into_iter().filter(|text| !text.is_empty());
+                known.collect::<Vec<_>>().join(", ")
             },
             versions: versions(finding, evidence.newest.clone()),
             expected: expected(record),
@@ -296,7 +394,7 @@ impl Reduced<'_> {
             frequency: evidence.frequency,
             checks: evidence.checks.clone(),
             language,
-            run: run_command(self.launch),
+            run,
             built,
             search: search(self.adapter, self.symptom),
             story: story
@@ -328,7 +426,7 @@ impl Reduced<'_> {
         match recorded.messages.into_iter().next() {
             None => Ok(Checks::Clean),
             // wgpu itself refuses invalid calls, so the message is about the native calls that wgpu makes.
-            Some(message) if self.device.backend == "wgpu" => Ok(Checks::Below(message)),
+            Some(message) if self.adapter.backend == "wgpu" => Ok(Checks::Below(message)),
             Some(message) => Err(self.refused(&format!(
                 "the case does not keep to the rules of the API: {message}"
             ))),
@@ -351,7 +449,7 @@ impl Reduced<'_> {
     /// Judges the recorded frame. Fails if the frame does not show the case's symptom.
     fn judged(&self, frame: &Frame) -> Result<Judged, Failure> {
         let frames = std::slice::from_ref(frame);
-        let judged = Judge::default().judge(0, self.case, "", self.limits, frames);
+        let judged = Judge::default().judge(0, self.case, "", &self.adapter.limits, frames);
         if self.symptom.covers(&Symptom::of(&judged.record)) {
             Ok(judged)
         } else {
@@ -391,7 +489,7 @@ impl Reduced<'_> {
     /// Returns the required values of a sample in all attachments of the same size and sample count.
     fn texel(&self, frame: &Frame, wrong: &WrongTexel) -> Result<Option<DueTexel>, Failure> {
         let WrongTexel { x, y, sample, .. } = *wrong;
-        let judged = judge_texel(self.case, 0, self.limits, [x, y], Some(frame));
+        let judged = judge_texel(self.case, 0, &self.adapter.limits, [x, y], Some(frame));
         let (judgement, _) = judged.map_err(Failure::incomplete)?;
         let is_asked = |image: &&etalon_frame::ImageInfo| {
             let is =
@@ -440,18 +538,18 @@ impl Reduced<'_> {
 
     /// Returns the number of processes in which the case fails with its symptom, and the number of all
     /// processes.
-    fn frequency(&self) -> Result<[u32; 2], Failure> {
+    fn frequency(&self, driver: Driver<'_>) -> Result<[u32; 2], Failure> {
         let mut failed = 0;
         for _ in 0..RUNS {
-            let mut worker = Worker::start(self.launch).map_err(Failure::incomplete)?;
-            let (record, _) = worker.record(self.case, self.timeout);
+            let mut worker = Worker::start(driver.launch).map_err(Failure::incomplete)?;
+            let (record, _) = worker.record(self.case, driver.timeout);
             failed += u32::from(self.symptom.covers(&Symptom::of(&record)));
         }
         Ok([failed, RUNS])
     }
 
     /// Returns the newest release of a line, and whether it draws the case wrong.
-    fn newest(&self, line: &str) -> Result<(String, bool), Failure> {
+    fn newest(&self, line: &str, driver: Driver<'_>) -> Result<(String, bool), Failure> {
         let file = self.arguments.failing.adapter_file();
         let mut releases = releases_of(file, line)?;
         let Some((name, release)) = releases.pop() else {
@@ -467,7 +565,7 @@ impl Reduced<'_> {
                 "adapter {name}, the newest release of {line}, cannot be used"
             )));
         };
-        let (record, _) = worker.record(self.case, self.timeout);
+        let (record, _) = worker.record(self.case, driver.timeout);
         Ok((release.version, record.verdict.is_violation()))
     }
 }
@@ -513,6 +611,21 @@ fn finding(adapter: &AdapterRecord, case: &str) -> Result<Option<Finding>, Failu
             Source::Finding(finding) => Some(finding.clone()),
             Source::Entry(_) => None,
         }))
+}
+
+/// Returns the adapter of a record as its backend describes it.
+fn info(adapter: &AdapterRecord) -> AdapterInfo {
+    AdapterInfo {
+        name: adapter.name.clone(),
+        backend: adapter.backend.clone(),
+        device: adapter.device.clone(),
+        driver: adapter.driver.clone(),
+        driver_version: adapter.driver_version.clone(),
+        driver_id: adapter.driver_id.clone(),
+        api_version: adapter.api_version.clone(),
+        software: adapter.software,
+        offer: adapter.offer.clone(),
+    }
 }
 
 fn versions(finding: Option<&Finding>, newest: Option<(String, bool)>) -> Option<Versions> {

@@ -55,8 +55,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     refuse_outside(scene, arguments)?;
     let (limits, frames) = match (&arguments.run, &arguments.adapter) {
         (Some(run), adapter) => {
-            let (limits, frame) = recorded_frame(run, adapter.as_deref(), &case)?;
-            (limits, vec![frame])
+            let recorded = recorded_frame(run, adapter.as_deref(), &case.id, &case.scene)?;
+            (recorded.adapter.limits, vec![recorded.frame])
         }
         (None, None) => (CpuBackend::new("cpu").limits().clone(), Vec::new()),
         (None, Some(name)) => draw(name, arguments.file.adapter_file.as_deref(), &case)?,

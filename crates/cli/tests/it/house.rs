@@ -9,12 +9,13 @@ use std::process::Command;
 
 /// The folder of each crate, the crates of the workspace that it may use, and the graphics APIs. Development dependencies
 /// are not restricted.
-const TABLE: [(&str, &[&str], &[&str]); 32] = [
+const TABLE: [(&str, &[&str], &[&str]); 33] = [
     ("frame", &[], &[]),
     ("stats", &[], &[]),
+    ("glob", &[], &[]),
     ("scene", &["frame"], &[]),
     ("methods", &["frame", "scene"], &[]),
-    ("case", &["frame", "methods", "scene"], &[]),
+    ("case", &["frame", "glob", "methods", "scene"], &[]),
     ("pipeline", &["frame", "scene"], &[]),
     ("reference", &["frame", "pipeline", "scene"], &[]),
     ("truth", &["frame", "methods", "pipeline", "scene"], &[]),
@@ -49,14 +50,14 @@ const TABLE: [(&str, &[&str], &[&str]); 32] = [
         &["backend", "case", "frame", "methods", "scene"],
         &[],
     ),
-    ("record", &["frame", "stats"], &[]),
+    ("record", &["frame", "glob", "stats"], &[]),
     (
         "judge",
         &["case", "frame", "record", "reference", "scene", "truth"],
         &[],
     ),
     ("findings", &["record"], &[]),
-    ("diagnose", &["frame", "record"], &[]),
+    ("diagnose", &["frame", "glob", "record"], &[]),
     (
         "runner",
         &[
@@ -105,6 +106,7 @@ const TABLE: [(&str, &[&str], &[&str]); 32] = [
             "findings",
             "frame",
             "gl",
+            "glob",
             "history",
             "judge",
             "keeper",
@@ -119,6 +121,7 @@ const TABLE: [(&str, &[&str], &[&str]); 32] = [
             "stats",
             "truth",
             "vulkan",
+            "webgpu",
             "wgpu",
         ],
         &[],

@@ -267,13 +267,13 @@ fn a_page_of_a_browser_charts_the_methods_of_a_question() {
     let (in_report, _) = rest.split_once('"').unwrap();
     let in_report: Value = serde_json::from_str(&in_report.replace("&quot;", "\"")).unwrap();
     assert!(is_close(&points, &in_report), "{points}\n{in_report}");
-    let relay = folder.path().join("relay");
-    let arguments = [
-        "run",
-        "methods/stencil-effects",
-        "--adapter",
-        "webgpu:chromium",
-    ];
+    compare_measurements(folder.path(), "webgpu:chromium");
+}
+
+/// Compares the methods of a saved run with the same cases through the relay.
+fn compare_measurements(above: &Path, adapter: &str) {
+    let [page, relay] = ["page", "relay"].map(|name| above.join(name));
+    let arguments = ["run", "methods/stencil-effects", "--adapter", adapter];
     run(
         &[&arguments[..], &["--out", relay.to_str().unwrap()]].concat(),
         &[0],
@@ -316,6 +316,22 @@ fn is_close(left: &Value, right: &Value) -> bool {
 }
 
 #[test]
+fn a_page_of_firefox_charts_the_methods_of_a_question() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = site(folder.path());
+    let browser = Driven::start("webgpu:firefox");
+    browser.go(&address(&server, "methods=stencil-effects"));
+    browser.wait(QUICK, COMPLETE);
+    browser.wait(30, "document.querySelector('#charts figure.shot')");
+    browser.eval("document.querySelector('#charts figure.shot').scrollIntoView()");
+    browser.wait(20, "document.querySelector('#charts figure.shot canvas')");
+    let saved = save(&browser, folder.path());
+    drop(browser);
+    run(&["report", saved.to_str().unwrap()], &[0]);
+    compare_measurements(folder.path(), "webgpu:firefox");
+}
+
+#[test]
 fn a_page_of_a_browser_shows_planted_faults() {
     let folder = tempfile::tempdir().unwrap();
     let server = site(folder.path());
@@ -353,4 +369,49 @@ fn a_page_of_a_browser_shows_planted_faults() {
         20,
         "document.getElementById('problem').innerText.includes('no case matches')",
     );
+}
+
+#[test]
+fn a_case_of_a_saved_run_has_the_bundle_of_the_same_case_through_the_relay() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = site(folder.path());
+    let browser = Driven::start("webgpu:chromium");
+    let case = "order/repeat-multisample/compare=less/depth=depth24plus";
+    browser.go(&address(&server, &format!("run={case}")));
+    browser.wait(60, COMPLETE);
+    let saved = save(&browser, folder.path());
+    let relay = folder.path().join("relay");
+    let named = [case, "--adapter", "webgpu:chromium", "--out"];
+    run(
+        &[&["run"], &named[..], &[relay.to_str().unwrap()]].concat(),
+        &[0],
+    );
+    let bundle = |from: &Path, code: i32| {
+        let out = folder.path().join("bundles");
+        let from = ["--run", from.to_str().unwrap(), "--force"];
+        let arguments = [&["bundle"], &named[..], &[out.to_str().unwrap()], &from].concat();
+        run(&arguments, &[code]);
+        let name = "order-repeat-multisample-compare-less-depth-depth24plus.webgpu-chromium";
+        out.join(name)
+    };
+    let program = bundle(&relay, 0).join("repro.html");
+    let by_relay = fs::read_to_string(&program).unwrap();
+    let bundled = bundle(&saved, 0);
+    assert_eq!(fs::read_to_string(&program).unwrap(), by_relay);
+    let report = fs::read_to_string(bundled.join("report.md")).unwrap();
+    assert!(report.contains("come from a saved run"), "{report}");
+    browser.go(&format!("file://{}", program.display()));
+    browser.wait(60, "document.title.includes(' is wrong: ')");
+    // Earlier runs do not state what the device offers.
+    let lines = relay.join("run.jsonl");
+    let text = fs::read_to_string(&lines).unwrap();
+    let (header, rest) = text.split_once('\n').unwrap();
+    let mut header: Value = serde_json::from_str(header).unwrap();
+    let offer = header["adapters"][0]
+        .as_object_mut()
+        .unwrap()
+        .remove("offer");
+    assert!(offer.unwrap()["limits"]["maxTextureDimension2D"].is_u64());
+    fs::write(&lines, format!("{header}\n{rest}")).unwrap();
+    bundle(&relay, 1);
 }

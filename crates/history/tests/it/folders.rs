@@ -40,6 +40,7 @@ fn header(cases: u64) -> Header {
                 line: "a".to_owned(),
                 version: "2".to_owned(),
             }),
+            offer: None,
             limits: Limits {
                 api: Api::OpenGlEs,
                 version: ApiVersion::new(3, 2),

@@ -34,6 +34,7 @@ fn header() -> Header {
             api_version: "3.2".to_owned(),
             software: true,
             release: None,
+            offer: None,
             limits: Limits {
                 api: Api::OpenGlEs,
                 version: etalon_frame::ApiVersion::new(3, 2),

@@ -108,6 +108,7 @@ pub(crate) fn run(made: &[Made]) -> Run {
         api_version: String::new(),
         software: !name.starts_with("hw"),
         release: None,
+        offer: None,
         limits: Limits {
             api: Api::Vulkan,
             version: etalon_frame::ApiVersion::new(1, 3),

@@ -64,6 +64,7 @@ pub(crate) fn adapter(name: &str, api: Api) -> AdapterRecord {
         api_version: "1.4.305".to_owned(),
         software: true,
         release: None,
+        offer: None,
         limits: Limits {
             api,
             version: etalon_frame::ApiVersion::UNKNOWN,

@@ -1,0 +1,16 @@
+//! What a WebGPU device offers.
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// The features and limits of a WebGPU device, from which a scene's calls follow.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct DeviceOffer {
+    /// True if the device has the feature level `compatibility`.
+    #[serde(default)]
+    pub compatibility: bool,
+    /// The features, by WebGPU's names.
+    pub features: Vec<String>,
+    /// The limits, by WebGPU's names.
+    pub limits: BTreeMap<String, u64>,
+}

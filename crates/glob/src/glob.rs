@@ -1,0 +1,156 @@
+//! A parsed glob.
+
+use crate::matching;
+use crate::parsing::{self, GlobError};
+use crate::step::Step;
+
+/// A parsed glob.
+#[derive(Clone, Debug)]
+pub struct Glob {
+    /// The text with which everything that matches begins.
+    prefix: String,
+    /// The steps between prefix and suffix.
+    steps: Vec<Step>,
+    /// The text with which everything that matches ends.
+    suffix: String,
+}
+
+impl Glob {
+    /// Parses a glob.
+    ///
+    /// # Errors
+    /// If a bracket or a brace has no partner, a range is reversed, or a backslash ends the glob.
+    pub fn new(glob: &str) -> Result<Self, GlobError> {
+        let mut steps = parsing::steps(glob)?;
+        let plain = |step: &Step| match step {
+            Step::Char(c) => Some(*c),
+            _ => None,
+        };
+        let prefix: String = steps.iter().map_while(plain).collect();
+        let removed = prefix.chars().count();
+        steps.drain(..removed);
+        // After the last target of a jump, every match takes the same steps.
+        let mut joined = 0;
+        for step in &mut steps {
+            if let Step::Jump(targets) = step {
+                targets.iter_mut().for_each(|target| *target -= removed);
+                joined = targets
+                    .iter()
+                    .fold(joined, |joined, target| joined.max(*target));
+            }
+        }
+        let suffix = steps[joined..].iter().rev().map_while(plain);
+        let suffix: Vec<char> = suffix.collect();
+        steps.truncate(steps.len() - suffix.len());
+        Ok(Self {
+            prefix,
+            steps,
+            suffix: suffix.into_iter().rev().collect(),
+        })
+    }
+
+    /// Returns true if the whole text matches.
+    pub fn is_match(&self, text: &str) -> bool {
+        let rest = text.strip_prefix(&self.prefix);
+        let middle = rest.and_then(|rest| rest.strip_suffix(&self.suffix));
+        middle.is_some_and(|middle| matching::is_match(&self.steps, middle))
+    }
+}
+
+/// Returns a glob that matches exactly this text.
+pub fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        if "?*[]{}".contains(c) {
+            escaped.extend(['[', c, ']']);
+        } else {
+            escaped.push(c);
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(glob: &str, matching: &[&str], others: &[&str]) {
+        let parsed = Glob::new(glob).expect("a glob");
+        for text in matching {
+            assert!(parsed.is_match(text), "{glob}: {text}");
+        }
+        for text in others {
+            assert!(!parsed.is_match(text), "{glob}: {text}");
+        }
+    }
+
+    #[test]
+    fn the_whole_text_must_match() {
+        check("depth", &["depth"], &["", "dept", "depths", "a/depth"]);
+        check("", &[""], &["a"]);
+    }
+
+    #[test]
+    fn a_star_also_matches_slashes() {
+        check("depth/*", &["depth/", "depth/a/b=1"], &["depth"]);
+        check("*b=1", &["b=1", "depth/a/b=1"], &["b=10"]);
+        check("a*b*c", &["abc", "a/b/b/c", "abbcc"], &["acb", "ab"]);
+        check("a?c", &["abc", "a/c", "aéc"], &["ac", "abbc"]);
+    }
+
+    #[test]
+    fn two_stars_match_whole_parts_or_nothing() {
+        check("**/b", &["b", "a/b", "a/a/b"], &["ab"]);
+        check("a/**/b", &["a/b", "a/c/b", "a/c/c/b"], &["a/cb", "ab"]);
+        check("a/**", &["a/", "a/b/c"], &["a", "ab"]);
+        check("{**/b,c}", &["b", "a/b", "c"], &["ab"]);
+    }
+
+    #[test]
+    fn classes_have_ranges_and_their_opposite() {
+        check("[a-c1]", &["a", "b", "1"], &["d", "-", "", "ab"]);
+        check("x[!a-c]", &["xd", "x/"], &["xa", "x"]);
+        check("[]-]", &["]", "-"], &["["]);
+        check("[a-]", &["a", "-"], &["b"]);
+    }
+
+    #[test]
+    fn braces_hold_globs() {
+        check("x={a,b?}/y", &["x=a/y", "x=bc/y"], &["x=b/y", "x=a,b?/y"]);
+        check(
+            "{a{b,c},d*}e",
+            &["abe", "ace", "de", "dxe"],
+            &["ae", "abce"],
+        );
+        check("a{,b}", &["a", "ab"], &["b"]);
+        check("x{a,bc}d", &["xad", "xbcd"], &["xcd", "xd"]);
+        check("a,b", &["a,b"], &["a"]);
+        check("[{]a[}]", &["{a}"], &["a"]);
+    }
+
+    #[test]
+    fn an_escaped_text_matches_itself() {
+        for text in ["a*b?[c]{d,e}!", "x={0x1}/y=[1]"] {
+            check(&escape(text), &[text], &["a", "abc"]);
+        }
+        check(r"\*\{", &["*{"], &["a{"]);
+    }
+
+    #[test]
+    fn what_is_not_a_glob_has_an_error() {
+        let error = |glob| Glob::new(glob).expect_err("an error");
+        assert_eq!(error("a["), GlobError::OpenClass);
+        assert_eq!(error("[]"), GlobError::OpenClass);
+        assert_eq!(error("[b-a]"), GlobError::ReversedRange('b', 'a'));
+        assert_eq!(error("{a,{b}"), GlobError::OpenBrace);
+        assert_eq!(error("a}"), GlobError::ClosedBrace);
+        assert_eq!(error("a\\"), GlobError::Backslash);
+    }
+
+    #[test]
+    fn no_glob_takes_long() {
+        let glob = format!("{}c", "{*a,*a}".repeat(100));
+        check(&glob, &[], &["a".repeat(1000).as_str()]);
+    }
+}

@@ -1,0 +1,22 @@
+//! Globs over ids and names.
+//!
+//! | glob | matches |
+//! |---|---|
+//! | `*` | any text, also with `/` |
+//! | `?` | one character |
+//! | `[ab]`, `[a-z]` | one of these characters |
+//! | `[!ab]`, `[^ab]` | one other character |
+//! | `{a,b}` | one of these globs, which can hold more of them |
+//! | `\*` | the character itself |
+//!
+//! `**` is the same as `*`, except that `**/` as a whole part of a path also matches nothing.
+//!
+//! Matching takes time in proportion to the lengths of glob and text, whatever the glob.
+
+mod glob;
+mod matching;
+mod parsing;
+mod step;
+
+pub use glob::{Glob, escape};
+pub use parsing::GlobError;

@@ -1,0 +1,19 @@
+//! The steps of a match.
+
+/// A step of a match. Without a jump, the next step follows.
+#[derive(Clone, Debug)]
+pub(crate) enum Step {
+    /// Takes this character.
+    Char(char),
+    /// Takes any character.
+    Any,
+    /// Takes a character inside, or if `negated` outside, of all ranges.
+    Class {
+        negated: bool,
+        ranges: Vec<(char, char)>,
+    },
+    /// Takes any text.
+    Star,
+    /// Takes nothing, and continues at each of these later steps.
+    Jump(Vec<usize>),
+}
