@@ -24,7 +24,7 @@ const FRAMES: [u32; 4] = [2, 2, 6, 10];
 const SLOWER: u32 = 20;
 const SLOT: u32 = 0;
 
-/// Returns a program that can count here: perf if the processor's counter may be read, otherwise Valgrind.
+/// Returns a program that can count here: perf if the system lets it read the processor's counter, otherwise Valgrind.
 ///
 /// # Errors
 /// If there is neither, with a remedy.
