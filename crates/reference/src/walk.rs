@@ -2,7 +2,6 @@
 //! the others.
 
 use crate::bins::PassSetup;
-use crate::context::PassContext;
 use crate::notes::{Note, Notes, Skipped};
 use crate::possible::Possible;
 use crate::primitive::{Shape, Side, SnappedPrimitive, Triangle, misses};
@@ -11,6 +10,7 @@ use crate::readings::OpenTexts;
 use crate::rounding::all_codes;
 use crate::rules::{Copies, Rules};
 use crate::sample::{self, Sample};
+use crate::setups::setups;
 use crate::snap::units_per_texel;
 use crate::states::Pictures;
 use crate::texels::Texels;
@@ -22,12 +22,12 @@ use etalon_frame::{
 };
 use etalon_pipeline::Point;
 use etalon_scene::{Draw, Scene};
-use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 use std::borrow::Cow;
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// Worlds by sample and number of passes; `None` if the sample is open.
 type Known = HashMap<(Sample, usize), Option<Rc<Worlds>>>;
@@ -43,7 +43,7 @@ pub(crate) struct Walk<'a> {
     pub(crate) limits: &'a Limits,
     pub(crate) rules: &'a Rules,
     /// Per pass.
-    pub(crate) setups: Vec<PassSetup>,
+    pub(crate) setups: Arc<[PassSetup]>,
     /// Per pass and draw.
     pub(crate) open_texts: Vec<Vec<OpenTexts>>,
     /// Per pass, the number of its first draw, counted over the scene from 1.
@@ -131,18 +131,18 @@ impl<'a> Walk<'a> {
         rules: &'a Rules,
         texels: Texels,
     ) -> Self {
-        let contexts = scene.passes.iter().map(|pass| PassContext {
-            rules,
-            limits,
-            size: scene.pass_size(pass),
-            lattice: texels.lattice(scene.pass_size(pass)),
-            depth: pass
-                .depth_stencil
-                .filter(|i| scene.attachments[*i].format.has_depth())
-                .map(|i| depth_encoding(scene, limits, i)),
-        });
-        let passes = contexts.zip(&scene.passes);
-        let setups = passes.map(|(context, pass)| PassSetup::new(&context, pass));
+        let setups = setups(scene, limits, rules, texels);
+        Self::over(scene, limits, rules, texels, setups.into())
+    }
+
+    /// Returns a walk over primitives that were set up before.
+    pub(crate) fn over(
+        scene: &'a Scene,
+        limits: &'a Limits,
+        rules: &'a Rules,
+        texels: Texels,
+        setups: Arc<[PassSetup]>,
+    ) -> Self {
         let open_texts = scene.passes.iter().map(|pass| {
             let each = pass.draws.iter();
             each.map(|draw| OpenTexts::new(rules, scene, pass, draw))
@@ -158,7 +158,7 @@ impl<'a> Walk<'a> {
             scene,
             limits,
             rules,
-            setups: without_lone_geometry(setups.collect()),
+            setups,
             open_texts: open_texts.collect(),
             draw_ids: draw_ids.collect(),
             units: units_per_texel(limits),
@@ -585,23 +585,6 @@ impl<'a> Walk<'a> {
             ReadPath::Shader | ReadPath::Copy => stored,
         }
     }
-}
-
-/// Removes the geometry numbers of primitives that no other primitive of the scene repeats: they would only
-/// distinguish states that are otherwise equal.
-fn without_lone_geometry(mut setups: Vec<PassSetup>) -> Vec<PassSetup> {
-    let mut times: FxHashMap<u64, u32> = FxHashMap::default();
-    let primitives = setups.iter_mut().flat_map(PassSetup::primitives_mut);
-    for geometry in primitives.filter_map(|primitive| primitive.geometry) {
-        *times.entry(geometry).or_default() += 1;
-    }
-    for primitive in setups.iter_mut().flat_map(PassSetup::primitives_mut) {
-        let lone = |geometry: &u64| times[geometry] == 1;
-        if matches!(primitive.shape, Shape::Triangle(_)) {
-            primitive.geometry = primitive.geometry.filter(|g| !lone(g));
-        }
-    }
-    setups
 }
 
 /// Returns worlds with the outcomes of a resolve; `None` if there are too many.
