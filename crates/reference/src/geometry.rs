@@ -54,7 +54,7 @@ impl Geometries {
     ) -> Arc<Geometry> {
         if !is_small(scene) {
             return Arc::new(Geometry {
-                setups: setups(scene, limits, rules, texels).into(),
+                setups: setups(scene, limits, rules, texels, false).into(),
                 strokes: Vec::new(),
             });
         }
@@ -76,7 +76,8 @@ impl Geometries {
         }
         // A clone starts without recorded permissions, so it records only those of this computation.
         let asking = rules.clone();
-        let walk = Walk::new(scene, limits, &asking, texels);
+        let setups = setups(scene, limits, &asking, texels, false);
+        let walk = Walk::over(scene, limits, &asking, texels, setups.into());
         let geometry = Arc::new(Geometry {
             strokes: walk.strokes(),
             setups: walk.setups,

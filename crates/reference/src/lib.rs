@@ -44,6 +44,7 @@ mod sample_state;
 mod sampling;
 mod setup;
 mod setups;
+mod sides;
 mod signature;
 mod snap;
 mod states;

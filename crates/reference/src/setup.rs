@@ -16,11 +16,13 @@ use etalon_scene::{Draw, Interpolation, PolygonMode, PrimitiveVertices};
 use smallvec::{SmallVec, smallvec};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-/// Returns a draw's primitives in drawing order, except those far from all judged texels.
+/// Returns a draw's primitives in drawing order, except those far from all judged texels and those that are not
+/// to be kept.
 pub(crate) fn draw(
     context: &PassContext<'_>,
     draw: &Draw,
     vertices: &mut Vertices,
+    is_kept: impl Fn(&SnappedPrimitive) -> bool,
 ) -> Vec<SnappedPrimitive> {
     let mut primitives = Vec::new();
     if draw.rasterizer_discard {
@@ -41,7 +43,7 @@ pub(crate) fn draw(
     vertices.enter(&draw.viewport);
     let draw_geometry = draw_geometry(draw);
     let assembled = draw.primitives();
-    if context.lattice == Lattice::ALL {
+    if context.keeps_misses {
         primitives.reserve_exact(assembled.len());
     }
     for (index, indices) in assembled.into_iter().enumerate() {
@@ -65,24 +67,23 @@ pub(crate) fn draw(
             (Some(_), Some(_)) => Some(geometry(draw, indices, draw_geometry.clone())),
             _ => None,
         };
-        primitives.extend(parts(context, draw, vertices, indices).map(|parts| {
-            SnappedPrimitive {
-                shape: parts.shape,
-                beyond: is_beyond(draw, indices),
-                color,
-                window_depth: parts.window_depth,
-                clip_depth: Some(parts.clip_depth)
-                    .filter(|depth| !(depth.hull.low >= 0.0 && depth.hull.high <= 1.0))
-                    .map(Box::new),
-                bias: parts.bias,
-                all: parts.all,
-                uv: parts.uv.map(Box::new),
-                reciprocal_w: parts.reciprocal_w.map(Box::new),
-                distances: parts.distances.into(),
-                geometry,
-                index: index as u32,
-            }
-        }));
+        let primitive = parts(context, draw, vertices, indices).map(|parts| SnappedPrimitive {
+            shape: parts.shape,
+            beyond: is_beyond(draw, indices),
+            color,
+            window_depth: parts.window_depth,
+            clip_depth: Some(parts.clip_depth)
+                .filter(|depth| !(depth.hull.low >= 0.0 && depth.hull.high <= 1.0))
+                .map(Box::new),
+            bias: parts.bias,
+            all: parts.all,
+            uv: parts.uv.map(Box::new),
+            reciprocal_w: parts.reciprocal_w.map(Box::new),
+            distances: parts.distances.into(),
+            geometry,
+            index: index as u32,
+        });
+        primitives.extend(primitive.filter(&is_kept));
     }
     primitives
 }

@@ -10,18 +10,21 @@ use etalon_frame::{ChannelEncoding, Limits};
 use etalon_scene::{Pass, Scene};
 use rustc_hash::FxHashMap;
 
-/// Returns the setup of each pass.
+/// Returns the setup of each pass, with the triangles that miss all judged samples or without them.
 pub(crate) fn setups(
     scene: &Scene,
     limits: &Limits,
     rules: &Rules,
     texels: Texels,
+    keeps_misses: bool,
 ) -> Vec<PassSetup> {
     let setups = scene.passes.iter().map(|pass| {
         let context = PassContext {
             rules,
             limits,
             size: scene.pass_size(pass),
+            samples: scene.pass_samples(pass),
+            keeps_misses,
             lattice: texels.lattice(scene.pass_size(pass)),
             depth: pass_depth(scene, limits, pass),
         };

@@ -4,13 +4,14 @@
 use crate::bins::PassSetup;
 use crate::notes::{Note, Notes, Skipped};
 use crate::possible::Possible;
-use crate::primitive::{Shape, Side, SnappedPrimitive, Triangle, misses};
+use crate::primitive::{Shape, Side, SnappedPrimitive, misses};
 use crate::read_back::{converted, depth_encoding, read_path};
 use crate::readings::OpenTexts;
 use crate::rounding::all_codes;
 use crate::rules::{Copies, Rules};
 use crate::sample::{self, Sample};
 use crate::setups::setups;
+use crate::sides::sides;
 use crate::snap::units_per_texel;
 use crate::states::Pictures;
 use crate::texels::Texels;
@@ -131,7 +132,7 @@ impl<'a> Walk<'a> {
         rules: &'a Rules,
         texels: Texels,
     ) -> Self {
-        let setups = setups(scene, limits, rules, texels);
+        let setups = setups(scene, limits, rules, texels, true);
         Self::over(scene, limits, rules, texels, setups.into())
     }
 
@@ -427,45 +428,13 @@ impl<'a> Walk<'a> {
         point: Point,
     ) -> [Side; 3] {
         match &primitive.shape {
-            Shape::Triangle(triangle) => self.sides(triangle, at, point),
+            Shape::Triangle(triangle) => sides(self.rules, triangle, at, point, self.units),
             _ => [Side::Unknown; 3],
         }
     }
 
-    fn sides(&self, triangle: &Triangle, at: Sample, point: Point) -> [Side; 3] {
-        if at.samples == 1 || self.rules.covers_at_positions.value() {
-            return [0, 1, 2].map(|i| triangle.side(i, point));
-        }
-        // The sample's position in the texel is open: it is certainly on one side only if the whole texel is.
-        let corner = |dx: i64, dy: i64| Point {
-            x: (i64::from(at.x) + dx) * self.units,
-            y: (i64::from(at.y) + dy) * self.units,
-        };
-        let corners = [corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)];
-        [0, 1, 2].map(|i| {
-            let [first, others @ ..] = corners.map(|corner| triangle.side(i, corner));
-            match first {
-                Side::Positive | Side::Negative if others.iter().all(|o| *o == first) => first,
-                _ => Side::Unknown,
-            }
-        })
-    }
-
     pub(crate) fn sample_point(&self, at: Sample) -> Point {
-        let position = self
-            .limits
-            .sample_positions
-            .get(&at.samples)
-            .and_then(|positions| positions.get(at.sample as usize))
-            .copied()
-            .unwrap_or([128, 128]);
-        let axis = |texel: u32, offset: u16| {
-            i64::from(texel) * self.units + i64::from(offset) * self.units / 256
-        };
-        Point {
-            x: axis(at.x, position[0]),
-            y: axis(at.y, position[1]),
-        }
+        at.point(self.limits)
     }
 
     /// Returns the legal set of a sample of a picture; nothing is asserted about an open sample.
