@@ -76,7 +76,6 @@ pub(crate) fn draw(
                 .filter(|depth| !(depth.hull.low >= 0.0 && depth.hull.high <= 1.0))
                 .map(Box::new),
             bias: parts.bias,
-            all: parts.all,
             uv: parts.uv.map(Box::new),
             reciprocal_w: parts.reciprocal_w.map(Box::new),
             distances: parts.distances.into(),
@@ -133,8 +132,6 @@ struct Parts {
     window_depth: Depth,
     clip_depth: Depth,
     bias: Interval,
-    /// The hull of all snapped vertices, or of the visible part.
-    all: SnapBox,
     uv: Option<[Varying; 2]>,
     reciprocal_w: Option<Varying>,
     distances: Vec<Distance>,
@@ -229,7 +226,6 @@ fn snapped(
             (shape, window, clip)
         }
     };
-    let [a, b, c] = boxes;
     let over = Over {
         context,
         draw,
@@ -245,7 +241,6 @@ fn snapped(
         window_depth,
         clip_depth,
         bias,
-        all: a.hull(b).hull(c),
     }
 }
 
@@ -303,7 +298,6 @@ fn cut_triangle(
         shape: Shape::Triangle(cut.triangle(boxes, ids)),
         clip_depth: cut.clip_depth(),
         bias,
-        all: cut.bounds(),
         uv: draw.shader.uses_uv().then(|| cut.uv()),
         reciprocal_w: draw.shader.reads_w().then(|| cut.reciprocal_w()),
         distances: clipping
@@ -335,14 +329,12 @@ fn cut_line(context: &PassContext<'_>, draw: &Draw, line: [usize; 2]) -> Option<
         .collect();
     let may_be_missing = cut.may_be_clipped || may_be_lost_behind(context, draw, line);
     distances.extend(may_be_missing.then_some(Distance::UNKNOWN));
-    let [a, b] = cut.ends;
     Some(Parts {
         shape: Shape::Line(cut.ends),
         window_depth: Depth::along(cut.ends, cut.window_z, units, error),
         // The near and far planes have already clipped the line.
         clip_depth: Depth::flat(&[Interval::exact(0.5)]),
         bias: Interval::exact(0.0),
-        all: a.hull(b),
         uv: draw.shader.uses_uv().then(|| [uv(0), uv(1)]),
         reciprocal_w: draw
             .shader
