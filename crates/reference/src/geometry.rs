@@ -10,7 +10,7 @@ use crate::walk::Walk;
 use etalon_frame::Limits;
 use etalon_scene::{Attachment, Contents, Draw, Pass, Scene};
 use std::collections::VecDeque;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// The maximum number of kept geometries.
 const MOST_KEPT: usize = 32;
@@ -25,7 +25,7 @@ const MOST_SAMPLES: u64 = 4096;
 pub(crate) struct Geometry {
     /// Per pass.
     pub(crate) setups: Arc<[PassSetup]>,
-    /// Per pass. Empty if they are not kept.
+    /// Per pass. Empty until a second scene needs them.
     pub(crate) strokes: Vec<Option<PassStrokes>>,
 }
 
@@ -58,42 +58,70 @@ impl Geometries {
                 strokes: Vec::new(),
             });
         }
-        let kept = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        {
-            let mut kept = kept();
-            let serves = |k: &Kept| {
-                k.texels == texels
-                    && same_geometry((&k.scene, &k.limits), (scene, limits))
-                    && rules.agree_on(&k.asked)
-            };
-            let found = kept.iter().position(serves);
-            if let Some(found) = found.and_then(|index| kept.remove(index)) {
-                rules.ask(&found.asked);
-                let geometry = Arc::clone(&found.geometry);
-                kept.push_front(found);
-                return geometry;
+        let serves = |k: &Kept| {
+            k.texels == texels
+                && same_geometry((&k.scene, &k.limits), (scene, limits))
+                && rules.agree_on(&k.asked)
+        };
+        let mut kept = self.lock();
+        let found = kept.iter().position(serves);
+        let found = found.and_then(|index| kept.remove(index));
+        let entry = match found {
+            Some(found) if !found.geometry.strokes.is_empty() => found,
+            found => {
+                drop(kept);
+                let entry = match found {
+                    // Strokes cost more than one picture saves, so only the second scene records them.
+                    Some(found) => found.with_strokes(rules),
+                    None => Kept::new(scene, limits, rules, texels),
+                };
+                kept = self.lock();
+                entry
             }
-        }
+        };
+        rules.ask(&entry.asked);
+        let geometry = Arc::clone(&entry.geometry);
+        kept.truncate(MOST_KEPT - 1);
+        kept.push_front(entry);
+        geometry
+    }
+
+    fn lock(&self) -> MutexGuard<'_, VecDeque<Kept>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Kept {
+    fn new(scene: &Scene, limits: &Limits, rules: &Rules, texels: Texels) -> Self {
         // A clone starts without recorded permissions, so it records only those of this computation.
         let asking = rules.clone();
-        let setups = setups(scene, limits, &asking, texels, false);
-        let walk = Walk::over(scene, limits, &asking, texels, setups.into());
-        let geometry = Arc::new(Geometry {
-            strokes: walk.strokes(),
-            setups: walk.setups,
-        });
-        let asked = asking.asked();
-        rules.ask(&asked);
-        let mut kept = kept();
-        kept.truncate(MOST_KEPT - 1);
-        kept.push_front(Kept {
+        let geometry = Geometry {
+            setups: setups(scene, limits, &asking, texels, false).into(),
+            strokes: Vec::new(),
+        };
+        Self {
             scene: scene.clone(),
             limits: limits.clone(),
             texels,
-            asked,
-            geometry: Arc::clone(&geometry),
-        });
-        geometry
+            asked: asking.asked(),
+            geometry: Arc::new(geometry),
+        }
+    }
+
+    fn with_strokes(self, rules: &Rules) -> Self {
+        let asking = rules.clone();
+        asking.ask(&self.asked);
+        let setups = Arc::clone(&self.geometry.setups);
+        let walk = Walk::over(&self.scene, &self.limits, &asking, self.texels, setups);
+        let geometry = Geometry {
+            strokes: walk.strokes(),
+            setups: walk.setups,
+        };
+        Self {
+            asked: asking.asked(),
+            geometry: Arc::new(geometry),
+            ..self
+        }
     }
 }
 

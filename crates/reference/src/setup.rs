@@ -16,8 +16,8 @@ use etalon_scene::{Draw, Interpolation, PolygonMode, PrimitiveVertices};
 use smallvec::{SmallVec, smallvec};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-/// Returns a draw's primitives in drawing order, except those far from all judged texels and those that are not
-/// to be kept.
+/// Returns a draw's primitives in drawing order, without primitives far from all judged texels and primitives
+/// that `is_kept` refuses.
 pub(crate) fn draw(
     context: &PassContext<'_>,
     draw: &Draw,
