@@ -3,7 +3,9 @@
 
 use etalon_case::Case;
 use etalon_frame::{LegalSet, Limits};
-use etalon_reference::{Judgement, KnownSets, Rules, Texels, judgements_by, legal_set_of_texels};
+use etalon_reference::{
+    Geometries, Judgement, KnownSets, Rules, Texels, judgements_by, legal_set_of_texels,
+};
 use etalon_scene::Scene;
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -28,7 +30,10 @@ type Entry = Arc<Mutex<KnownSets>>;
 
 /// Legal sets by case, scene, limits and permissions.
 #[derive(Debug, Default)]
-pub(crate) struct JudgementCache(Mutex<Cache>);
+pub(crate) struct JudgementCache {
+    cache: Mutex<Cache>,
+    geometries: Geometries,
+}
 
 #[derive(Debug, Default)]
 struct Cache {
@@ -63,7 +68,7 @@ impl JudgementCache {
         move |limits, rules| {
             let key = (number, index, limits.clone());
             self.set(key, rules, |rules| {
-                legal_set_of_texels(scene, limits, rules, texels)
+                legal_set_of_texels(scene, limits, rules, texels, &self.geometries)
             })
         }
     }
@@ -76,7 +81,7 @@ impl JudgementCache {
         rules: &Rules,
         compute: impl FnOnce(&Rules) -> LegalSet,
     ) -> Arc<LegalSet> {
-        let entry = Arc::clone(lock(&self.0).entries.entry(key.clone()).or_default());
+        let entry = Arc::clone(lock(&self.cache).entries.entry(key.clone()).or_default());
         // A second caller waits for the first, because most sets serve both.
         let mut weight = None;
         let set = lock(&entry).get(rules, |rules| {
@@ -87,7 +92,7 @@ impl JudgementCache {
         let Some(weight) = weight else {
             return set;
         };
-        let mut cache = lock(&self.0);
+        let mut cache = lock(&self.cache);
         cache.bytes += weight;
         cache.order.push_back((key, weight));
         while cache.bytes > CACHE_BYTES {

@@ -6,7 +6,7 @@ use crate::judge::{best, regrade};
 use crate::judgement_cache::judged_scene;
 use etalon_case::Case;
 use etalon_frame::{Band, Comparison, Frame, Limits, compare};
-use etalon_reference::{Judgement, Texels, judgements_by, shared_sets};
+use etalon_reference::{Geometries, Judgement, Texels, judgements_by, shared_sets};
 use etalon_scene::Scene;
 
 /// Returns the judgement of a texel of one of a case's scenes. If the API leaves one choice for the whole
@@ -28,7 +28,8 @@ pub fn judge_texel(
     } else {
         Texels::One(texel)
     };
-    let sets = shared_sets(scene, texels);
+    let geometries = Geometries::default();
+    let sets = shared_sets(scene, texels, &geometries);
     let mut judgements = judgements_by(scene, limits, texels, &sets);
     let Some(frame) = frame else {
         return Ok((judgements.swap_remove(0), None));

@@ -4,10 +4,11 @@
 //! `cargo run --release -p etalon-reference --example legal_sets -- hashes 1`
 
 use etalon_backend::Backend;
-use etalon_case::{Case, CaseFile, Library, Profile};
+use etalon_case::{Case, CaseFile, CaseRef, Library, Profile};
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Api, LegalSet, Limits};
-use etalon_reference::{Texels, judgements_of};
+use etalon_reference::{Geometries, Judgement, Texels, judgements_by, shared_sets};
+use etalon_scene::Scene;
 use rustc_hash::FxHasher;
 use std::hash::{Hash, Hasher};
 use std::hint::black_box;
@@ -17,7 +18,7 @@ use std::time::Instant;
 /// The largest number of judged texels of a picture that exists to be measured.
 const MEASURED: u64 = 4096;
 
-/// The number of times that each case is timed; the least time counts.
+/// The number of times that all cases are timed; the least time of each counts.
 const ROUNDS: usize = 3;
 
 fn main() -> ExitCode {
@@ -28,22 +29,35 @@ fn main() -> ExitCode {
     let library = Library::built_in().expect("built-in cases parse");
     let cases = library.cases(Profile::Full);
     let cases = cases.filter(|case| case.id().starts_with(&prefix));
-    let cases = cases.step_by(step.max(1));
-    let cases = cases.map(|case| case.build().expect("built-in cases build"));
+    let cases: Vec<CaseRef<'_>> = cases.step_by(step.max(1)).collect();
+    let count = cases.len();
+    let cases = || {
+        cases
+            .iter()
+            .map(|case| case.build().expect("built-in cases build"))
+    };
     let limits = [Api::Vulkan, Api::OpenGl, Api::OpenGlEs, Api::WebGpu].map(|api| Limits {
         api,
         ..CpuBackend::new("cpu").limits().clone()
     });
+    let geometries = Geometries::default();
     match action.as_str() {
         "hashes" => {
-            for case in cases {
+            for case in cases() {
                 for limits in &limits {
-                    println!("{:016x} {} {}", hash(&case, limits), limits.api, case.id);
+                    let hash = hash(&case, limits, &geometries);
+                    println!("{hash:016x} {} {}", limits.api, case.id);
                 }
             }
         }
         "times" => {
-            let mut times: Vec<f64> = cases.map(|case| time(&case, &limits[0])).collect();
+            let mut times = vec![f64::INFINITY; count];
+            for _ in 0..ROUNDS {
+                let geometries = Geometries::default();
+                for (least, case) in times.iter_mut().zip(cases()) {
+                    *least = least.min(time(&case, &limits[0], &geometries));
+                }
+            }
             times.sort_by(f64::total_cmp);
             let mean = times.iter().sum::<f64>() / times.len().max(1) as f64;
             let at = |share: f64| times[(times.len() as f64 * share) as usize];
@@ -56,14 +70,14 @@ fn main() -> ExitCode {
         }
         // Judges each case once, for a profiler.
         "judge" => {
-            for case in cases {
-                black_box(judgements_of(&case.scene, &limits[0], texels(&case)));
+            for case in cases() {
+                black_box(judge(&case.scene, &case, &limits[0], &geometries));
             }
         }
         // Judges a grid of 2000 triangles a row once, for its memory.
         "grid" => {
             let case = grid(step);
-            black_box(judgements_of(&case.scene, &limits[0], texels(&case)));
+            black_box(judge(&case.scene, &case, &limits[0], &geometries));
         }
         _ => {
             eprintln!(
@@ -97,22 +111,26 @@ fn texels(case: &Case) -> Texels {
     }
 }
 
+/// Returns the judgements of a scene of a case.
+fn judge(scene: &Scene, case: &Case, limits: &Limits, geometries: &Geometries) -> Vec<Judgement> {
+    let texels = texels(case);
+    let sets = shared_sets(scene, texels, geometries);
+    judgements_by(scene, limits, texels, &sets)
+}
+
 /// Returns the time of both bands of a case's scene in milliseconds.
-fn time(case: &Case, limits: &Limits) -> f64 {
-    let times = (0..ROUNDS).map(|_| {
-        let start = Instant::now();
-        black_box(judgements_of(&case.scene, limits, texels(case)));
-        start.elapsed().as_secs_f64() * 1e3
-    });
-    times.fold(f64::INFINITY, f64::min)
+fn time(case: &Case, limits: &Limits, geometries: &Geometries) -> f64 {
+    let start = Instant::now();
+    black_box(judge(&case.scene, case, limits, geometries));
+    start.elapsed().as_secs_f64() * 1e3
 }
 
 /// Returns a hash of both bands of all scenes of a case.
-fn hash(case: &Case, limits: &Limits) -> u64 {
+fn hash(case: &Case, limits: &Limits, geometries: &Geometries) -> u64 {
     let mut hasher = FxHasher::default();
     let variants = case.variants.iter().map(|variant| &variant.scene);
     for scene in std::iter::once(&case.scene).chain(variants) {
-        for judgement in judgements_of(scene, limits, texels(case)) {
+        for judgement in judge(scene, case, limits, geometries) {
             for set in [&judgement.legal, &judgement.yardstick] {
                 hash_set(set, &mut hasher);
             }

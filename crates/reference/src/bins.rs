@@ -4,8 +4,10 @@
 
 use crate::clip::Clip;
 use crate::context::PassContext;
-use crate::primitive::{Shape, SnappedPrimitive};
+use crate::primitive::{Shape, SnappedPrimitive, misses};
+use crate::sample::Sample;
 use crate::setup;
+use crate::sides::sides;
 use crate::snap::units_per_texel;
 use crate::vertex::Vertices;
 use etalon_scene::{Draw, Pass};
@@ -13,6 +15,9 @@ use std::ops::Range;
 
 /// The number of texels beyond a viewport that a primitive clipped by it can still touch.
 const BEYOND_VIEWPORT: i64 = 4;
+
+/// The maximum number of texels whose samples are tried before a triangle is kept.
+const MOST_TRIED: usize = 4;
 
 /// A primitive of a pass, and the texels that it can touch.
 #[derive(Clone, Debug)]
@@ -47,9 +52,12 @@ impl PassSetup {
         };
         let mut vertices = Vertices::of(pass);
         for (d, draw) in pass.draws.iter().enumerate() {
-            let primitives = setup::draw(context, draw, &mut vertices);
+            let touched = |p: &SnappedPrimitive| texels(context.size, draw, p, setup.units);
+            let is_kept =
+                |p: &SnappedPrimitive| context.keeps_misses || reaches(context, p, touched(p));
+            let primitives = setup::draw(context, draw, &mut vertices, is_kept);
             for (i, primitive) in primitives.iter().enumerate() {
-                let [columns, rows] = texels(context.size, draw, primitive, setup.units);
+                let [columns, rows] = touched(primitive);
                 if !columns.is_empty() && !rows.is_empty() {
                     setup.reaches.push(Reach {
                         draw: d as u32,
@@ -120,6 +128,38 @@ impl PassSetup {
             active: Vec::new(),
         }
     }
+}
+
+/// Returns false if a small triangle misses all judged samples of the texels that it can touch.
+fn reaches(
+    context: &PassContext<'_>,
+    primitive: &SnappedPrimitive,
+    [columns, mut rows]: [Range<u32>; 2],
+) -> bool {
+    let Shape::Triangle(triangle) = &primitive.shape else {
+        return true;
+    };
+    if columns.len() * rows.len() > MOST_TRIED {
+        return true;
+    }
+    let units = units_per_texel(context.limits);
+    let covers = |x: u32, y: u32, sample: u32| {
+        let at = Sample {
+            size: context.size,
+            samples: context.samples,
+            x,
+            y,
+            sample,
+        };
+        let point = at.point(context.limits);
+        !misses(triangle, sides(context.rules, triangle, at, point, units))
+    };
+    rows.any(|y| {
+        let judged = columns.clone().filter(|x| context.lattice.contains(*x, y));
+        judged
+            .into_iter()
+            .any(|x| (0..context.samples).any(|sample| covers(x, y, sample)))
+    })
 }
 
 /// Returns the columns and rows of the texels that a primitive can touch.

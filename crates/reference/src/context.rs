@@ -10,6 +10,10 @@ pub(crate) struct PassContext<'a> {
     pub(crate) limits: &'a Limits,
     /// The size of the pass's attachments.
     pub(crate) size: [u32; 2],
+    /// The samples per texel of the attachments.
+    pub(crate) samples: u32,
+    /// True if triangles that miss all judged samples are kept too, for stories.
+    pub(crate) keeps_misses: bool,
     /// The judged texels of the attachments.
     pub(crate) lattice: Lattice,
     /// The encoding of the pass's depth, if it has one.

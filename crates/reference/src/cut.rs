@@ -225,7 +225,7 @@ impl<'a> CutTriangle<'a> {
         } else {
             (-1, -1)
         };
-        Triangle::cut(edges, ids, area)
+        Triangle::cut(edges, ids, area, self.bounds())
     }
 
     /// Returns left, top, right and bottom of the visible part, in units.

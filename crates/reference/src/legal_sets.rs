@@ -1,6 +1,7 @@
 //! Legal sets and stories: both bands of whole pictures, or one sample.
 
 use crate::counting::Tally;
+use crate::geometry::Geometries;
 use crate::known_sets::KnownSets;
 use crate::notes::{Note, Notes};
 use crate::picture::shapes;
@@ -45,17 +46,27 @@ pub fn judgements(scene: &Scene, limits: &Limits) -> Vec<Judgement> {
 /// Returns [`judgements`] of some texels; nothing is asserted about others. Counters are sums over all
 /// texels: unless all are judged, nothing is asserted about counters either.
 pub fn judgements_of(scene: &Scene, limits: &Limits, texels: Texels) -> Vec<Judgement> {
-    judgements_by(scene, limits, texels, &shared_sets(scene, texels))
+    let geometries = Geometries::default();
+    judgements_by(
+        scene,
+        limits,
+        texels,
+        &shared_sets(scene, texels, &geometries),
+    )
 }
 
 /// Returns the function that gives the sets of some texels of a scene, with a cache.
-pub fn shared_sets(scene: &Scene, texels: Texels) -> impl Fn(&Limits, &Rules) -> Arc<LegalSet> {
+pub fn shared_sets(
+    scene: &Scene,
+    texels: Texels,
+    geometries: &Geometries,
+) -> impl Fn(&Limits, &Rules) -> Arc<LegalSet> {
     let known: RefCell<FxHashMap<Limits, KnownSets>> = RefCell::default();
     move |limits, rules| {
         let mut known = known.borrow_mut();
         let sets = known.entry(limits.clone()).or_default();
         sets.get(rules, |rules| {
-            legal_set_of_texels(scene, limits, rules, texels)
+            legal_set_of_texels(scene, limits, rules, texels, geometries)
         })
     }
 }
@@ -134,7 +145,7 @@ fn basis(scene: &Scene, limits: &Limits) -> Limits {
 /// Returns the legal set of all attachments that the scene reads back. For a depth format with several
 /// possible encodings, the first is assumed; see [`judgements`].
 pub fn legal_set(scene: &Scene, limits: &Limits, rules: &Rules) -> LegalSet {
-    legal_set_of_texels(scene, limits, rules, Texels::All)
+    legal_set_of_texels(scene, limits, rules, Texels::All, &Geometries::default())
 }
 
 /// Returns the result of [`legal_set`] for some texels; see [`judgements_of`].
@@ -143,9 +154,11 @@ pub fn legal_set_of_texels(
     limits: &Limits,
     rules: &Rules,
     texels: Texels,
+    geometries: &Geometries,
 ) -> LegalSet {
     let texels = texels.of(scene);
-    let walk = Walk::new(scene, limits, rules, texels);
+    let geometry = geometries.get(scene, limits, rules, texels);
+    let walk = Walk::over(scene, limits, rules, texels, Arc::clone(&geometry.setups));
     let mut builder = LegalSetBuilder::default();
     for index in &scene.read {
         let attachment = &scene.attachments[*index];
@@ -161,7 +174,7 @@ pub fn legal_set_of_texels(
             );
         }
     }
-    walk.paint(&shapes(scene));
+    walk.paint(&shapes(scene), &geometry.strokes);
     let pictures = walk.pictures.borrow();
     for group in 0..builder.groups() {
         let (size, samples) = builder.shape(group);

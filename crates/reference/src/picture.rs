@@ -3,11 +3,11 @@
 //! sample that needs it. The cost depends mostly on the number of different things that happen to texels, and
 //! little on the number of texels.
 
-use crate::bins::Segments;
 use crate::notes::Notes;
 use crate::sample::{Sample, Shape};
-use crate::signature::{Inputs, SampleKey};
+use crate::signature::SampleKey;
 use crate::states::{OPEN, State, States};
+use crate::strokes::{PassStrokes, Strokes, Tracer, runs};
 use crate::texels::Lattice;
 use crate::walk::{Hit, Walk, in_scissor, resolved};
 use crate::world::{Cell, World, Worlds};
@@ -15,7 +15,6 @@ use etalon_scene::{Contents, Scene};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 use std::collections::BTreeSet;
-use std::ops::Range;
 
 /// Outcomes of single draws, by state, draw and signature.
 #[derive(Debug, Default)]
@@ -48,8 +47,8 @@ impl Known {
 
 impl Walk<'_> {
     /// Walks the pictures of some shapes through all passes; [`Walk::earlier`] then answers for every judged
-    /// sample.
-    pub(crate) fn paint(&self, shapes: &[Shape]) {
+    /// sample. `strokes` are the kept strokes of each pass.
+    pub(crate) fn paint(&self, shapes: &[Shape], strokes: &[Option<PassStrokes>]) {
         {
             let mut pictures = self.pictures.borrow_mut();
             for shape in shapes {
@@ -59,7 +58,7 @@ impl Walk<'_> {
             }
         }
         for p in 0..self.scene.passes.len() {
-            self.paint_pass(p);
+            self.paint_pass(p, strokes.get(p).and_then(Option::as_ref));
             self.paint_resolves(p);
         }
     }
@@ -135,7 +134,7 @@ impl Walk<'_> {
         picture
     }
 
-    fn paint_pass(&self, p: usize) {
+    fn paint_pass(&self, p: usize, strokes: Option<&PassStrokes>) {
         let pass = &self.scene.passes[p];
         let shape = (self.scene.pass_size(pass), self.scene.pass_samples(pass));
         let Some(index) = self.pictures.borrow().shape(shape) else {
@@ -148,17 +147,22 @@ impl Walk<'_> {
                 self.load(p, worlds, &mut Notes(None));
             });
         }
-        let inputs: Vec<Inputs> = (0..pass.draws.len()).map(|d| self.inputs(p, d)).collect();
-        let mut stops: Vec<usize> = pass.clears.iter().map(|clear| clear.before).collect();
-        stops.push(pass.draws.len());
-        stops.dedup();
-        let mut next = 0;
-        for stop in stops {
-            if next < stop {
-                self.paint_draws((p, next..stop), &inputs, shape, &mut picture);
+        let tracer = strokes.is_none().then(|| Tracer::new(self, p));
+        for (run, (draws, stop)) in runs(pass).enumerate() {
+            if !draws.is_empty() {
+                let mut brush = Brush {
+                    walk: self,
+                    pass: p,
+                    picture: &mut picture,
+                    known: Known::default(),
+                };
+                match (&tracer, strokes) {
+                    (Some(tracer), _) => tracer.trace(draws, &mut brush),
+                    (None, Some(strokes)) => strokes[run].repeat(&mut brush),
+                    (None, None) => {}
+                }
             }
             self.paint_clears((p, stop), shape, &mut picture);
-            next = stop;
         }
         self.paint_open_draws(p, shape, &mut picture);
         if pass
@@ -190,38 +194,6 @@ impl Walk<'_> {
                 if in_scissor(draw, at) {
                     picture[at.place()..at.place() + samples as usize].fill(OPEN);
                 }
-            });
-        }
-    }
-
-    fn paint_draws(
-        &self,
-        (p, draws): (usize, Range<usize>),
-        inputs: &[Inputs],
-        (size, samples): Shape,
-        picture: &mut [State],
-    ) {
-        let mut brush = Brush {
-            walk: self,
-            pass: p,
-            inputs,
-            size,
-            samples,
-            known: Known::default(),
-            ends: [SampleKey::default(), SampleKey::default()],
-            spare: Vec::new(),
-        };
-        let lattice = self.texels.lattice(size);
-        let setup = &self.setups[p];
-        let mut rows = setup.rows(draws);
-        let mut segments = Segments::default();
-        for y in 0..size[1] {
-            let active = rows.row(y);
-            if active.is_empty() || lattice.first(0, y).is_none_or(|x| x >= size[0]) {
-                continue;
-            }
-            segments.of_row(setup, y, active, |columns, members| {
-                brush.segment(picture, y, columns, members, lattice);
             });
         }
     }
@@ -418,132 +390,37 @@ fn for_each_judged(lattice: Lattice, [width, height]: [u32; 2], mut found: impl 
 struct Brush<'b, 'a> {
     walk: &'b Walk<'a>,
     pass: usize,
-    inputs: &'b [Inputs],
-    size: [u32; 2],
-    samples: u32,
+    picture: &'b mut [State],
     known: Known,
-    /// The signatures of the first and the last texel of a run.
-    ends: [SampleKey; 2],
-    /// Signatures whose memory is reused.
-    spare: Vec<SampleKey>,
+}
+
+impl Strokes for Brush<'_, '_> {
+    fn names_inputs(&self, draw: u32) -> bool {
+        self.known.pays(draw)
+    }
+
+    fn stroke(&mut self, first: Sample, end: u32, signature: &SampleKey) {
+        let mut before = None;
+        for x in first.x..end {
+            let at = Sample { x, ..first };
+            let place = at.place();
+            let old = self.picture[place];
+            match before {
+                Some((state, after)) if state == old => self.picture[place] = after,
+                _ => {
+                    self.texel(at, signature);
+                    before = Some((old, self.picture[place]));
+                }
+            }
+        }
+    }
 }
 
 impl Brush<'_, '_> {
-    fn at(&self, x: u32, y: u32, sample: u32) -> Sample {
-        Sample {
-            size: self.size,
-            samples: self.samples,
-            x,
-            y,
-            sample,
-        }
-    }
-
-    fn sign(&self, at: Sample, members: &[u32], signature: &mut SampleKey) {
-        let setup = &self.walk.setups[self.pass];
-        let members = members.iter().map(|number| setup.member(*number));
-        let pays = |draw: u32| self.known.pays(draw);
-        self.walk
-            .sign(self.pass, self.inputs, at, members, pays, signature);
-    }
-
-    /// Draws over the judged texels of a part of a row.
-    fn segment(
-        &mut self,
-        picture: &mut [State],
-        y: u32,
-        columns: Range<u32>,
-        members: &[u32],
-        lattice: Lattice,
-    ) {
-        let [mut first, mut last] = std::mem::take(&mut self.ends);
-        for sample in 0..self.samples {
-            if lattice == Lattice::ALL {
-                let (left, right) = (columns.start, columns.end - 1);
-                self.sign(self.at(left, y, sample), members, &mut first);
-                if left == right {
-                    self.texel(picture, self.at(left, y, sample), &first);
-                    continue;
-                }
-                self.sign(self.at(right, y, sample), members, &mut last);
-                self.texel(picture, self.at(left, y, sample), &first);
-                self.texel(picture, self.at(right, y, sample), &last);
-                self.between(
-                    picture,
-                    [left, right],
-                    (y, sample),
-                    [&first, &last],
-                    members,
-                );
-            } else {
-                let mut next = columns.start;
-                while let Some(x) = lattice.first(next, y)
-                    && x < columns.end
-                {
-                    self.sign(self.at(x, y, sample), members, &mut first);
-                    self.texel(picture, self.at(x, y, sample), &first);
-                    next = x + 1;
-                }
-            }
-        }
-        self.ends = [first, last];
-    }
-
-    /// Draws over the texels between two whose signatures are known.
-    fn between(
-        &mut self,
-        picture: &mut [State],
-        [left, right]: [u32; 2],
-        (y, sample): (u32, u32),
-        [first, last]: [&SampleKey; 2],
-        members: &[u32],
-    ) {
-        if right - left < 2 {
-            return;
-        }
-        if first.spans(last) {
-            let mut before = None;
-            let step = self.samples as usize;
-            let start = self.at(left + 1, y, sample).place();
-            let end = self.at(right, y, sample).place();
-            for (i, place) in (start..end).step_by(step).enumerate() {
-                let old = picture[place];
-                match before {
-                    Some((state, after)) if state == old => picture[place] = after,
-                    _ => {
-                        let at = self.at(left + 1 + i as u32, y, sample);
-                        self.texel(picture, at, first);
-                        before = Some((old, picture[place]));
-                    }
-                }
-            }
-            return;
-        }
-        let middle = left + (right - left) / 2;
-        let mut signature = self.spare.pop().unwrap_or_default();
-        self.sign(self.at(middle, y, sample), members, &mut signature);
-        self.texel(picture, self.at(middle, y, sample), &signature);
-        self.between(
-            picture,
-            [left, middle],
-            (y, sample),
-            [first, &signature],
-            members,
-        );
-        self.between(
-            picture,
-            [middle, right],
-            (y, sample),
-            [&signature, last],
-            members,
-        );
-        self.spare.push(signature);
-    }
-
     /// Draws over one sample.
-    fn texel(&mut self, picture: &mut [State], at: Sample, signature: &SampleKey) {
+    fn texel(&mut self, at: Sample, signature: &SampleKey) {
         let place = at.place();
-        let mut state = picture[place];
+        let mut state = self.picture[place];
         for (i, part) in signature.parts.iter().enumerate() {
             if state == OPEN {
                 break;
@@ -570,7 +447,7 @@ impl Brush<'_, '_> {
                 }
             };
         }
-        picture[place] = state;
+        self.picture[place] = state;
     }
 
     /// Returns the state of a sample after one draw, with the primitives of the draw that cover the sample.

@@ -5,7 +5,7 @@ use crate::distance::Distance;
 use crate::interval::Interval;
 use crate::possible::Possible;
 use crate::range::Range as Values;
-use crate::snap::{SnapBox, area};
+use crate::snap::{PackedBox, SnapBox, area};
 use crate::varying::Varying;
 use etalon_pipeline::{DepthPlane, Point, edge_value};
 use etalon_scene::InterpolationSampling;
@@ -52,9 +52,9 @@ pub(crate) struct Triangle {
 #[derive(Clone, Debug)]
 enum Edges {
     /// Between snapped vertices.
-    Between([SnapBox; 3]),
-    /// At least one is cut.
-    Cut(Box<[Edge; 3]>),
+    Between([PackedBox; 3]),
+    /// At least one is cut, or very far out. The box contains the part of the triangle that can be visible.
+    Cut(Box<([Edge; 3], SnapBox)>),
 }
 
 /// An edge of a triangle.
@@ -81,8 +81,6 @@ pub(crate) struct SnappedPrimitive {
     pub(crate) clip_depth: Option<Box<Depth>>,
     /// The depth bias.
     pub(crate) bias: Interval,
-    /// All snapped vertices.
-    pub(crate) all: SnapBox,
     /// Texture coordinates, if the shader reads them.
     pub(crate) uv: Option<Box<[Varying; 2]>>,
     /// 1 over the clip-space w, if the shader reads it.
@@ -117,8 +115,15 @@ impl Triangle {
         let bounds = a.hull(b).hull(c);
         // No sample of a texel that the triangle can touch is farther from a vertex.
         let reach = (bounds.high.x - bounds.low.x) + (bounds.high.y - bounds.low.y) + 4 * units;
+        let edges = match vertices.map(PackedBox::new) {
+            [Some(a), Some(b), Some(c)] => Edges::Between([a, b, c]),
+            _ => {
+                let edges = [[a, b], [b, c], [c, a]].map(Edge::Between);
+                Edges::Cut(Box::new((edges, bounds)))
+            }
+        };
         Self {
-            edges: Edges::Between(vertices),
+            edges,
             ids,
             area: area(vertices),
             moved: 2 * moved * reach + 2 * moved * moved,
@@ -127,12 +132,29 @@ impl Triangle {
 
     /// Returns a triangle that can have cut edges. Whether a sample is inside a cut edge never depends on
     /// other primitives.
-    pub(crate) fn cut(edges: [Edge; 3], ids: [VertexId; 3], area: (i64, i64)) -> Self {
+    pub(crate) fn cut(
+        edges: [Edge; 3],
+        ids: [VertexId; 3],
+        area: (i64, i64),
+        bounds: SnapBox,
+    ) -> Self {
         Self {
-            edges: Edges::Cut(Box::new(edges)),
+            edges: Edges::Cut(Box::new((edges, bounds))),
             ids,
             area,
             moved: i64::MAX,
+        }
+    }
+
+    /// Returns the hull of all snapped vertices, or of the visible part.
+    #[inline]
+    fn bounds(&self) -> SnapBox {
+        match &self.edges {
+            Edges::Between(vertices) => {
+                let [a, b, c] = vertices.map(PackedBox::unpacked);
+                a.hull(b).hull(c)
+            }
+            Edges::Cut(cut) => cut.1,
         }
     }
 
@@ -140,8 +162,10 @@ impl Triangle {
     #[inline]
     fn edge_from(&self, i: usize) -> Edge {
         match &self.edges {
-            Edges::Between(vertices) => Edge::Between([vertices[i], vertices[(i + 1) % 3]]),
-            Edges::Cut(edges) => edges[i],
+            Edges::Between(vertices) => {
+                Edge::Between([i, (i + 1) % 3].map(|i| vertices[i].unpacked()))
+            }
+            Edges::Cut(cut) => cut.0[i],
         }
     }
 
@@ -155,7 +179,7 @@ impl Triangle {
     pub(crate) fn side(&self, i: usize, at: Point) -> Side {
         // One corner decides most samples.
         if let Edges::Between(vertices) = &self.edges {
-            let value = edge_value(vertices[i].low, vertices[(i + 1) % 3].low, at);
+            let value = edge_value(vertices[i].low(), vertices[(i + 1) % 3].low(), at);
             if value > self.moved {
                 return Side::Positive;
             } else if value < -self.moved {
@@ -216,7 +240,7 @@ impl Triangle {
             return [among, 0..0];
         };
         for i in 0..3 {
-            let (p, q) = (vertices[i].low, vertices[(i + 1) % 3].low);
+            let (p, q) = (vertices[i].low(), vertices[(i + 1) % 3].low());
             let (dx, dy) = (sign * (q.x - p.x), sign * (q.y - p.y));
             let (at_top, at_bottom) = (dx * (top - p.y), dx * (bottom - p.y));
             let growth = -dy * units;
@@ -285,13 +309,23 @@ impl SnappedPrimitive {
         }
     }
 
+    /// Returns the hull of all snapped vertices, or of the visible part.
+    #[inline]
+    fn hull(&self) -> SnapBox {
+        match &self.shape {
+            Shape::Triangle(triangle) | Shape::Outline(triangle) => triangle.bounds(),
+            Shape::Line([a, b]) => a.hull(*b),
+            Shape::Point(point) => *point,
+        }
+    }
+
     /// Returns the texels that the primitive can touch: left, top, right and bottom, the last two exclusive.
     pub(crate) fn bounds(&self, units: i64) -> [i64; 4] {
         let reach = match self.shape {
             Shape::Triangle(_) => 0,
             _ => 2 * units,
         };
-        let SnapBox { low, high } = self.all;
+        let SnapBox { low, high } = self.hull();
         [
             (low.x - reach).div_euclid(units),
             (low.y - reach).div_euclid(units),
@@ -368,14 +402,15 @@ impl SnappedPrimitive {
 
     /// Returns true if all vertices are inside a rectangle of left, top, width and height.
     pub(crate) fn inside_rect(&self, [x, y, w, h]: [f64; 4]) -> bool {
-        let (low, high) = (self.all.low, self.all.high);
+        let SnapBox { low, high } = self.hull();
         low.x as f64 >= x && low.y as f64 >= y && high.x as f64 <= x + w && high.y as f64 <= y + h
     }
 
     /// Returns true if all vertices are beyond one side of a rectangle by more than `by` units, wherever they
     /// are snapped to.
     pub(crate) fn beyond_rect(&self, [x, y, w, h]: [f64; 4], by: f64) -> bool {
-        let [low, high] = [self.all.low, self.all.high].map(|p| [p.x as f64, p.y as f64]);
+        let hull = self.hull();
+        let [low, high] = [hull.low, hull.high].map(|p| [p.x as f64, p.y as f64]);
         let beyond = |axis: usize, start: f64, length: f64| {
             high[axis] < start - by || low[axis] > start + length + by
         };

@@ -16,11 +16,13 @@ use etalon_scene::{Draw, Interpolation, PolygonMode, PrimitiveVertices};
 use smallvec::{SmallVec, smallvec};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-/// Returns a draw's primitives in drawing order, except those far from all judged texels.
+/// Returns a draw's primitives in drawing order, without primitives far from all judged texels and primitives
+/// that `is_kept` refuses.
 pub(crate) fn draw(
     context: &PassContext<'_>,
     draw: &Draw,
     vertices: &mut Vertices,
+    is_kept: impl Fn(&SnappedPrimitive) -> bool,
 ) -> Vec<SnappedPrimitive> {
     let mut primitives = Vec::new();
     if draw.rasterizer_discard {
@@ -41,7 +43,7 @@ pub(crate) fn draw(
     vertices.enter(&draw.viewport);
     let draw_geometry = draw_geometry(draw);
     let assembled = draw.primitives();
-    if context.lattice == Lattice::ALL {
+    if context.keeps_misses {
         primitives.reserve_exact(assembled.len());
     }
     for (index, indices) in assembled.into_iter().enumerate() {
@@ -65,24 +67,22 @@ pub(crate) fn draw(
             (Some(_), Some(_)) => Some(geometry(draw, indices, draw_geometry.clone())),
             _ => None,
         };
-        primitives.extend(parts(context, draw, vertices, indices).map(|parts| {
-            SnappedPrimitive {
-                shape: parts.shape,
-                beyond: is_beyond(draw, indices),
-                color,
-                window_depth: parts.window_depth,
-                clip_depth: Some(parts.clip_depth)
-                    .filter(|depth| !(depth.hull.low >= 0.0 && depth.hull.high <= 1.0))
-                    .map(Box::new),
-                bias: parts.bias,
-                all: parts.all,
-                uv: parts.uv.map(Box::new),
-                reciprocal_w: parts.reciprocal_w.map(Box::new),
-                distances: parts.distances.into(),
-                geometry,
-                index: index as u32,
-            }
-        }));
+        let primitive = parts(context, draw, vertices, indices).map(|parts| SnappedPrimitive {
+            shape: parts.shape,
+            beyond: is_beyond(draw, indices),
+            color,
+            window_depth: parts.window_depth,
+            clip_depth: Some(parts.clip_depth)
+                .filter(|depth| !(depth.hull.low >= 0.0 && depth.hull.high <= 1.0))
+                .map(Box::new),
+            bias: parts.bias,
+            uv: parts.uv.map(Box::new),
+            reciprocal_w: parts.reciprocal_w.map(Box::new),
+            distances: parts.distances.into(),
+            geometry,
+            index: index as u32,
+        });
+        primitives.extend(primitive.filter(&is_kept));
     }
     primitives
 }
@@ -132,8 +132,6 @@ struct Parts {
     window_depth: Depth,
     clip_depth: Depth,
     bias: Interval,
-    /// The hull of all snapped vertices, or of the visible part.
-    all: SnapBox,
     uv: Option<[Varying; 2]>,
     reciprocal_w: Option<Varying>,
     distances: Vec<Distance>,
@@ -228,7 +226,6 @@ fn snapped(
             (shape, window, clip)
         }
     };
-    let [a, b, c] = boxes;
     let over = Over {
         context,
         draw,
@@ -244,7 +241,6 @@ fn snapped(
         window_depth,
         clip_depth,
         bias,
-        all: a.hull(b).hull(c),
     }
 }
 
@@ -302,7 +298,6 @@ fn cut_triangle(
         shape: Shape::Triangle(cut.triangle(boxes, ids)),
         clip_depth: cut.clip_depth(),
         bias,
-        all: cut.bounds(),
         uv: draw.shader.uses_uv().then(|| cut.uv()),
         reciprocal_w: draw.shader.reads_w().then(|| cut.reciprocal_w()),
         distances: clipping
@@ -334,14 +329,12 @@ fn cut_line(context: &PassContext<'_>, draw: &Draw, line: [usize; 2]) -> Option<
         .collect();
     let may_be_missing = cut.may_be_clipped || may_be_lost_behind(context, draw, line);
     distances.extend(may_be_missing.then_some(Distance::UNKNOWN));
-    let [a, b] = cut.ends;
     Some(Parts {
         shape: Shape::Line(cut.ends),
         window_depth: Depth::along(cut.ends, cut.window_z, units, error),
         // The near and far planes have already clipped the line.
         clip_depth: Depth::flat(&[Interval::exact(0.5)]),
         bias: Interval::exact(0.0),
-        all: a.hull(b),
         uv: draw.shader.uses_uv().then(|| [uv(0), uv(1)]),
         reciprocal_w: draw
             .shader

@@ -52,7 +52,7 @@ pub(crate) struct Part {
 }
 
 /// The signature of a sample over all draws of a pass that can touch it.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct SampleKey {
     pub(crate) words: Vec<u64>,
     /// The draws that touch the sample, in order.
@@ -80,6 +80,16 @@ impl SampleKey {
     pub(crate) fn hits_of(&self, part: usize) -> &[(u32, Hit)] {
         let end = self.parts.get(part + 1).map(|next| next.first_hit as usize);
         &self.hits[self.parts[part].first_hit as usize..end.unwrap_or(self.hits.len())]
+    }
+
+    /// Returns words that are equal for samples that the same primitives cover with equal signatures.
+    pub(crate) fn identity(&self) -> Vec<u64> {
+        let parts = self.parts.iter();
+        let parts = parts.map(|part| u64::from(part.draw) << 32 | u64::from(part.first_word));
+        let primitives = self.hits.iter().map(|(primitive, _)| u64::from(*primitive));
+        let lengths = (self.words.len() as u64) << 32 | self.parts.len() as u64;
+        let words = std::iter::once(lengths).chain(self.words.iter().copied());
+        words.chain(parts).chain(primitives).collect()
     }
 
     /// Returns true if all samples in a row between two samples with these signatures have the same
@@ -339,15 +349,20 @@ impl Walk<'_> {
 }
 
 impl Inputs {
+    /// Returns true if signatures have values that earlier passes drew.
+    pub(crate) fn reads_earlier_passes(&self) -> bool {
+        let drawn = |texture: &Texture| matches!(texture, Texture::Value(_));
+        self.textures.iter().any(drawn)
+    }
+
     /// Returns true if inputs of a primitive's fragments vary over it.
     fn vary(&self, primitive: &SnappedPrimitive) -> bool {
-        let drawn = |texture: &Texture| matches!(texture, Texture::Value(_));
         (self.depth || self.depth_seen) && !primitive.window_depth.is_flat()
             || primitive.w_varies()
             || primitive.uv_varies()
             || self.coordinates
             || self.mask_seen
-            || self.textures.iter().any(drawn)
+            || self.reads_earlier_passes()
     }
 
     /// Returns the values that are constant over a primitive.

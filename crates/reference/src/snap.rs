@@ -11,6 +11,34 @@ pub(crate) struct SnapBox {
     pub(crate) high: Point,
 }
 
+/// A box in half the memory. Its numbers fit into 32 bits.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PackedBox([[i32; 2]; 2]);
+
+impl PackedBox {
+    /// Returns a box; `None` if its numbers do not fit.
+    pub(crate) fn new(unpacked: SnapBox) -> Option<Self> {
+        let axis = |v: i64| i32::try_from(v).ok();
+        let point = |p: Point| Some([axis(p.x)?, axis(p.y)?]);
+        Some(Self([point(unpacked.low)?, point(unpacked.high)?]))
+    }
+
+    #[inline]
+    pub(crate) fn low(self) -> Point {
+        let [[x, y], _] = self.0.map(|p| p.map(i64::from));
+        Point { x, y }
+    }
+
+    #[inline]
+    pub(crate) fn unpacked(self) -> SnapBox {
+        let [_, [x, y]] = self.0.map(|p| p.map(i64::from));
+        SnapBox {
+            low: self.low(),
+            high: Point { x, y },
+        }
+    }
+}
+
 impl SnapBox {
     pub(crate) fn corners(self) -> [Point; 4] {
         let point = |x, y| Point { x, y };

@@ -2,15 +2,16 @@
 //! the others.
 
 use crate::bins::PassSetup;
-use crate::context::PassContext;
 use crate::notes::{Note, Notes, Skipped};
 use crate::possible::Possible;
-use crate::primitive::{Shape, Side, SnappedPrimitive, Triangle, misses};
+use crate::primitive::{Shape, Side, SnappedPrimitive, misses};
 use crate::read_back::{converted, depth_encoding, read_path};
 use crate::readings::OpenTexts;
 use crate::rounding::all_codes;
 use crate::rules::{Copies, Rules};
 use crate::sample::{self, Sample};
+use crate::setups::setups;
+use crate::sides::sides;
 use crate::snap::units_per_texel;
 use crate::states::Pictures;
 use crate::texels::Texels;
@@ -22,12 +23,12 @@ use etalon_frame::{
 };
 use etalon_pipeline::Point;
 use etalon_scene::{Draw, Scene};
-use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 use std::borrow::Cow;
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// Worlds by sample and number of passes; `None` if the sample is open.
 type Known = HashMap<(Sample, usize), Option<Rc<Worlds>>>;
@@ -43,7 +44,7 @@ pub(crate) struct Walk<'a> {
     pub(crate) limits: &'a Limits,
     pub(crate) rules: &'a Rules,
     /// Per pass.
-    pub(crate) setups: Vec<PassSetup>,
+    pub(crate) setups: Arc<[PassSetup]>,
     /// Per pass and draw.
     pub(crate) open_texts: Vec<Vec<OpenTexts>>,
     /// Per pass, the number of its first draw, counted over the scene from 1.
@@ -131,18 +132,18 @@ impl<'a> Walk<'a> {
         rules: &'a Rules,
         texels: Texels,
     ) -> Self {
-        let contexts = scene.passes.iter().map(|pass| PassContext {
-            rules,
-            limits,
-            size: scene.pass_size(pass),
-            lattice: texels.lattice(scene.pass_size(pass)),
-            depth: pass
-                .depth_stencil
-                .filter(|i| scene.attachments[*i].format.has_depth())
-                .map(|i| depth_encoding(scene, limits, i)),
-        });
-        let passes = contexts.zip(&scene.passes);
-        let setups = passes.map(|(context, pass)| PassSetup::new(&context, pass));
+        let setups = setups(scene, limits, rules, texels, true);
+        Self::over(scene, limits, rules, texels, setups.into())
+    }
+
+    /// Returns a walk over primitives that were set up before.
+    pub(crate) fn over(
+        scene: &'a Scene,
+        limits: &'a Limits,
+        rules: &'a Rules,
+        texels: Texels,
+        setups: Arc<[PassSetup]>,
+    ) -> Self {
         let open_texts = scene.passes.iter().map(|pass| {
             let each = pass.draws.iter();
             each.map(|draw| OpenTexts::new(rules, scene, pass, draw))
@@ -158,7 +159,7 @@ impl<'a> Walk<'a> {
             scene,
             limits,
             rules,
-            setups: without_lone_geometry(setups.collect()),
+            setups,
             open_texts: open_texts.collect(),
             draw_ids: draw_ids.collect(),
             units: units_per_texel(limits),
@@ -427,45 +428,13 @@ impl<'a> Walk<'a> {
         point: Point,
     ) -> [Side; 3] {
         match &primitive.shape {
-            Shape::Triangle(triangle) => self.sides(triangle, at, point),
+            Shape::Triangle(triangle) => sides(self.rules, triangle, at, point, self.units),
             _ => [Side::Unknown; 3],
         }
     }
 
-    fn sides(&self, triangle: &Triangle, at: Sample, point: Point) -> [Side; 3] {
-        if at.samples == 1 || self.rules.covers_at_positions.value() {
-            return [0, 1, 2].map(|i| triangle.side(i, point));
-        }
-        // The sample's position in the texel is open: it is certainly on one side only if the whole texel is.
-        let corner = |dx: i64, dy: i64| Point {
-            x: (i64::from(at.x) + dx) * self.units,
-            y: (i64::from(at.y) + dy) * self.units,
-        };
-        let corners = [corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)];
-        [0, 1, 2].map(|i| {
-            let [first, others @ ..] = corners.map(|corner| triangle.side(i, corner));
-            match first {
-                Side::Positive | Side::Negative if others.iter().all(|o| *o == first) => first,
-                _ => Side::Unknown,
-            }
-        })
-    }
-
     pub(crate) fn sample_point(&self, at: Sample) -> Point {
-        let position = self
-            .limits
-            .sample_positions
-            .get(&at.samples)
-            .and_then(|positions| positions.get(at.sample as usize))
-            .copied()
-            .unwrap_or([128, 128]);
-        let axis = |texel: u32, offset: u16| {
-            i64::from(texel) * self.units + i64::from(offset) * self.units / 256
-        };
-        Point {
-            x: axis(at.x, position[0]),
-            y: axis(at.y, position[1]),
-        }
+        at.point(self.limits)
     }
 
     /// Returns the legal set of a sample of a picture; nothing is asserted about an open sample.
@@ -585,23 +554,6 @@ impl<'a> Walk<'a> {
             ReadPath::Shader | ReadPath::Copy => stored,
         }
     }
-}
-
-/// Removes the geometry numbers of primitives that no other primitive of the scene repeats: they would only
-/// distinguish states that are otherwise equal.
-fn without_lone_geometry(mut setups: Vec<PassSetup>) -> Vec<PassSetup> {
-    let mut times: FxHashMap<u64, u32> = FxHashMap::default();
-    let primitives = setups.iter_mut().flat_map(PassSetup::primitives_mut);
-    for geometry in primitives.filter_map(|primitive| primitive.geometry) {
-        *times.entry(geometry).or_default() += 1;
-    }
-    for primitive in setups.iter_mut().flat_map(PassSetup::primitives_mut) {
-        let lone = |geometry: &u64| times[geometry] == 1;
-        if matches!(primitive.shape, Shape::Triangle(_)) {
-            primitive.geometry = primitive.geometry.filter(|g| !lone(g));
-        }
-    }
-    setups
 }
 
 /// Returns worlds with the outcomes of a resolve; `None` if there are too many.

@@ -2,6 +2,7 @@
 //! walked alone.
 
 use super::legal_set_of_texels;
+use crate::geometry::Geometries;
 use crate::notes::Notes;
 use crate::rules::Rules;
 use crate::sample::Sample;
@@ -26,7 +27,7 @@ fn alone(walk: &Walk<'_>, at: Sample) -> TexelSet {
 }
 
 fn check(id: &str, scene: &Scene, limits: &Limits, rules: &Rules) {
-    let set = legal_set_of_texels(scene, limits, rules, Texels::All);
+    let set = legal_set_of_texels(scene, limits, rules, Texels::All, &Geometries::default());
     let walk = Walk::new(scene, limits, rules, Texels::All);
     for group in &set.groups {
         let ([width, height], samples) = (group.size, group.samples);

@@ -401,6 +401,18 @@ macro_rules! rules {
                 })
             }
 
+            /// Asks for what was asked of other rules.
+            pub(crate) fn ask(&self, asked: &AskedValues) {
+                for (name, _) in &asked.0 {
+                    match *name {
+                        $(stringify!($field) => {
+                            self.$field.value();
+                        })+
+                        _ => {}
+                    }
+                }
+            }
+
             /// Returns every permission's name, citation and grade.
             pub fn permissions(&self) -> Vec<(&'static str, &'static str, Grade)> {
                 vec![

@@ -3,7 +3,7 @@
 use crate::common::{APIS, limits};
 use etalon_case::{Library, Profile};
 use etalon_frame::{ApiVersion, Limits, ReadPath};
-use etalon_reference::{KnownSets, Rules, Texels, judgements_by, legal_set_of_texels};
+use etalon_reference::{Geometries, KnownSets, Rules, Texels, judgements_by, legal_set_of_texels};
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 
@@ -39,6 +39,7 @@ fn rules_that_agree_on_what_was_asked_give_the_same_sets() {
             .any(|a| id.starts_with(a))
     };
     let cases = quick.filter(|case| is_small(&case.id())).step_by(23);
+    let geometries = Geometries::default();
     let (mut sets, computed) = (0, Cell::new(0));
     for case in cases {
         let case = case.build().expect("a built-in case builds");
@@ -49,12 +50,18 @@ fn rules_that_agree_on_what_was_asked_give_the_same_sets() {
                 let sets = known.entry(basis.clone()).or_default();
                 sets.get(rules, |rules| {
                     computed.set(computed.get() + 1);
-                    legal_set_of_texels(&case.scene, basis, rules, Texels::All)
+                    legal_set_of_texels(&case.scene, basis, rules, Texels::All, &geometries)
                 })
             };
             for judgement in judgements_by(&case.scene, &limits, Texels::All, &given) {
                 let legal_by = |rules: &Rules| {
-                    legal_set_of_texels(&case.scene, &judgement.limits, rules, Texels::All)
+                    legal_set_of_texels(
+                        &case.scene,
+                        &judgement.limits,
+                        rules,
+                        Texels::All,
+                        &Geometries::default(),
+                    )
                 };
                 let yardstick = Rules::yardstick(&judgement.limits);
                 assert_eq!(

@@ -4,7 +4,7 @@
 use crate::common::{draw, limits};
 use etalon_case::{Library, Profile};
 use etalon_frame::{Api, Aspect, Frame, compare};
-use etalon_reference::{Texels, judgements, shared_sets};
+use etalon_reference::{Geometries, Texels, judgements, shared_sets};
 use etalon_scene::Scene;
 
 /// The constants of the scene's columns, left to right, two texels wide each.
@@ -44,7 +44,11 @@ fn wrong(scene: &Scene, api: Api, frame: &Frame) -> (u64, u64) {
             .wrong
     };
     let fitted = judgement
-        .fitted(scene, frame, &shared_sets(scene, Texels::All))
+        .fitted(
+            scene,
+            frame,
+            &shared_sets(scene, Texels::All, &Geometries::default()),
+        )
         .expect("its frame");
     (count(&judgement.legal), count(&fitted.legal))
 }
@@ -57,7 +61,11 @@ fn the_usual_step_is_found_and_leaves_few_codes() {
         assert_eq!(wrong(&scene, api, &frame), (0, 0), "{api}");
         let judgement = judgements(&scene, &limits(api)).remove(0);
         let fitted = judgement
-            .fitted(&scene, &frame, &shared_sets(&scene, Texels::All))
+            .fitted(
+                &scene,
+                &frame,
+                &shared_sets(&scene, Texels::All, &Geometries::default()),
+            )
             .expect("its frame");
         for (aspect, figures) in fitted.legal.statistics() {
             let mean = figures.codes as f64 / figures.channels as f64;
