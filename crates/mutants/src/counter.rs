@@ -16,7 +16,7 @@ fn counts(kind: CounterKind, bug: fn(u64) -> u64) -> Plant {
     })
 }
 
-const RUNS: &str = "Vulkan: Fragment Shader Execution: a fragment may have several runs, whose stores and \
+const RUNS: &str = "Vulkan: Fragment Shading: a fragment may have several runs, whose stores and \
                     atomics have the normal effect";
 
 bugs! {

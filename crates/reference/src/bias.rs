@@ -50,10 +50,11 @@ pub(crate) fn depth_bias(context: &PassContext<'_>, draw: &Draw, polygon: &Biase
             let least = 2_f64.powi(exponent(low) - 23);
             let greatest = 2_f64.powi(exponent(high) - 23);
             if greatest < f64::from(f32::MIN_POSITIVE) {
-                // No unit of the normal numbers; the rules promise no others. Zero has no exponent at all.
+                // No unit of the normal numbers; the rules promise no others. Zero has no exponent at all, but
+                // no depth has one above 0.
                 Interval {
                     low: 0.0,
-                    high: 1.0,
+                    high: 2_f64.powi(-23) * range.1,
                 }
             } else {
                 Interval {

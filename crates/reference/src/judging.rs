@@ -231,19 +231,23 @@ impl<'r> Judging<'r> {
     }
 
     /// Rounds a product or a sum that is not computed in floating-point of 32 bits. The range of a blend may
-    /// be the destination's, whose infinity stands for magnitudes beyond the greatest number (OpenGL 4.6,
-    /// 17.3.6.1 and 2.3.4.1).
+    /// be the destination's, whose infinity stands for magnitudes beyond the greatest number, and that of
+    /// 16-bit floats in advanced blends. "Dynamic range no lower than" (OpenGL 4.6, 17.3.6.1) overrides the
+    /// 2^32 of 2.3.4.1, as the precision there overrides 1 part in 10^5.
     #[inline]
     fn result_on_grids(&self, encoding: ChannelEncoding, value: Range) -> Range {
         let rounded = self.on_grids(encoding, value);
-        if !matches!(
-            encoding,
-            ChannelEncoding::Float16 | ChannelEncoding::Ufloat(_)
-        ) || !self.is_coarse()
-        {
-            return rounded;
-        }
-        let greatest = encoding.value_of_order(encoding.max_order());
+        let greatest = match encoding {
+            _ if !self.is_coarse() => return rounded,
+            ChannelEncoding::Float16 | ChannelEncoding::Ufloat(_) => {
+                encoding.value_of_order(encoding.max_order())
+            }
+            ChannelEncoding::Float32 if self.advanced => {
+                let half = ChannelEncoding::Float16;
+                half.value_of_order(half.max_order())
+            }
+            _ => return rounded,
+        };
         Range {
             float: rounded.float,
             codes: rounded.codes.may_exceed(greatest),
@@ -660,7 +664,7 @@ impl Arithmetic for Judging<'_> {
         };
         let rounded = match encoding {
             // A sum of floats is rounded like any result; one of integers is an integer.
-            _ if self.advanced => self.on_grids(encoding, sum),
+            _ if self.advanced => self.result_on_grids(encoding, sum),
             ChannelEncoding::Float16 | ChannelEncoding::Ufloat(_) | ChannelEncoding::Srgb8 => {
                 self.result_on_grids(encoding, sum)
             }

@@ -5,7 +5,7 @@ use crate::interval::Interval;
 use crate::judging::Judging;
 use crate::notes::Notes;
 use crate::range::Range;
-use crate::rules::{ConstantClamp, SignedClamp, SrgbLogic};
+use crate::rules::{ConstantClamp, NegativeAlpha, SignedClamp, SrgbLogic};
 use crate::walk::{Place, Walk};
 use crate::world::{Contested, Decision, World};
 use etalon_frame::{
@@ -107,14 +107,17 @@ impl Walk<'_> {
         notes: &mut Notes<'_>,
     ) -> [Range; 4] {
         let mut judging = Judging::of_advanced_blends(self.rules);
+        let mut value = advanced_blend(&mut judging, mode, encodings, src, dst);
         let is_negative = |color: [Range; 4]| color[3].hull().low < 0.0;
-        let is_undefined =
-            (is_negative(src) || is_negative(dst)) && !self.rules.blends_negative_alpha.value();
-        let value = if is_undefined {
-            [Range::same(Interval::EVERYTHING); 4]
-        } else {
-            advanced_blend(&mut judging, mode, encodings, src, dst)
+        let is_normalized = encodings.iter().all(|encoding| !encoding.is_float());
+        let is_defined = match self.rules.negative_alpha.value() {
+            NegativeAlpha::Defined => true,
+            NegativeAlpha::IfNormalized => is_normalized,
+            NegativeAlpha::Undefined => false,
         };
+        if !is_defined && [src, dst, value].into_iter().any(is_negative) {
+            value = [Range::same(Interval::EVERYTHING); 4];
+        }
         notes.add(
             || place.origin(),
             || Step::AdvancedBlend {

@@ -16,9 +16,9 @@ mod yardstick;
 
 pub use permission::{
     AlphaToCoverage, AskedValues, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder,
-    DepthRange, DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMask, MaskOfOne, Permission,
-    Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats,
-    Snap, SrgbLogic,
+    DepthRange, DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMask, MaskOfOne,
+    NegativeAlpha, Permission, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge,
+    SignedClamp, SmallFloats, Snap, SrgbLogic,
 };
 
 use etalon_frame::{Api, Limits};

@@ -2,9 +2,9 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
-    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMask, MaskOfOne, Permission, Resolve,
-    Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap,
-    SrgbLogic, narrowed, permit,
+    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMask, MaskOfOne, NegativeAlpha,
+    Permission, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp,
+    SmallFloats, Snap, SrgbLogic, narrowed, permit,
 };
 use etalon_frame::{ApiVersion, Grade, Limits, Property};
 
@@ -161,7 +161,7 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 3.3: 4.1.7 Blend Color, table 2.2: the constant is a clampf; later versions store it as it is",
             ) } else { permit(ConstantClamp::Never, "OpenGL: 17.3.6.5 Blend Color: the constant is stored as it is") },
         one_is_first_output: permit(true, "OpenGL: 17.3.1 Alpha To Coverage (3.3: 4.1.3): all alpha values of the section are those of colour number zero, index zero"),
-        blends_negative_alpha: permit(true, "OpenGL with KHR_blend_equation_advanced: no exception for negative alphas"),
+        negative_alpha: permit(NegativeAlpha::Defined, "OpenGL with KHR_blend_equation_advanced: no exception for negative alphas"),
         masks_reference: permit(true, "OpenGL: 17.3.3 Stencil Test (3.3: 4.1.4): the mask is applied to both the reference and the stored value"),
         copies: permit(
             Copies::Exact,

@@ -2,9 +2,9 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
-    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMask, MaskOfOne, Resolve, Rounding,
-    Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic,
-    narrowed, permit,
+    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMask, MaskOfOne, NegativeAlpha, Resolve,
+    Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap,
+    SrgbLogic, narrowed, permit,
 };
 use etalon_frame::{ApiVersion, Grade, Limits, Property};
 
@@ -126,7 +126,7 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         ),
         constant_clamp: permit(ConstantClamp::Never, "OpenGL ES: 15.1.5.4 Blend Color (3.0: 4.1.7.3, 3.1: 15.1.5.3): the constant is stored as it is"),
         one_is_first_output: permit(true, "OpenGL ES: 15.1.1 Alpha To Coverage (3.0: 4.1.3): all alpha values of the section are those of colour number zero"),
-        blends_negative_alpha: permit(true, "OpenGL ES: 15.1.5.2 Advanced Blend Equations: no exception for negative alphas"),
+        negative_alpha: permit(NegativeAlpha::Defined, "OpenGL ES: 15.1.5.3 Advanced Blend Equations: no exception for negative alphas"),
         masks_reference: permit(true, "OpenGL ES: 15.1.2 Stencil Test (3.0: 4.1.4): the mask is applied to both the reference and the stored value"),
         copies: permit(
             Copies::Exact,

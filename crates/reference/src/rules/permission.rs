@@ -226,6 +226,17 @@ pub enum SignedClamp {
     Either,
 }
 
+/// The advanced blends of a negative alpha that are defined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NegativeAlpha {
+    /// All.
+    Defined,
+    /// Those into normalized attachments, whose inputs are clamped.
+    IfNormalized,
+    /// None.
+    Undefined,
+}
+
 /// The codes that a copy of stored values returns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Copies {
@@ -457,8 +468,8 @@ rules! {
     constant_clamp: ConstantClamp,
     /// True if alpha to one may leave all alphas except that of the first output unchanged.
     one_is_first_output: bool,
-    /// True if an advanced blend with a negative alpha is defined.
-    blends_negative_alpha: bool,
+    /// Advanced blends of negative alphas, of inputs and of results.
+    negative_alpha: NegativeAlpha,
     /// True if the stencil read mask also masks the reference; otherwise it may or may not.
     masks_reference: bool,
     /// Codes of colours that a copy reads back.

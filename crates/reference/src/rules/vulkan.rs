@@ -2,9 +2,9 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
-    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMask, MaskOfOne, Resolve, Rounding,
-    Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic,
-    narrowed, permit,
+    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMask, MaskOfOne, NegativeAlpha, Resolve,
+    Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap,
+    SrgbLogic, narrowed, permit,
 };
 use etalon_frame::{Grade, Limits, Property};
 
@@ -112,11 +112,11 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             true,
             "Vulkan: Multisample Coverage: all alpha values of the section are those of the output at location 0, index 0",
         ),
-        blends_negative_alpha: narrowed(
-            true,
-            false,
+        negative_alpha: narrowed(
+            NegativeAlpha::IfNormalized,
+            NegativeAlpha::Undefined,
             Grade::Disputed,
-            "Vulkan: Advanced Blend Operations: up to 1.4.333 no exception for negative alphas; 1.4.334 makes the result undefined",
+            "Vulkan: Advanced Blend Operations (since 1.1.120): undefined if any input or result alpha is negative; whether before or after the clamp of normalized attachments is not stated",
         ),
         masks_reference: permit(
             true,

@@ -3,9 +3,9 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
-    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMask, MaskOfOne, Resolve, Rounding,
-    Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap, SrgbLogic,
-    narrowed, permit,
+    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMask, MaskOfOne, NegativeAlpha, Resolve,
+    Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap,
+    SrgbLogic, narrowed, permit,
 };
 use etalon_frame::Grade;
 
@@ -74,8 +74,8 @@ pub(super) fn rules() -> Rules {
             true,
             "WebGPU: has no alpha to one; Vulkan: the first output's alpha alone",
         ),
-        blends_negative_alpha: permit(
-            false,
+        negative_alpha: permit(
+            NegativeAlpha::Undefined,
             "WebGPU: has no advanced blending; Vulkan 1.4: undefined for negative alphas",
         ),
         masks_reference: narrowed(

@@ -70,8 +70,8 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             text.one_is_first_output.value,
             "Yardstick: as the API's text says",
         ),
-        blends_negative_alpha: permit(
-            text.blends_negative_alpha.value,
+        negative_alpha: permit(
+            text.negative_alpha.value,
             "Yardstick: as the API's text says",
         ),
         masks_reference: permit(true, "Yardstick: as Direct3D 11.3 has it (17.12)"),

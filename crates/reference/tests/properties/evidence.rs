@@ -220,7 +220,7 @@ fn small_floats_of_opengl_keep_what_they_can_hold() {
 }
 
 #[test]
-fn an_advanced_blend_of_a_negative_alpha_is_undefined_in_later_texts_of_vulkan() {
+fn an_advanced_blend_of_a_negative_alpha_is_undefined_in_vulkan() {
     let scene = scene(
         r#"{"attachments":{"c":{"format":"rgba8unorm","size":[4,4],"clear":[0,0,0,1]}},
             "passes":[{"color":["c"],"draws":[{"mesh":{"kind":"full"},"shader":"uniform_color",
@@ -232,6 +232,16 @@ fn an_advanced_blend_of_a_negative_alpha_is_undefined_in_later_texts_of_vulkan()
         DISPUTED
     );
     assert_eq!(allowed(&scene, &version(Api::OpenGl, 4, 6), 0, &any), NEVER);
+    // Alphas 3 and 3 give -3, also a negative alpha.
+    for [before, alpha] in [[1, -1], [3, 3]] {
+        let floats = self::scene(&format!(
+            r#"{{"attachments":{{"c":{{"format":"rgba32float","size":[4,4],"clear":[0,0,0,{before}]}}}},
+                "passes":[{{"color":["c"],"draws":[{{"mesh":{{"kind":"full"}},"shader":"uniform_color",
+                  "params":{{"color":[0,0,0,{alpha}]}},"advanced_blend":"screen"}}]}}],"read":["c"]}}"#
+        ));
+        let vulkan = version(Api::Vulkan, 1, 3);
+        assert_eq!(allowed(&floats, &vulkan, 0, &any), ALWAYS);
+    }
 }
 
 /// A draw on a stencil of 5 whose shader writes the mask 13, which excludes sample 1.
