@@ -602,10 +602,12 @@ fn may_be_biased_to<const N: usize>(z: f32, depths: [f32; N]) -> [bool; N] {
 
 #[test]
 fn a_bias_whose_unit_is_no_normal_number_is_unknown() {
-    let depths = [0.0, f32::MIN_POSITIVE, 0.5];
-    assert_eq!(may_be_biased_to(0.0, depths), [true; 3]);
+    // No depth has a unit above 2^-23.
+    let most = 255.0 * f32::EPSILON;
+    let depths = [0.0, f32::MIN_POSITIVE, most, 2.0 * most];
+    assert_eq!(may_be_biased_to(0.0, depths), [true, true, true, false]);
     let z = f32::MIN_POSITIVE * 8_388_608.0;
-    assert_eq!(may_be_biased_to(z / 2.0, [z / 2.0, 0.5]), [true, true]);
+    assert_eq!(may_be_biased_to(z / 2.0, [z / 2.0, most]), [true, true]);
     let biased = f32::from_bits(z.to_bits() + 255);
     assert_eq!(may_be_biased_to(z, [biased, z * 1.5]), [true, false]);
 }
