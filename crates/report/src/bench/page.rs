@@ -170,7 +170,11 @@ fn table(rows: &[Timed<'_>], title: &str) -> Markup {
             let verdict = words::name(row.record.picture.verdict);
             html! { (verdict) small { " " (share(row.record)) } (ended(row.record)) }
         })
-        .number("Median", |row| html! { b { (duration(row.wall.median)) } })
+        .number("Median", |row| html! { b { (duration(row.wall.median)) } });
+    if rows.iter().any(|row| row.instructions().is_some()) {
+        table = table.number("Instructions", |row| row.instructions());
+    }
+    let mut table = table
         .number("Interval", |row| {
             row.wall.interval.map(|ends| between(ends, duration))
         })
@@ -183,9 +187,6 @@ fn table(rows: &[Timed<'_>], title: &str) -> Markup {
         if rows.iter().any(|row| row.others.contains_key(&time)) {
             table = table.number(as_is(time.name()), move |row| row.other(time));
         }
-    }
-    if rows.iter().any(|row| row.instructions().is_some()) {
-        table = table.number("Instructions", |row| row.instructions());
     }
     let spread = html! { "Spread" br; small { (scale.caption()) } };
     let spread = Cell::from("Spread").on_page(spread);
