@@ -263,7 +263,7 @@ impl Bundled<'_> {
         let mut files = self.files(evidence)?;
         let made = ran.as_ref().map_or(&[][..], |ran| ran.made.as_slice());
         files.splice(0..0, program.files.iter().chain(made).cloned());
-        let run = driver.map_or(String::new(), |driver| run_command(driver.launch));
+        let run = run_command(driver);
         let built = ran.map(|ran| ran.line);
         let report = self.report(evidence, program.language, (run, built), &files);
         files.insert(0, File::text("report.md", "the report", report.markdown()));
@@ -327,7 +327,7 @@ impl Bundled<'_> {
         let head = Head {
             title: self.title(evidence.finding.as_ref()),
             sentence: self.described(evidence).sentence(),
-            run: driver.map_or(String::new(), |driver| run_command(driver.launch)),
+            run: run_command(driver),
         };
         let (program, ran) = shortest(
             |trim| {
@@ -695,8 +695,11 @@ fn search(adapter: &AdapterRecord, symptom: &Symptom) -> Vec<String> {
     words
 }
 
-/// Returns the command that runs the program on the driver, quoted for a shell.
-fn run_command(launch: &Launch) -> String {
+/// Returns the command that runs the program on the driver, quoted for a shell; empty without a driver.
+fn run_command(driver: Option<Driver<'_>>) -> String {
+    let Some(Driver { launch, .. }) = driver else {
+        return String::new();
+    };
     let mut words: Vec<String> = Vec::new();
     let mut removed: Vec<String> = Vec::new();
     for (name, value) in &launch.environment {

@@ -3,6 +3,7 @@
 //! Workers each draw a case a different number of times. The difference of their instructions, per frame, is
 //! free of what a worker does only once, and is the same on a busy machine.
 
+use super::round::SLOT;
 use crate::failure_report::FailureReport;
 use crate::launch::Launch;
 use crate::loss::Failure;
@@ -22,7 +23,6 @@ use std::time::Duration;
 const FRAMES: [u32; 4] = [2, 2, 6, 10];
 /// The factor by which a process is allowed to take longer than without a counter.
 const SLOWER: u32 = 20;
-const SLOT: u32 = 0;
 
 /// Returns a program that can count here: perf if the system lets it read the processor's counter, otherwise Valgrind.
 ///

@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 
 /// The slot in which a round's scene is prepared. Scenes are prepared one at a time, so that big frames do
 /// not add up.
-const SLOT: u32 = 0;
+pub(super) const SLOT: u32 = 0;
 /// Frames in each of the two stretches that are compared to detect the end of the warm-up.
 const STRETCH: usize = 5;
 /// The largest relative difference of the medians of the two stretches after the warm-up.
