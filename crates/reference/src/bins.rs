@@ -20,7 +20,7 @@ const BEYOND_VIEWPORT: i64 = 4;
 const MOST_TRIED: usize = 4;
 
 /// The number of successive primitives of a draw that share bounds.
-const RUN: usize = 64;
+const RUN: usize = 32;
 
 /// A primitive of a pass, and the texels that it can touch.
 #[derive(Clone, Debug)]

@@ -50,8 +50,9 @@ impl Walk<'_> {
                 }
                 Shape::Line(_) | Shape::Point(_) => {
                     let front = self.draw_front(place.draw);
-                    self.repeat(place, world.clone(), front, &mut result, notes);
-                    if !self.rules.points_face_front.value() {
+                    let other = (!self.rules.points_face_front.value()).then(|| world.clone());
+                    self.repeat(place, world, front, &mut result, notes);
+                    if let Some(world) = other {
                         self.repeat(place, world, !front, &mut result, notes);
                     }
                 }
@@ -104,11 +105,12 @@ impl Walk<'_> {
         let mut worlds: Worlds = SmallVec::new();
         worlds.push(world);
         for time in 0..=most {
+            if time == most {
+                result.append(&mut worlds);
+                break;
+            }
             if time >= least {
                 result.extend(worlds.iter().cloned());
-            }
-            if time == most {
-                break;
             }
             let mut next = SmallVec::new();
             for world in worlds {
