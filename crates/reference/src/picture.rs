@@ -459,9 +459,8 @@ impl Brush<'_, '_> {
             .map(|(i, hit)| (&primitives[*i as usize], Ok(*hit)));
         let before = self.walk.pictures.borrow().states.worlds(before).cloned();
         let after = before.and_then(|worlds| {
-            let worlds = Worlds::clone(&worlds);
             let draw = (self.pass, draw as usize);
-            self.walk.draw(at, draw, hits, worlds, &mut Notes(None))
+            self.walk.draw(at, draw, hits, &worlds, &mut Notes(None))
         });
         self.walk.pictures.borrow_mut().states.number(after)
     }
