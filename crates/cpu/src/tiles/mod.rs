@@ -16,6 +16,7 @@ mod edges;
 mod fragments;
 mod image;
 mod lanes;
+mod layer;
 mod layout;
 mod linear;
 mod listing;
@@ -41,6 +42,9 @@ pub(crate) use scene::{Machine, TiledScene};
 
 /// The width and height of a tile in texels.
 const TILE: usize = 64;
+
+/// The texels of a tile.
+const AREA: usize = TILE * TILE;
 
 #[cfg(test)]
 mod tests;
