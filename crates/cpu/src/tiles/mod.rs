@@ -39,6 +39,7 @@ mod work;
 pub(crate) use listing::lines;
 pub(crate) use plan::Plan;
 pub(crate) use scene::{Machine, TiledScene};
+pub(crate) use threads::on_threads;
 
 /// The width and height of a tile in texels.
 const TILE: usize = 64;
