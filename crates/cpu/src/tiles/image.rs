@@ -2,6 +2,7 @@
 
 use super::layer::Tiles;
 use super::layout::{Field, Layout};
+use super::threads::on_threads;
 use super::{AREA, TILE};
 use crate::steps::{Faithful, Steps};
 use crate::surface::depth_encoding;
@@ -12,6 +13,9 @@ use fearless_simd::{Level, dispatch, prelude::*};
 /// The codes of a texel's 8-bit colour channels, which are the bytes of a word in memory. Channels that the
 /// format lacks are 0.
 pub(crate) type Texel = [u8; 4];
+
+/// The smallest number of codes that several threads read.
+const SHARED: usize = 1 << 16;
 
 /// An attachment. Texels beyond its edges have no meaning.
 #[derive(Debug)]
@@ -94,18 +98,33 @@ impl Image {
         (self.tile(x, y) * self.samples + sample) * AREA + y % TILE * TILE + x % TILE
     }
 
-    /// Returns the codes of one aspect in the order of [`etalon_frame::Image`]. One thread writes them, because
-    /// threads would have to share memory that is zeroed first, and zeroing takes as long as this.
-    pub(crate) fn codes(&self, aspect: Aspect, channels: usize, level: Level) -> Vec<u32> {
-        let mut row = vec![0; self.width * self.samples * channels];
-        let mut codes = Vec::with_capacity(self.height * row.len());
-        for y in 0..self.height {
+    /// Returns the codes of one aspect in the order of [`etalon_frame::Image`]. Several threads write them, with
+    /// these vector instructions.
+    pub(crate) fn codes(
+        &self,
+        aspect: Aspect,
+        channels: usize,
+        level: Level,
+        threads: usize,
+    ) -> Vec<u32> {
+        let row = (self.width * self.samples * channels).max(1);
+        let mut codes = vec![0; self.height * row];
+        let rows = if codes.len() < SHARED {
+            self.height
+        } else {
+            self.height.div_ceil(threads)
+        };
+        let jobs: Vec<_> = codes.chunks_mut((rows * row).max(1)).enumerate().collect();
+        on_threads(jobs, &|(number, part)| {
             dispatch!(level, simd => simd.vectorize(
                 #[inline(always)]
-                || self.tiles_row(aspect, channels, y, &mut row),
+                || {
+                    for (y, codes) in part.chunks_exact_mut(row).enumerate() {
+                        self.tiles_row(aspect, channels, number * rows + y, codes);
+                    }
+                },
             ));
-            codes.extend_from_slice(&row);
-        }
+        });
         codes
     }
 

@@ -307,7 +307,8 @@ impl Prepared for TiledScene {
 
     fn read_back(&mut self) -> Result<Frame, BackendError> {
         let codes = |index: usize, aspect, channels| {
-            self.images[index].codes(aspect, channels, self.machine.level)
+            let Machine { level, threads } = self.machine;
+            self.images[index].codes(aspect, channels, level, threads)
         };
         let mut frame = frame(&self.scene, self.submitted, codes)?;
         // No draw with kernels has counters.
