@@ -162,7 +162,7 @@ mod tests {
     use super::*;
     use crate::blend::BlendState;
     use crate::depth_stencil::DepthState;
-    use crate::mesh::Mesh;
+    use crate::mesh_source::{MeshSource, Splat};
     use crate::rasterization::Viewport;
     use crate::shader::Shader;
 
@@ -199,7 +199,13 @@ mod tests {
 
     #[test]
     fn a_depth_test_reads_and_may_write() {
-        let mut draw = Draw::new(Shader::FlatColor, Mesh::default(), Viewport::whole([4, 4]));
+        let size = [4, 4];
+        let mesh = MeshSource::Stack {
+            z: vec![0.5],
+            values: vec![Splat::default()],
+        };
+        let mesh = mesh.expand(size).expect("it expands");
+        let mut draw = Draw::new(Shader::FlatColor, mesh, Viewport::whole(size));
         let traffic = |bytes, operations| Traffic { bytes, operations };
         for (compare, write, expected) in [
             (CompareFunction::Less, false, traffic(4, 2)),

@@ -86,6 +86,7 @@ fn head(matrix: &Matrix<'_>) -> Markup {
             }
             nav {
                 @for (i, adapter) in matrix.adapters.iter().enumerate() { a href={ "#adapter-" (i) } { (adapter) } }
+                @if !h.limits.is_empty() { a href="#roofline" { "Roofline" } }
                 a href="#samples" { "Samples" }
                 a href="index.html" { "Frame times" }
                 a href="matrix.csv" { "CSV" }
