@@ -115,6 +115,8 @@ impl CellRate {
         };
         let traffic = match measure {
             Measure::Read => [difference(|w| w.read_bytes), 0],
+            // The few texels that its passes draw are not its work.
+            Measure::Cleared => [difference(|w| w.bytes), 0],
             _ => [difference(|w| w.bytes), difference(|w| w.operations)],
         };
         Some(Self {

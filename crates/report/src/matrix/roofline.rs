@@ -81,7 +81,7 @@ pub(super) fn section(matrix: &Matrix<'_>) -> Option<Markup> {
                 h2 { "Roofline" }
                 p {
                     "The sloping line is the limit of memory, the level line that of arithmetic, with all threads (solid) and with "
-                    "one (dashed). A cell above the slope keeps its texels in caches. Cells without arithmetic, such as clears, have no point."
+                    "one (dashed). A cell above a line keeps its texels in caches, or skips work. Cells without arithmetic, such as clears, have no point."
                 }
                 div.charts { (chart(HEIGHT, "Operations over bytes", about, &body)) }
                 p.legend {
