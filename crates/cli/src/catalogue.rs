@@ -7,7 +7,7 @@ use etalon_case::{Case, CaseRef, Library, Profile};
 use etalon_cpu::CpuBackend;
 use etalon_frame::Frame;
 use etalon_frame::threads::each;
-use etalon_report::{Catalogue, CatalogueCase, reference_picture};
+use etalon_report::{Catalogue, CatalogueCase, Thumbnails};
 use std::collections::{BTreeSet, HashMap};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -30,7 +30,8 @@ pub(crate) fn catalogue(library: &Library, cases: &[Case]) -> Catalogue {
         }
     }
     // Cases with large pictures are neighbours, so each thread takes one case at a time instead of a range.
-    catalogue.cases = each(processors(), cases, |case| entry(case, &files));
+    let thumbnails = Thumbnails::default();
+    catalogue.cases = each(processors(), cases, |case| entry(case, &files, &thumbnails));
     for case in cases {
         for draw in case.scene.passes.iter().flat_map(|p| &p.draws) {
             catalogue
@@ -45,7 +46,8 @@ fn stem(case: &CaseRef<'_>) -> String {
     case.file().name().trim_end_matches(".json").to_owned()
 }
 
-fn entry(case: &Case, files: &HashMap<String, String>) -> CatalogueCase {
+fn entry(case: &Case, files: &HashMap<String, String>, thumbnails: &Thumbnails) -> CatalogueCase {
+    let picture = |frame: Frame| Some(thumbnails.uri(frame.images.first()?));
     let draws = case.scene.passes.iter().flat_map(|p| &p.draws);
     let shaders: BTreeSet<&'static str> = draws.map(|draw| draw.shader.name()).collect();
     CatalogueCase {
@@ -53,7 +55,7 @@ fn entry(case: &Case, files: &HashMap<String, String>) -> CatalogueCase {
         file: files.get(&case.id).cloned().unwrap_or_default(),
         lines: scene_text::lines(&case.scene),
         shaders: shaders.into_iter().collect(),
-        picture: reference(case).map_or_else(String::new, |frame| reference_picture(&frame)),
+        picture: reference(case).and_then(picture).unwrap_or_default(),
     }
 }
 

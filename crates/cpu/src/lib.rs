@@ -6,6 +6,7 @@
 mod backend;
 mod cut;
 mod lanes;
+mod limits;
 mod linear;
 mod lists;
 mod memory;
@@ -20,6 +21,7 @@ mod surface;
 mod tiles;
 
 pub use backend::{CpuBackend, kernels};
+pub use limits::{Limits, limits};
 pub use prepared::PreparedScene;
 pub use surface::Surface;
 

@@ -18,4 +18,15 @@ pub struct Work {
     pub resolved: u64,
     /// The number of texels that are read back, over all attachments.
     pub read: u64,
+    /// The number of bytes that clears, fragments and resolves move, if every fragment passes its tests and no
+    /// cache keeps anything. 0 if it was not counted.
+    #[serde(default)]
+    pub bytes: u64,
+    /// The number of arithmetic operations on stored channels and in tests, under the same condition. Those of
+    /// shaders do not count.
+    #[serde(default)]
+    pub operations: u64,
+    /// The number of bytes that reading back moves. 0 if it was not counted.
+    #[serde(default)]
+    pub read_bytes: u64,
 }

@@ -39,4 +39,4 @@ pub use plain::Plain;
 pub use sampling::texel_position;
 pub use srgb::{srgb_codes, srgb_values};
 pub use stencil::{compare, exported_reference, stencil_operation, stencil_passes, stencil_write};
-pub use viewport::{front_facing, is_beyond, is_culled, window_position};
+pub use viewport::{front_facing, is_beyond, is_culled, window_coordinate, window_position};

@@ -7,40 +7,48 @@ use etalon_scene::{CullMode, Draw, FrontFace, PrimitiveVertices, Viewport};
 /// Returns the window position of a clip-space position: x and y in texels from the top left corner, depth
 /// within the viewport's depths (Vulkan, Controlling the Viewport; WebGPU, 23.2.4: y up in clip space is down
 /// in the window).
+#[inline]
 pub fn window_position<A: Arithmetic>(
     a: &mut A,
     position: [f32; 4],
     viewport: &Viewport,
 ) -> [A::Real; 3] {
-    let clip = position.map(|v| a.constant(v));
+    [0, 1, 2].map(|axis| window_coordinate(a, [position[axis], position[3]], axis, viewport))
+}
+
+/// Returns a coordinate of a window position along an axis, from the clip-space coordinate and w.
+#[inline]
+pub fn window_coordinate<A: Arithmetic>(
+    a: &mut A,
+    [value, w]: [f32; 2],
+    axis: usize,
+    viewport: &Viewport,
+) -> A::Real {
+    let mut ndc = a.constant(value);
+    if w != 1.0 {
+        let w = a.constant(w);
+        ndc = a.div(ndc, w);
+    }
+    if axis == 2 {
+        let [near, far] = viewport.depth.map(|d| a.constant(d));
+        let range = a.sub(far, near);
+        let scaled = a.mul(ndc, range);
+        let exact = a.add(near, scaled);
+        return a.window_depth(exact, viewport.depth);
+    }
     let half = a.constant(0.5);
-    let ndc = if position[3] == 1.0 {
-        [clip[0], clip[1], clip[2]]
+    let halved = a.mul(ndc, half);
+    let unit = if axis == 1 {
+        a.sub(half, halved)
     } else {
-        [0, 1, 2].map(|i| a.div(clip[i], clip[3]))
+        a.add(half, halved)
     };
-    let [left, top, width, height] = viewport.rect;
-    let axis = |a: &mut A, value: A::Real, start: f32, length: f32, flip: bool| {
-        let halved = a.mul(value, half);
-        let unit = if flip {
-            a.sub(half, halved)
-        } else {
-            a.add(half, halved)
-        };
-        let size = a.constant(length);
-        let scaled = a.mul(unit, size);
-        let start_at = a.constant(start);
-        let exact = a.add(start_at, scaled);
-        a.window_coordinate(exact, start.abs() + length.abs())
-    };
-    let x = axis(a, ndc[0], left, width, false);
-    let y = axis(a, ndc[1], top, height, true);
-    let [near, far] = viewport.depth.map(|d| a.constant(d));
-    let range = a.sub(far, near);
-    let scaled = a.mul(ndc[2], range);
-    let exact = a.add(near, scaled);
-    let z = a.window_depth(exact, viewport.depth);
-    [x, y, z]
+    let (start, length) = (viewport.rect[axis], viewport.rect[axis + 2]);
+    let size = a.constant(length);
+    let scaled = a.mul(unit, size);
+    let start_at = a.constant(start);
+    let exact = a.add(start_at, scaled);
+    a.window_coordinate(exact, start.abs() + length.abs())
 }
 
 /// Returns true if a triangle of this signed area (y up) faces front. Zero area faces back.

@@ -17,7 +17,7 @@ mod write;
 
 pub use cell::{CellRate, Measure, cell};
 pub use counted::{Counted, InstructionCounter};
-pub use header::{BENCH_FORMAT, BenchHeader, BenchSettings};
+pub use header::{BENCH_FORMAT, BenchHeader, BenchSettings, ProcessorLimits};
 pub use line::{BenchLine, Done, Ended, Enough, Picture, Round};
 pub use read::Bench;
 pub use record::BenchRecord;

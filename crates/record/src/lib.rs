@@ -52,7 +52,8 @@ mod writer;
 pub use adapter::{AbsentAdapter, AdapterRecord, Release};
 pub use bench::{
     BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchRecord, BenchSettings, BenchWriter, CellRate,
-    Counted, Done, Ended, Enough, InstructionCounter, Measure, Picture, Round, Time, cell,
+    Counted, Done, Ended, Enough, InstructionCounter, Measure, Picture, ProcessorLimits, Round,
+    Time, cell,
 };
 pub use clear::clear;
 pub use content::{Content, is_marked, overlap};

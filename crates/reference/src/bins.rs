@@ -4,7 +4,7 @@
 
 use crate::clip::Clip;
 use crate::context::PassContext;
-use crate::primitive::{Shape, SnappedPrimitive, misses};
+use crate::primitive::{Bounds, Shape, SnappedPrimitive, misses};
 use crate::sample::Sample;
 use crate::setup;
 use crate::sides::sides;
@@ -18,6 +18,9 @@ const BEYOND_VIEWPORT: i64 = 4;
 
 /// The maximum number of texels whose samples are tried before a triangle is kept.
 const MOST_TRIED: usize = 4;
+
+/// The number of successive primitives of a draw that share bounds.
+const RUN: usize = 32;
 
 /// A primitive of a pass, and the texels that it can touch.
 #[derive(Clone, Debug)]
@@ -36,6 +39,8 @@ struct Reach {
 #[derive(Clone, Debug)]
 pub(crate) struct PassSetup {
     draws: Vec<Vec<SnappedPrimitive>>,
+    /// For each draw, the common bounds of each [`RUN`] of its primitives.
+    bounds: Vec<Vec<Bounds>>,
     clips: Vec<Clip>,
     reaches: Vec<Reach>,
     /// Sub-texel units per texel.
@@ -46,6 +51,7 @@ impl PassSetup {
     pub(crate) fn new(context: &PassContext<'_>, pass: &Pass) -> Self {
         let mut setup = Self {
             draws: Vec::new(),
+            bounds: Vec::new(),
             clips: Vec::new(),
             reaches: Vec::new(),
             units: units_per_texel(context.limits),
@@ -67,6 +73,11 @@ impl PassSetup {
                     });
                 }
             }
+            let bounds = primitives.chunks(RUN).map(|run| {
+                let each = run.iter().map(|primitive| primitive.bounds(setup.units));
+                each.reduce(common).unwrap_or_default()
+            });
+            setup.bounds.push(bounds.collect());
             setup.draws.push(primitives);
             let clip = Clip::new(context.rules, context.limits, &draw.viewport);
             setup.clips.push(clip);
@@ -105,12 +116,13 @@ impl PassSetup {
         y: u32,
     ) -> impl Iterator<Item = &SnappedPrimitive> {
         let (x, y) = (i64::from(x), i64::from(y));
-        let units = self.units;
-        let holds = move |p: &&SnappedPrimitive| {
-            let [left, top, right, bottom] = p.bounds(units);
+        let holds = move |[left, top, right, bottom]: Bounds| {
             x >= left && x < right && y >= top && y < bottom
         };
-        self.draws[draw].iter().filter(holds)
+        let runs = self.draws[draw].chunks(RUN).zip(&self.bounds[draw]);
+        let runs = runs.filter(move |(_, bounds)| holds(**bounds));
+        let primitives = runs.flat_map(|(run, _)| run);
+        primitives.filter(move |primitive| holds(primitive.bounds(self.units)))
     }
 
     /// Returns the rows of the pass's attachments, from the top, with the primitives of a range of draws.
@@ -128,6 +140,16 @@ impl PassSetup {
             active: Vec::new(),
         }
     }
+}
+
+/// Returns the smallest bounds that contain both.
+fn common(a: Bounds, b: Bounds) -> Bounds {
+    [
+        a[0].min(b[0]),
+        a[1].min(b[1]),
+        a[2].max(b[2]),
+        a[3].max(b[3]),
+    ]
 }
 
 /// Returns false if a small triangle misses all judged samples of the texels that it can touch.

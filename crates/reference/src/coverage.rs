@@ -15,20 +15,20 @@ impl Walk<'_> {
     pub(crate) fn primitive(
         &self,
         place: &Place<'_>,
-        worlds: Worlds,
+        worlds: &[World],
         notes: &mut Notes<'_>,
     ) -> Worlds {
         let mut result = SmallVec::new();
         let count = worlds.len();
         let several = count > 1;
-        for (w, world) in worlds.into_iter().enumerate() {
+        for (w, world) in worlds.iter().enumerate() {
             let numbered = Place {
                 world: (w + 1, count),
                 ..*place
             };
             let place = if several { &numbered } else { place };
             if several {
-                self.note_world(notes, place, &world);
+                self.note_world(notes, place, world);
             }
             match &place.primitive.shape {
                 Shape::Triangle(triangle) => {
@@ -38,19 +38,19 @@ impl Walk<'_> {
                     let (least, most) = triangle.area;
                     for (possible, positive) in [(most > 0, true), (least < 0, false)] {
                         if possible {
-                            self.repeat(place, world.clone(), positive, &mut result, notes);
+                            self.repeat(place, world, positive, &mut result, notes);
                         }
                     }
                     // A primitive without an area faces back, and its edges may be missing.
                     if least <= 0 && most >= 0 {
                         let back = !self.draw_front(place.draw);
-                        self.repeat(place, world.clone(), back, &mut result, notes);
-                        result.push(world);
+                        self.repeat(place, world, back, &mut result, notes);
+                        result.push(world.clone());
                     }
                 }
                 Shape::Line(_) | Shape::Point(_) => {
                     let front = self.draw_front(place.draw);
-                    self.repeat(place, world.clone(), front, &mut result, notes);
+                    self.repeat(place, world, front, &mut result, notes);
                     if !self.rules.points_face_front.value() {
                         self.repeat(place, world, !front, &mut result, notes);
                     }
@@ -87,7 +87,7 @@ impl Walk<'_> {
     fn repeat(
         &self,
         place: &Place<'_>,
-        world: World,
+        world: &World,
         positive_area: bool,
         result: &mut Worlds,
         notes: &mut Notes<'_>,
@@ -102,16 +102,17 @@ impl Walk<'_> {
             });
         }
         let mut worlds: Worlds = SmallVec::new();
-        worlds.push(world);
+        worlds.push(world.clone());
         for time in 0..=most {
+            if time == most {
+                result.append(&mut worlds);
+                break;
+            }
             if time >= least {
                 result.extend(worlds.iter().cloned());
             }
-            if time == most {
-                break;
-            }
             let mut next = SmallVec::new();
-            for world in worlds {
+            for world in &worlds {
                 self.fragment(place, world, positive_area, &mut next, notes);
             }
             worlds = next;
@@ -122,7 +123,7 @@ impl Walk<'_> {
         &self,
         place: &Place<'_>,
         triangle: &Triangle,
-        world: World,
+        world: &World,
         result: &mut Worlds,
         notes: &mut Notes<'_>,
     ) {
@@ -133,7 +134,7 @@ impl Walk<'_> {
         }
         for (possible, positive) in [(most > 0, true), (least < 0, false)] {
             if possible {
-                self.covered(place, triangle, world.clone(), positive, result, notes);
+                self.covered(place, triangle, world, positive, result, notes);
             }
         }
         // Legal snapping can flatten the triangle, which then covers nothing.
@@ -145,7 +146,7 @@ impl Walk<'_> {
                 Coverage::PerhapsNoArea
             })
         });
-        result.push(world);
+        result.push(world.clone());
     }
 
     /// Splits a world by the edges that may or may not include the sample.
@@ -153,7 +154,7 @@ impl Walk<'_> {
         &self,
         place: &Place<'_>,
         primitive: &Triangle,
-        world: World,
+        world: &World,
         positive_area: bool,
         result: &mut Worlds,
         notes: &mut Notes<'_>,
@@ -165,7 +166,7 @@ impl Walk<'_> {
             return;
         }
         let mut pending: Worlds = SmallVec::new();
-        pending.push(world);
+        pending.push(world.clone());
         if sides
             .into_iter()
             .any(|side| is_outside(side, positive_area))
@@ -231,7 +232,7 @@ impl Walk<'_> {
             }
             pending = inside_worlds;
         }
-        for world in pending {
+        for world in &pending {
             self.fragment(place, world, positive_area, result, notes);
         }
     }

@@ -37,7 +37,7 @@ impl Walk<'_> {
     pub(crate) fn fragment(
         &self,
         place: &Place<'_>,
-        world: World,
+        world: &World,
         positive_area: bool,
         result: &mut Worlds,
         notes: &mut Notes<'_>,
@@ -47,7 +47,7 @@ impl Walk<'_> {
             self.note_rejection(notes, place, Rejection::CullDistance, true, || {
                 Step::Clipping
             });
-            result.push(world);
+            result.push(world.clone());
             return;
         }
         let front = front_facing(if positive_area { 1 } else { -1 }, draw.front_face);
@@ -60,7 +60,7 @@ impl Walk<'_> {
                 front,
                 mode: draw.cull.name().to_owned(),
             });
-            result.push(world);
+            result.push(world.clone());
             return;
         }
         let outline = matches!(place.primitive.shape, Shape::Outline(_));
@@ -75,10 +75,10 @@ impl Walk<'_> {
         };
         let open_texts = &self.open_texts[place.pass][place.draw_index];
         if draw.multisample.sample_coverage.is_none() && !open_texts.is_contested() {
-            shade(&world, true, notes);
+            shade(world, true, notes);
             return;
         }
-        for (world, drawn) in self.by_sample_coverage(place, world, notes) {
+        for (world, drawn) in self.by_sample_coverage(place, world.clone(), notes) {
             for world in open_texts.by_reading(world) {
                 shade(&world, drawn, notes);
             }

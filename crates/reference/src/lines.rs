@@ -12,6 +12,7 @@ use crate::walk::{Forced, Walk, in_scissor};
 use etalon_frame::{Frame, LegalSet, Limits, TexelSet, WrongTexel};
 use etalon_pipeline::Point;
 use etalon_scene::{Draw, PolygonMode, PrimitiveTopology, Scene};
+use smallvec::SmallVec;
 use std::ops::Range;
 
 /// The maximum number of columns of a scene's lines that are checked.
@@ -80,8 +81,8 @@ pub fn line_gap(
                     ends,
                 };
                 let least = required.clone().count() - lack;
-                let found = walk.fragments(line, (axis, required), frame, legal);
-                if let Some((most, wrong)) = found.filter(|(most, _)| *most < least) {
+                let lacking = walk.lacking(line, (axis, required), least, (frame, legal));
+                if let Some((most, wrong)) = lacking {
                     return Some(LineGap {
                         origin: [pass, draw, primitive.index as usize],
                         fragments: [least, most],
@@ -149,14 +150,14 @@ fn columns_of([a, b]: [SnapBox; 2], units: i64) -> Option<(usize, Range<i64>)> {
 
 impl Walk<'_> {
     /// Returns the number of columns in which a frame can have a fragment of a line, including invisible
-    /// ones, and a texel of each column of `required` that has none; `None` if a part of the line may be
-    /// clipped.
-    fn fragments(
+    /// ones, and a texel of each column of `required` that has none; `None` if there are at least `least`
+    /// columns, or if a part of the line may be clipped.
+    fn lacking(
         &self,
         line: Line<'_>,
         (axis, required): (usize, Range<i64>),
-        frame: &Frame,
-        legal: &LegalSet,
+        least: usize,
+        (frame, legal): (&Frame, &LegalSet),
     ) -> Option<(usize, Vec<WrongTexel>)> {
         let [a, b] = line.ends;
         let bounds = a.hull(b);
@@ -168,45 +169,51 @@ impl Walk<'_> {
             low - 1..high + 2
         };
         let (mut found, mut wrong) = (0, Vec::new());
-        for column in cells(axis) {
-            let (mut is_possible, mut refused) = (false, Vec::new());
-            for row in cells(1 - axis) {
-                let [x, y] = if axis == 0 {
+        let beside = cells(axis).filter(|column| !required.contains(column));
+        for column in required.clone().chain(beside) {
+            let at = |row: i64| {
+                if axis == 0 {
                     [column, row]
                 } else {
                     [row, column]
-                };
-                let middle = |texel: i64| texel * self.units + self.units / 2;
-                let center = Point {
-                    x: middle(x),
-                    y: middle(y),
-                };
+                }
+            };
+            let mut rows: SmallVec<[i64; 8]> = SmallVec::new();
+            for row in cells(1 - axis) {
+                let [x, y] = at(row).map(|texel| texel * self.units + self.units / 2);
+                let center = Point { x, y };
                 if line_times(line.ends, center, self.units).1 == 0 {
                     continue;
                 }
                 let sides = [Side::Unknown; 3];
                 let hit = self.hit((line.pass, line.draw), line.primitive, sides, center);
                 hit.ok().filter(|hit| hit.is_certain())?;
-                if is_possible {
-                    continue;
-                }
-                match self.covered_by(line, [x, y]) {
-                    None => is_possible = true,
-                    Some((sample, set)) => {
-                        match legal.refused(frame, (sample.size, 1), [sample.x, sample.y, 0], &set)
-                        {
-                            None => is_possible = true,
-                            Some(texel) => refused.push(texel),
-                        }
+                rows.push(row);
+            }
+            // The middle texel is nearest to the line.
+            let middle = rows.len() / 2;
+            rows.rotate_left(middle);
+            let mut nearest = None;
+            let is_possible = rows.into_iter().any(|row| {
+                let Some((sample, set)) = self.covered_by(line, at(row)) else {
+                    return true;
+                };
+                let position = [sample.x, sample.y, 0];
+                match legal.refused(frame, (sample.size, 1), position, &set) {
+                    None => true,
+                    Some(texel) => {
+                        nearest.get_or_insert(texel);
+                        false
                     }
                 }
-            }
+            });
             if is_possible {
                 found += 1;
+                if found >= least {
+                    return None;
+                }
             } else if required.contains(&column) {
-                // The middle texel is nearest to the line.
-                let middle = refused.len() / 2;
-                wrong.extend(refused.into_iter().nth(middle));
+                wrong.extend(nearest);
             }
         }
         Some((found, wrong))

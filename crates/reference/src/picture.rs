@@ -252,9 +252,10 @@ impl Walk<'_> {
     /// Changes the worlds of all samples in the same way.
     fn each_state(&self, picture: &mut [State], change: impl Fn(&mut Worlds)) {
         let mut known: FxHashMap<State, State> = FxHashMap::default();
-        for state in picture {
-            let known = known.entry(*state);
-            *state = *known.or_insert_with(|| self.changed(*state, &change));
+        for run in picture.chunk_by_mut(|a, b| a == b) {
+            let before = run[0];
+            let after = known.entry(before);
+            run.fill(*after.or_insert_with(|| self.changed(before, &change)));
         }
     }
 
@@ -458,9 +459,8 @@ impl Brush<'_, '_> {
             .map(|(i, hit)| (&primitives[*i as usize], Ok(*hit)));
         let before = self.walk.pictures.borrow().states.worlds(before).cloned();
         let after = before.and_then(|worlds| {
-            let worlds = Worlds::clone(&worlds);
             let draw = (self.pass, draw as usize);
-            self.walk.draw(at, draw, hits, worlds, &mut Notes(None))
+            self.walk.draw(at, draw, hits, &worlds, &mut Notes(None))
         });
         self.walk.pictures.borrow_mut().states.number(after)
     }

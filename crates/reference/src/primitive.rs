@@ -286,6 +286,9 @@ fn keep_below(columns: &mut Range<i64>, start: i64, growth: i64, most: i64) {
     }
 }
 
+/// An area of texels: left, top, right and bottom, the last two exclusive.
+pub(crate) type Bounds = [i64; 4];
+
 /// The least and the largest number of times that one primitive covers a sample.
 pub(crate) type Times = (u32, u32);
 
@@ -319,8 +322,8 @@ impl SnappedPrimitive {
         }
     }
 
-    /// Returns the texels that the primitive can touch: left, top, right and bottom, the last two exclusive.
-    pub(crate) fn bounds(&self, units: i64) -> [i64; 4] {
+    /// Returns the texels that the primitive can touch.
+    pub(crate) fn bounds(&self, units: i64) -> Bounds {
         let reach = match self.shape {
             Shape::Triangle(_) => 0,
             _ => 2 * units,

@@ -87,10 +87,11 @@ pub(crate) fn draw(
     primitives
 }
 
-/// Returns true if no judged texel is near a primitive, by a rough estimate. Most of a million small
-/// triangles need only this check.
+/// Returns true if no judged texel of the scissor rectangle is near a primitive, by a rough estimate. Most of
+/// a million small triangles need only this check.
 fn is_far(context: &PassContext<'_>, draw: &Draw, indices: PrimitiveVertices) -> bool {
-    if context.lattice == Lattice::ALL {
+    let scissor = draw.scissor.filter(|_| !context.keeps_misses);
+    if context.lattice == Lattice::ALL && scissor.is_none() {
         return false;
     }
     let corners: &[usize] = match &indices {
@@ -116,13 +117,14 @@ fn is_far(context: &PassContext<'_>, draw: &Draw, indices: PrimitiveVertices) ->
         }
     }
     let [width, height] = context.size;
-    // The cast saturates.
-    let within = |v: f32, most: u32| (v as u32).min(most);
+    let [left, top, w, h] = scissor.unwrap_or([0, 0, width, height]);
+    let ends = [left.saturating_add(w), top.saturating_add(h)];
+    // The casts saturate.
     !context.lattice.meets([
-        within(low[0].floor(), width),
-        within(low[1].floor(), height),
-        within(high[0].ceil(), width),
-        within(high[1].ceil(), height),
+        (low[0].floor() as u32).max(left),
+        (low[1].floor() as u32).max(top),
+        (high[0].ceil() as u32).min(ends[0]).min(width),
+        (high[1].ceil() as u32).min(ends[1]).min(height),
     ])
 }
 

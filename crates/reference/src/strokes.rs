@@ -180,6 +180,10 @@ impl<'t, 'a> Tracer<'t, 'a> {
                     continue;
                 }
                 self.sign(right, members, to, &mut last);
+                if first.spans(&last) {
+                    to.stroke(left, columns.end, &first);
+                    continue;
+                }
                 to.stroke(left, left.x + 1, &first);
                 to.stroke(right, columns.end, &last);
                 self.between([(left, &first), (right, &last)], members, spare, to);

@@ -8,12 +8,12 @@ use crate::range::Range;
 use crate::rounding::{ceil, floor};
 use crate::rules::Snap;
 use crate::snap::{SnapBox, units_per_texel};
-use etalon_pipeline::{Arithmetic, Point, window_position};
+use etalon_pipeline::{Arithmetic, Point, window_coordinate};
 use etalon_scene::{Draw, Pass, Viewport};
 use rustc_hash::FxHasher;
 use std::hash::{Hash, Hasher};
 
-/// The maximum number of vertices that are kept.
+/// The maximum number of kept coordinates of each axis.
 const MOST: usize = 4096;
 
 #[derive(Clone, Copy)]
@@ -24,13 +24,38 @@ pub(crate) struct Vertex {
     pub(crate) id: VertexId,
 }
 
-/// The latest vertices of a pass. Neighbouring primitives share positions, and draws repeat those of others.
+/// The latest coordinates of a pass's vertices. Neighbouring primitives share positions, meshes repeat
+/// coordinates in rows and columns, and draws repeat those of others.
 pub(crate) struct Vertices {
-    /// The viewport of the kept vertices.
+    /// The viewport of the kept coordinates.
     viewport: Option<Viewport>,
-    /// Vertices with the bits of their positions, in the slot that a hash of the bits selects. The length is
-    /// a power of two.
-    kept: Vec<Option<([u32; 4], Vertex)>>,
+    /// Columns and rows: the least and the greatest snapped coordinate.
+    snapped: [Latest<(i64, i64)>; 2],
+    /// The depth in the window and in clip space.
+    depths: Latest<[Interval; 2]>,
+}
+
+/// The latest values for coordinates, each in the slot that a hash of the coordinate's bits and w's selects.
+/// The number of slots is a power of two.
+struct Latest<T>(Vec<Option<([u32; 2], T)>>);
+
+impl<T: Copy> Latest<T> {
+    #[inline]
+    fn get(&mut self, coordinate: [f32; 2], value: impl FnOnce() -> T) -> T {
+        let bits = coordinate.map(f32::to_bits);
+        let mut hasher = FxHasher::default();
+        bits.hash(&mut hasher);
+        // The upper half of such a hash depends on all bits.
+        let slot = (hasher.finish() >> 32) as usize & (self.0.len() - 1);
+        match &self.0[slot] {
+            Some((known, value)) if *known == bits => *value,
+            _ => {
+                let value = value();
+                self.0[slot] = Some((bits, value));
+                value
+            }
+        }
+    }
 }
 
 impl Vertices {
@@ -39,14 +64,16 @@ impl Vertices {
         let slots = count.sum::<usize>().min(MOST).next_power_of_two();
         Self {
             viewport: None,
-            kept: vec![None; slots],
+            snapped: [Latest(vec![None; slots]), Latest(vec![None; slots])],
+            depths: Latest(vec![None; slots]),
         }
     }
 
     /// Prepares for draws with a viewport.
     pub(crate) fn enter(&mut self, viewport: &Viewport) {
         if self.viewport.is_some_and(|known| known != *viewport) {
-            self.kept.fill(None);
+            self.snapped.iter_mut().for_each(|axis| axis.0.fill(None));
+            self.depths.0.fill(None);
         }
         self.viewport = Some(*viewport);
     }
@@ -54,45 +81,44 @@ impl Vertices {
     /// Returns a vertex of a draw whose viewport was entered.
     pub(crate) fn get(&mut self, context: &PassContext<'_>, draw: &Draw, i: usize) -> Vertex {
         let position = draw.mesh.vertices[i].position;
-        let bits = position.map(f32::to_bits);
-        let mut hasher = FxHasher::default();
-        bits.hash(&mut hasher);
-        // The upper half of such a hash depends on all bits.
-        let slot = (hasher.finish() >> 32) as usize & (self.kept.len() - 1);
-        match &self.kept[slot] {
-            Some((known, vertex)) if *known == bits => *vertex,
-            _ => {
-                let vertex = vertex(context, draw, position);
-                self.kept[slot] = Some((bits, vertex));
-                vertex
-            }
+        let [x, y, z, w] = position;
+        let viewport = &draw.viewport;
+        let [columns, rows] = &mut self.snapped;
+        let x = columns.get([x, w], || snapped(context, [x, w], 0, viewport));
+        let y = rows.get([y, w], || snapped(context, [y, w], 1, viewport));
+        let [window_z, clip_z] = self.depths.get([z, w], || {
+            let mut judging = Judging::new(context.rules);
+            let window = window_coordinate(&mut judging, [z, w], 2, viewport);
+            [window, judging.constant(z / w)].map(Range::hull)
+        });
+        Vertex {
+            snapped: SnapBox {
+                low: Point { x: x.0, y: y.0 },
+                high: Point { x: x.1, y: y.1 },
+            },
+            window_z,
+            clip_z,
+            id: VertexId::new(position),
         }
     }
 }
 
-fn vertex(context: &PassContext<'_>, draw: &Draw, position: [f32; 4]) -> Vertex {
+/// Returns the least and the greatest position along an axis to which a coordinate can be snapped.
+fn snapped(
+    context: &PassContext<'_>,
+    coordinate: [f32; 2],
+    axis: usize,
+    viewport: &Viewport,
+) -> (i64, i64) {
     let mut judging = Judging::new(context.rules);
-    let window = window_position(&mut judging, position, &draw.viewport);
-    let clip = judging.constant(position[2] / position[3]);
+    let window = window_coordinate(&mut judging, coordinate, axis, viewport);
+    let Interval { low, high } = window.hull();
     let limits = context.limits;
     let grid = f64::from(1_u32 << limits.sub_pixel_bits);
     let step = units_per_texel(limits) >> limits.sub_pixel_bits;
-    let snap = |range: Range| -> (i64, i64) {
-        let Interval { low, high } = range.hull();
-        let (low, high) = match context.rules.snap.value() {
-            Snap::EitherSide => (floor(low * grid), ceil(high * grid)),
-            Snap::Nearest => (floor(low * grid + 0.5), floor(high * grid + 0.5)),
-        };
-        (low as i64 * step, high as i64 * step)
+    let (low, high) = match context.rules.snap.value() {
+        Snap::EitherSide => (floor(low * grid), ceil(high * grid)),
+        Snap::Nearest => (floor(low * grid + 0.5), floor(high * grid + 0.5)),
     };
-    let (x, y) = (snap(window[0]), snap(window[1]));
-    Vertex {
-        snapped: SnapBox {
-            low: Point { x: x.0, y: y.0 },
-            high: Point { x: x.1, y: y.1 },
-        },
-        window_z: window[2].hull(),
-        clip_z: clip.hull(),
-        id: VertexId::new(position),
-    }
+    (low as i64 * step, high as i64 * step)
 }

@@ -269,7 +269,7 @@ impl<'a> Walk<'a> {
                     let sides = self.sides_of(primitive, at, point);
                     (primitive, self.hit((p, d), primitive, sides, point))
                 });
-                worlds = self.draw(at, (p, d), primitives, worlds, notes)?;
+                worlds = self.draw(at, (p, d), primitives, &worlds, notes)?;
             }
             if is_own {
                 self.clear((p, pass.draws.len()), at, &mut worlds, notes);
@@ -292,7 +292,7 @@ impl<'a> Walk<'a> {
         at: Sample,
         (p, d): (usize, usize),
         primitives: impl Iterator<Item = (&'s SnappedPrimitive, Result<Hit, Rejection>)>,
-        mut worlds: Worlds,
+        before: &Worlds,
         notes: &mut Notes<'_>,
     ) -> Option<Worlds> {
         let draw = &self.scene.passes[p].draws[d];
@@ -300,6 +300,7 @@ impl<'a> Walk<'a> {
             return None;
         }
         let mut skipped = Skipped::new(notes);
+        let mut drawn: Option<Worlds> = None;
         let point = self.sample_point(at);
         for (primitive, hit) in primitives {
             let hit = match hit {
@@ -325,10 +326,12 @@ impl<'a> Walk<'a> {
             if !hit.is_certain() {
                 self.note_clipping(notes, &place, hit);
             }
-            let before = (!hit.is_certain()).then(|| worlds.clone());
-            worlds = self.primitive(&place, worlds, notes);
+            let earlier = drawn.as_ref().unwrap_or(before);
+            let mut worlds = self.primitive(&place, earlier, notes);
             // A sample that may be clipped away can also keep its contents.
-            worlds.extend(before.into_iter().flatten());
+            if !hit.is_certain() {
+                worlds.extend(earlier.iter().cloned());
+            }
             if !merge(&mut worlds) {
                 notes.add(
                     || place.origin(),
@@ -339,8 +342,10 @@ impl<'a> Walk<'a> {
                 );
                 return None;
             }
+            drawn = Some(worlds);
         }
         self.note_skipped(notes, (p, d, draw), skipped);
+        let mut worlds = drawn.unwrap_or_else(|| before.clone());
         // Later draws do not share this one's edges.
         let outlives = |(decision, _): &(Decision, bool)| decision.outlives_its_draw();
         worlds.iter_mut().for_each(|w| w.decisions.retain(outlives));

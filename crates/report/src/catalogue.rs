@@ -7,7 +7,7 @@
 use crate::error::ReportError;
 use crate::files::{make, replace};
 use crate::lists::Interner;
-use crate::picture::{enlarged, thumbnail};
+use crate::picture::enlarged;
 use etalon_frame::Frame;
 use serde::Serialize;
 use serde_json::Value;
@@ -62,12 +62,7 @@ struct Area<'a> {
     cases: BTreeMap<&'a str, BTreeMap<&'a str, (usize, i64, usize)>>,
 }
 
-/// Returns a small picture of a frame's first image as a `data:` URL; empty if it cannot be shown.
-pub fn reference_picture(frame: &Frame) -> String {
-    frame.images.first().and_then(thumbnail).unwrap_or_default()
-}
-
-/// Returns the same picture as a PNG file, enlarged.
+/// Returns a picture of a frame's first image as a PNG file, enlarged.
 pub fn reference_png(frame: &Frame) -> Option<Vec<u8>> {
     frame.images.first().and_then(enlarged)
 }

@@ -39,9 +39,7 @@ mod versions;
 mod words;
 
 pub use bench::{BENCH_FILES, WrittenBench, bench_table, write_bench};
-pub use catalogue::{
-    CATALOGUE, Catalogue, CatalogueCase, reference_picture, reference_png, write_catalogue,
-};
+pub use catalogue::{CATALOGUE, Catalogue, CatalogueCase, reference_png, write_catalogue};
 pub use command::quoted;
 pub use diff::benches::{
     BenchDiff, BenchFacts, InstructionChange, InstructionOutcome, TimeChange, Untimed, diff,
@@ -55,7 +53,7 @@ pub use hunt::{HUNT_PAGE, WrittenHunt, hunt_table, write_hunt};
 pub use matrix::matrix_table;
 pub use methods::methods_html;
 pub use news::{News, NewsEntry, Since, news_table};
-pub use picture::{Ringed, ringed_pictures};
+pub use picture::{Ringed, Thumbnails, ringed_pictures};
 pub use run::{
     OtherFormats, RUN_FILES, RUN_FOLDERS, RecordLine, RunReports, dead_lines, record_html, table,
     write, write_run_with_news,

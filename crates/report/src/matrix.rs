@@ -4,6 +4,8 @@ mod csv;
 mod data;
 mod heat;
 mod page;
+mod reached;
+mod roofline;
 mod table;
 
 pub(crate) use csv::csv;

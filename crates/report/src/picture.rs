@@ -7,6 +7,8 @@ use etalon_record::FrameImage;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use maud::{Markup, Render, html};
+use std::collections::HashMap;
+use std::sync::Mutex;
 
 /// The largest width and height of a picture, in texels. Larger images are cut around the first wrong texel.
 const WINDOW: u32 = 128;
@@ -463,11 +465,44 @@ impl<'a> View<'a> {
     }
 }
 
-/// Returns a small picture of an image as a `data:` URL. Colour is shown as stored, without a transfer
-/// function; depth and stencil are grey; several samples are averaged.
-pub(crate) fn thumbnail(image: &Image) -> Option<String> {
-    let (pixels, [width, height]) = pixels(image)?;
-    uri(&pixels, width, height)
+/// Small pictures of images. An equal picture is compressed once: many cases share theirs.
+#[derive(Debug, Default)]
+pub struct Thumbnails {
+    made: Mutex<HashMap<Runs, String>>,
+}
+
+/// The size of a picture, and its pixels with the number of times that each is repeated.
+type Runs = ([u32; 2], Vec<([u8; 4], u32)>);
+
+impl Thumbnails {
+    /// Returns a picture of an image as a `data:` URL. Colour is shown as stored, without a transfer function;
+    /// depth and stencil are grey; several samples are averaged. Empty if the image cannot be shown.
+    pub fn uri(&self, image: &Image) -> String {
+        let Some((pixels, size)) = pixels(image) else {
+            return String::new();
+        };
+        let mut runs: Vec<([u8; 4], u32)> = Vec::new();
+        for pixel in &pixels {
+            match runs.last_mut() {
+                Some((last, times)) if last == pixel => *times += 1,
+                _ => runs.push((*pixel, 1)),
+            }
+        }
+        let key = (size, runs);
+        let made = self
+            .made
+            .lock()
+            .ok()
+            .and_then(|made| made.get(&key).cloned());
+        if let Some(uri) = made {
+            return uri;
+        }
+        let uri = uri(&pixels, size[0], size[1]).unwrap_or_default();
+        if let Ok(mut made) = self.made.lock() {
+            made.insert(key, uri.clone());
+        }
+        uri
+    }
 }
 
 /// Returns the same picture as a PNG file, with each texel as a block of pixels.
@@ -494,21 +529,27 @@ fn pixels(image: &Image) -> Option<(Vec<[u8; 4]>, [u32; 2])> {
         }
         _ => 1.0,
     };
-    let value = |texel: usize, channel: usize| {
+    let decoded = |channel: usize, code: u32| {
         let encoding = image.channels[channel];
-        let single = |sample: usize| {
+        if encoding.is_nan(code) {
+            0.0
+        } else {
+            (encoding.value_of_order(encoding.order_of_code(code)) / most).clamp(0.0, 1.0)
+        }
+    };
+    // Neighbours mostly have the same code.
+    let mut last: Vec<(u32, f64)> = (0..channels).map(|c| (0, decoded(c, 0))).collect();
+    let mut value = |texel: usize, channel: usize| {
+        let mut sum = 0.0;
+        for sample in 0..image.samples as usize {
             let code = image.codes[(texel * image.samples as usize + sample) * channels + channel];
-            if encoding.is_nan(code) {
-                0.0
-            } else {
-                encoding.value_of_order(encoding.order_of_code(code)) / most
+            let last = &mut last[channel];
+            if last.0 != code {
+                *last = (code, decoded(channel, code));
             }
-        };
-        let sum: f64 = (0..image.samples as usize)
-            .map(single)
-            .map(|v| v.clamp(0.0, 1.0))
-            .sum();
-        (sum / f64::from(image.samples) * 255.0).round() as u8
+            sum += last.1;
+        }
+        (sum / f64::from(image.samples) * 255.0 + 0.5) as u8
     };
     let texels = image.size[0] as usize * image.size[1] as usize;
     let pixel = |texel: usize| match (image.aspect, channels) {

@@ -29,6 +29,7 @@ mod sampler;
 mod scene;
 mod shader;
 mod tessellation;
+mod traffic;
 mod work;
 
 pub use attachment::{Attachment, Contents};

@@ -8,25 +8,40 @@ use crate::mesh::PrimitiveVertices;
 use crate::pass::{Clear, Pass};
 use crate::rasterization::{CullMode, FrontFace, PrimitiveTopology};
 use crate::scene::Scene;
+use crate::traffic::{self, Traffic};
 use etalon_frame::Work;
 
 impl Scene {
     /// Counts the work of one submission and of reading its frame back. Points, lines and outlines do not
-    /// count as triangles.
+    /// count as triangles, and clear commands of passes move no bytes.
     pub fn work(&self) -> Work {
-        let mut work = Work::default();
+        let (mut work, mut traffic) = (Work::default(), Vec::new());
         for pass in &self.passes {
             let size = self.pass_size(pass);
             work.cleared += cleared(pass, size);
             work.resolved += pass.resolve_targets().count() as u64 * area(size);
+            let clears = pass.cleared().into_iter();
+            traffic.extend(clears.map(|(index, aspect)| {
+                traffic::cleared(&self.attachments[index], aspect) * area(size)
+            }));
+            let samples = u64::from(self.pass_samples(pass));
+            traffic.extend(pass.resolve_targets().map(|index| {
+                traffic::resolved(self.attachments[index].format, samples) * area(size)
+            }));
             for draw in &pass.draws {
                 let (triangles, texels) = drawn(draw, size);
                 work.triangles += triangles;
                 work.texels += texels;
+                traffic.push(traffic::covered(&self.attachments, pass, draw) * texels);
             }
         }
-        let read = self.read.iter();
-        work.read = read.map(|i| area(self.attachments[*i].size)).sum();
+        for attachment in self.read.iter().map(|index| &self.attachments[*index]) {
+            let texels = area(attachment.size);
+            work.read += texels;
+            work.read_bytes += traffic::read_back(attachment).bytes * texels;
+        }
+        let traffic: Traffic = traffic.into_iter().sum();
+        (work.bytes, work.operations) = (traffic.bytes, traffic.operations);
         work
     }
 }
@@ -274,6 +289,10 @@ mod tests {
             cleared: 2 * texels,
             resolved: 2 * texels,
             read: texels,
+            // Each pass draws two layers of four samples, clears four samples, and resolves them to one.
+            bytes: 2 * texels * 4 * (2 * 4 + 4 + 5),
+            operations: 2 * texels * 4 * (2 * 4 + 9),
+            read_bytes: texels * 2 * 4,
         };
         assert_eq!(work, expected);
     }

@@ -11,7 +11,8 @@ use crate::{expectations, provenance, report_files, shard};
 use clap::Args;
 use etalon_case::Case;
 use etalon_record::{
-    BENCH_FORMAT, Bench, BenchHeader, BenchSettings, FolderKind, Shard, cell, selection_digest,
+    BENCH_FORMAT, Bench, BenchHeader, BenchSettings, FolderKind, ProcessorLimits, Shard, cell,
+    selection_digest,
 };
 use etalon_report::WrittenBench;
 use etalon_runner::{BenchError, BenchEvent, BenchPlan, BenchSummary, instruction_counter};
@@ -184,6 +185,7 @@ fn header(arguments: &Arguments, selected: &Selected, adapters: &Adapters) -> Be
         rounds: arguments.rounds,
         shader_cache: cache::state(arguments.cold),
         ruler: etalon_runner::ruler().to_owned(),
+        limits: limits(selected),
         settings: BenchSettings {
             selection: selected.digest.clone(),
             shard: selected.shard,
@@ -195,6 +197,21 @@ fn header(arguments: &Arguments, selected: &Selected, adapters: &Adapters) -> Be
         adapters: adapters.ready.iter().map(|(_, w)| w.into()).collect(),
         absent: adapters.absent.clone(),
     }
+}
+
+/// Returns the processor's limits, if a case belongs to the performance matrix, whose rates are compared with
+/// them.
+fn limits(selected: &Selected) -> Vec<ProcessorLimits> {
+    if !selected.cases.iter().any(|case| cell(&case.id).is_some()) {
+        return Vec::new();
+    }
+    let measured = etalon_cpu::limits().into_iter();
+    let limits = measured.map(|limit| ProcessorLimits {
+        threads: limit.threads as u32,
+        bytes: limit.bytes,
+        operations: limit.operations,
+    });
+    limits.collect()
 }
 
 /// Measures with a progress bar, on which a picture counts as one step, like a round.

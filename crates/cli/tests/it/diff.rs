@@ -39,6 +39,7 @@ fn bench(folder: &Path, seconds: f64) {
         rounds: 9,
         shader_cache: ShaderCache::Warm,
         ruler: "counting".to_owned(),
+        limits: Vec::new(),
         settings: Default::default(),
         adapters: vec![adapter("cpu")],
         absent: Vec::new(),

@@ -81,6 +81,7 @@ impl Place {
             rounds: 7,
             shader_cache: ShaderCache::Warm,
             ruler: "counting".to_owned(),
+            limits: Vec::new(),
             settings: Default::default(),
             adapters: vec![adapter("1.0")],
             absent: Vec::new(),

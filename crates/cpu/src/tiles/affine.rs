@@ -3,8 +3,8 @@
 //! A term performs the pipeline's plain arithmetic, with its constants computed once. It processes planes
 //! channel by channel, with code specialized for the encoding.
 
+use super::AREA;
 use super::fragments::Fragments;
-use super::image::AREA;
 use super::layout::Field;
 use super::planes::with_encoding;
 use crate::lanes::Codes;

@@ -1,7 +1,7 @@
 //! Functions of the bits of texels: write masks, replacement by a value, and logic operations.
 
+use super::AREA;
 use super::fragments::Fragments;
-use super::image::AREA;
 use super::lanes::{lanes, select};
 use super::layout::{Layout, Words};
 use crate::lanes::LANES;

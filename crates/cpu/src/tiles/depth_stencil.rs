@@ -1,6 +1,6 @@
 //! Depth and stencil kernels.
 
-use super::image::AREA;
+use super::AREA;
 use super::lanes::{Mask, lanes, select_bytes};
 use crate::lanes::LANES;
 use etalon_pipeline::stencil_operation;

@@ -47,6 +47,13 @@ impl Layout {
         }
     }
 
+    /// Returns true if a texel is a word of four 8-bit channels, which are its bytes.
+    #[inline(always)]
+    pub(crate) fn is_four_bytes(&self) -> bool {
+        let [first, ..] = self.fields;
+        self.channels == 4 && self.words == 1 && first.mask == 0xff
+    }
+
     /// Returns where each channel is.
     #[inline(always)]
     pub(crate) fn fields(&self) -> &[Field] {

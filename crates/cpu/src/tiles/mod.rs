@@ -16,6 +16,7 @@ mod edges;
 mod fragments;
 mod image;
 mod lanes;
+mod layer;
 mod layout;
 mod linear;
 mod listing;
@@ -38,9 +39,13 @@ mod work;
 pub(crate) use listing::lines;
 pub(crate) use plan::Plan;
 pub(crate) use scene::{Machine, TiledScene};
+pub(crate) use threads::on_threads;
 
 /// The width and height of a tile in texels.
 const TILE: usize = 64;
+
+/// The texels of a tile.
+const AREA: usize = TILE * TILE;
 
 #[cfg(test)]
 mod tests;

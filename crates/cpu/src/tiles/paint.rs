@@ -6,10 +6,11 @@
 //! constant, so that [affine](Affine) functions and [weights](Weights) express them without branches per
 //! texel.
 
+use super::AREA;
 use super::affine::{Affine, Join, Term};
 use super::bits::Bits;
 use super::fragments::Fragments;
-use super::image::{AREA, Texel};
+use super::image::Texel;
 use super::lanes::{ALL, Mask, lanes, select};
 use super::layout::{Layout, are_bytes};
 use super::linear::{CODES, Linear};

@@ -1,6 +1,6 @@
 //! The resolve of colours, which averages a texel's samples.
 
-use super::image::AREA;
+use super::AREA;
 use super::layout::Layout;
 use crate::lanes::{Codes, LANES};
 use etalon_frame::ChannelEncoding::{self, Srgb8, Unorm};

@@ -1,12 +1,12 @@
 //! A scene that is drawn in tiles.
 
 use super::TILE;
-use super::image::{AREA, Image};
-use super::layout::Layout;
+use super::image::Image;
+use super::layer::{Layer, Tiles};
 use super::plan::{PassPlan, Plan};
 use super::setup::{Input, Part, place};
 use super::threads::{available, on_threads};
-use super::tile::{self, Layer, Tile};
+use super::tile::{self, Tile};
 use super::triangle::Placed;
 use crate::pass::DISCARDED;
 use crate::prepared::frame;
@@ -24,6 +24,9 @@ const SHARED: usize = 4096;
 
 /// The smallest number of draws whose triangles threads share.
 const DRAWS: usize = 64;
+
+/// The smallest number of bytes that several threads clear: waking them takes as long as clearing fewer.
+const CLEARED: usize = 1 << 22;
 
 /// The vector instructions and the threads that kernels use.
 #[derive(Clone, Copy, Debug)]
@@ -76,22 +79,20 @@ impl TiledScene {
                 let encodings = self.scene.attachments[*index].format.color_channels();
                 let code = |c: usize| Faithful.clear_code(encodings[c], value[c]);
                 let image = &mut self.images[*index];
-                image.clear.color = Some(image.layout.texel(code));
+                image.color.clear(image.layout.texel(code));
             }
         }
         let Some(index) = pass.depth_stencil else {
             return;
         };
-        let format = self.scene.attachments[index].format;
         if let LoadOperation::Clear(value) = pass.operations.depth.load
-            && let Some(encoding) = depth_encoding(format)
+            && let Some(encoding) = depth_encoding(self.scene.attachments[index].format)
         {
-            self.images[index].clear.depth = Some(Faithful.clear_code(encoding, value));
+            let code = Faithful.clear_code(encoding, value);
+            self.images[index].depth.clear([code; 4]);
         }
-        if let LoadOperation::Clear(value) = pass.operations.stencil.load
-            && format.has_stencil()
-        {
-            self.images[index].clear.stencil = Some(value);
+        if let LoadOperation::Clear(value) = pass.operations.stencil.load {
+            self.images[index].stencil.clear([value; 4]);
         }
     }
 
@@ -100,14 +101,31 @@ impl TiledScene {
         for (index, aspect) in self.scene.passes[pass].discarded() {
             let format = self.scene.attachments[index].format;
             let code = |encoding: ChannelEncoding| encoding.nearest_code(DISCARDED);
-            let Image { clear, layout, .. } = &mut self.images[index];
+            let image = &mut self.images[index];
             let encodings = format.color_channels();
             match aspect {
-                Aspect::Color => clear.color = Some(layout.texel(|c| code(encodings[c]))),
-                Aspect::Depth => clear.depth = depth_encoding(format).map(code),
-                Aspect::Stencil => clear.stencil = format.has_stencil().then_some(0x99),
+                Aspect::Color => {
+                    let texel = image.layout.texel(|c| code(encodings[c]));
+                    image.color.clear(texel);
+                }
+                Aspect::Depth => {
+                    let code = depth_encoding(format).map(code);
+                    image.depth.clear([code.unwrap_or_default(); 4]);
+                }
+                Aspect::Stencil => image.stencil.clear([0x99; 4]),
             }
         }
+    }
+
+    /// Writes the clear values of tiles that were not drawn to.
+    fn write_clears(&mut self) {
+        let (mut words, mut bytes) = (Vec::new(), Vec::new());
+        for image in &mut self.images {
+            words.extend(image.color.layers().chain(image.depth.layers()));
+            bytes.extend(image.stencil.layers());
+        }
+        write_clears(self.machine, words);
+        write_clears(self.machine, bytes);
     }
 
     /// Draws a pass and resolves it.
@@ -128,75 +146,63 @@ impl TiledScene {
             let inputs = inputs(pass, plan, &self.images);
             transform(self.machine, &inputs, &mut self.placed);
             let parts = set_up(self.machine, plan, &inputs, &self.placed, &mut self.parts);
-            let cleared = |i: Option<usize>| i.map(|i| self.images[i].clear).unwrap_or_default();
             let [across, down] = plan.size.map(|s| s.div_ceil(TILE));
-            let samples = plan.positions.len();
+            let mut colors = layers(color.as_mut().map(|(_, tiles)| tiles));
+            let mut others: Vec<_> = others.iter_mut().map(|(_, tiles)| tiles.layers()).collect();
+            let mut targets = layers(resolved.as_mut().map(|(_, tiles)| {
+                tiles.overwrite();
+                tiles
+            }));
             let (depths, stencils) = match &mut depth_stencil {
-                Some((_, depth, stencil)) => (depth.as_mut_slice(), stencil.as_mut_slice()),
-                None => (&mut [][..], &mut [][..]),
+                Some((_, depth, stencil)) => (Some(depth), Some(stencil)),
+                None => (None, None),
             };
-            let words = Layout::new(plan.channels).words;
-            let mut colors = chunks(color.as_mut().map(|c| c.1.as_mut_slice()), samples * words);
-            let mut targets = chunks(resolved.as_mut().map(|c| c.1.as_mut_slice()), words);
-            let mut others: Vec<_> = others
-                .iter_mut()
-                .map(|(i, memory)| {
-                    let words = self.images[*i].layout.words;
-                    let planes = chunks(Some(memory), samples * words);
-                    (planes, words, self.images[*i].clear.color)
-                })
-                .collect();
-            let mut depths = chunks(Some(depths), samples);
-            let mut stencils = chunks(Some(stencils), samples);
-            let (clear, depth_clear) = (cleared(plan.color), cleared(plan.depth_stencil));
-            let tiles: Vec<Tile<'_>> = (0..across * down)
-                .map(|i| Tile {
+            let (mut depths, mut stencils) = (layers(depths), layers(stencils));
+            let tiles = (0..across * down).map(|i| {
+                let tile = Tile {
                     at: [i % across, i / across],
-                    color: Layer {
-                        planes: colors.next().unwrap_or_default(),
-                        words,
-                        clear: clear.color,
-                    },
-                    others: others
-                        .iter_mut()
-                        .map(|(planes, words, clear)| Layer {
-                            planes: planes.next().unwrap_or_default(),
-                            words: *words,
-                            clear: *clear,
-                        })
-                        .collect(),
-                    resolved: targets.next().unwrap_or_default(),
-                    depth: Layer {
-                        planes: depths.next().unwrap_or_default(),
-                        words: 1,
-                        clear: depth_clear.depth.map(|v| [v; 4]),
-                    },
-                    stencil: Layer {
-                        planes: stencils.next().unwrap_or_default(),
-                        words: 1,
-                        clear: depth_clear.stencil.map(|v| [v; 4]),
-                    },
-                })
-                .collect();
+                    color: colors.next().unwrap_or_default(),
+                    others: others.iter_mut().filter_map(Iterator::next).collect(),
+                    resolved: targets.next().unwrap_or_default().planes,
+                    depth: depths.next().unwrap_or_default(),
+                    stencil: stencils.next().unwrap_or_default(),
+                };
+                (i, tile)
+            });
+            let is_changed = |i: usize| {
+                plan.resolve.is_some() || parts.iter().any(|part| !part.bins[i].is_empty())
+            };
+            let tiles = tiles.filter_map(|(i, tile)| is_changed(i).then_some(tile));
+            let tiles: Vec<Tile<'_>> = tiles.collect();
             draw_tiles(self.machine, plan, &inputs, parts, tiles);
         }
         for (i, memory) in color.into_iter().chain(resolved).chain(others) {
             self.images[i].color = memory;
-            self.images[i].clear.color = None;
         }
         if let Some((i, depth, stencil)) = depth_stencil {
             let image = &mut self.images[i];
             (image.depth, image.stencil) = (depth, stencil);
-            (image.clear.depth, image.clear.stencil) = (None, None);
         }
     }
 }
 
-/// Returns an aspect's memory tile by tile, with this many planes per tile.
-fn chunks<T>(memory: Option<&mut [T]>, planes: usize) -> std::slice::ChunksExactMut<'_, T> {
-    memory
-        .unwrap_or_default()
-        .chunks_exact_mut(planes.max(1) * AREA)
+/// Returns the layers of an aspect's tiles, if there is the aspect.
+fn layers<T: Copy + Default>(tiles: Option<&mut Tiles<T>>) -> impl Iterator<Item = Layer<'_, T>> {
+    tiles.into_iter().flat_map(Tiles::layers)
+}
+
+/// Writes the clear values of layers that are not in memory.
+fn write_clears<T: Copy + Send>(machine: Machine, mut layers: Vec<Layer<'_, T>>) {
+    layers.retain(|layer| layer.cleared().is_some());
+    let bytes: usize = layers.iter().map(|layer| size_of_val(layer.planes)).sum();
+    let threads = if bytes < CLEARED { 1 } else { machine.threads };
+    let each = layers.len().div_ceil(threads).max(1);
+    on_threads(
+        layers.chunks_mut(each).collect(),
+        &|part: &mut [Layer<'_, T>]| {
+            part.iter_mut().for_each(|layer| layer.touch(false));
+        },
+    );
 }
 
 /// Returns the vertices and primitives of the pass's draws.
@@ -289,7 +295,7 @@ impl Prepared for TiledScene {
             self.pass(pass);
             self.discard(pass);
         }
-        self.images.iter_mut().for_each(Image::finish);
+        self.write_clears();
         self.submitted = true;
         let elapsed = start.elapsed();
         Ok(FrameTime {
@@ -301,7 +307,8 @@ impl Prepared for TiledScene {
 
     fn read_back(&mut self) -> Result<Frame, BackendError> {
         let codes = |index: usize, aspect, channels| {
-            self.images[index].codes(aspect, channels, self.machine.threads)
+            let Machine { level, threads } = self.machine;
+            self.images[index].codes(aspect, channels, level, threads)
         };
         let mut frame = frame(&self.scene, self.submitted, codes)?;
         // No draw with kernels has counters.

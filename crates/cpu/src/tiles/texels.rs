@@ -1,10 +1,12 @@
 //! Textures whose texels a shader fetches at the position that it draws.
 
-use super::image::{AREA, Image};
+use super::AREA;
+use super::image::Image;
 use super::plan::Fetched;
 use super::planes::{CodePlane, Plane, decode};
 use crate::lanes::{Codes, LANES};
 use etalon_frame::ChannelEncoding;
+use etalon_pipeline::{Arithmetic, Plain};
 
 /// The textures that a shader fetches from, at a tile.
 #[derive(Clone, Copy, Debug)]
@@ -95,11 +97,11 @@ impl Texture<'_> {
     /// Returns a word of the texels at an index of a tile's plane.
     #[inline(always)]
     fn plane(&self, tile: usize, offset: usize, word: usize) -> Codes {
-        if let Some(clear) = self.image.clear.color {
+        if let Some(clear) = self.image.color.cleared(tile) {
             return [clear[word]; LANES];
         }
         let start = (tile * self.image.layout.words + word) * AREA + offset;
-        let (lanes, _) = self.image.color[start..start + LANES].as_chunks();
+        let (lanes, _) = self.image.color.texels[start..start + LANES].as_chunks();
         lanes[0]
     }
 
@@ -116,6 +118,11 @@ impl Texture<'_> {
                 values.fill(if c == 3 { 1.0 } else { 0.0 });
                 continue;
             };
+            if let Some(clear) = self.image.color.cleared(tile) {
+                let code = [field.code(clear[field.word]); LANES];
+                values.fill(Plain::<LANES>.decode(*encoding, code)[0]);
+                continue;
+            }
             if last.replace(field.word) != Some(field.word) {
                 for (words, place) in words.as_chunks_mut().0.iter_mut().zip(places) {
                     *words = self.plane(tile, usize::from(*place), field.word);

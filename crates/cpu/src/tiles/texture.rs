@@ -23,9 +23,9 @@ impl Texture {
     pub(crate) fn new(image: &Image) -> Self {
         let (width, height) = (image.width, image.height);
         let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-        let texel = |(x, y)| match image.clear.color {
+        let texel = |(x, y)| match image.color.cleared(image.tile(x, y)) {
             Some([value, ..]) => value,
-            None => image.color[image.place(x, y, 0)],
+            None => image.color.texels[image.place(x, y, 0)],
         };
         Self {
             width,

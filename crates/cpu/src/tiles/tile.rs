@@ -1,5 +1,6 @@
 //! A tile: draws all its triangles in drawing order, while its texels are in the processor's caches.
 
+use super::AREA;
 use super::TILE;
 use super::depth::Depths;
 use super::depth_stencil::{
@@ -8,8 +9,8 @@ use super::depth_stencil::{
 };
 use super::edges::Rows;
 use super::fragments::{Fragments, MOST};
-use super::image::AREA;
 use super::lanes::{ALL, Mask, alphas_from, columns, lanes, select};
+use super::layer::Layer;
 use super::opaque::{Opaque, Planes, Store};
 use super::paint::{Kernel, Paint};
 use super::plan::{DrawPlan, PassPlan, Shading};
@@ -25,54 +26,6 @@ use fearless_simd::i32x16;
 use fearless_simd::prelude::*;
 use std::hint::black_box;
 use std::iter;
-
-/// One aspect of a tile: the planes of its samples; empty if the pass lacks the aspect.
-#[derive(Debug)]
-pub(crate) struct Layer<'a, T> {
-    pub(crate) planes: &'a mut [T],
-    /// The number of planes of a sample.
-    pub(crate) words: usize,
-    /// The value of all texels in each plane of a sample, while it is not in memory.
-    pub(crate) clear: Option<[T; 4]>,
-}
-
-impl<T: Copy> Layer<'_, T> {
-    /// Writes the clear value, only to the first sample if `same` is true.
-    #[inline(always)]
-    fn touch(&mut self, same: bool) {
-        if let Some(value) = self.clear.take() {
-            let sample_words = self.words * AREA;
-            let end = if same {
-                sample_words
-            } else {
-                self.planes.len()
-            };
-            let end = end.min(self.planes.len());
-            for sample in self.planes[..end].chunks_exact_mut(sample_words) {
-                for (plane, value) in sample.chunks_exact_mut(AREA).zip(value) {
-                    plane.fill(value);
-                }
-            }
-        }
-    }
-
-    /// Copies the first sample to the others.
-    #[inline(always)]
-    fn expand(&mut self) {
-        if self.clear.is_none() && !self.planes.is_empty() {
-            let (first, rest) = self.planes.split_at_mut(self.words * AREA);
-            rest.chunks_exact_mut(self.words * AREA)
-                .for_each(|sample| sample.copy_from_slice(first));
-        }
-    }
-
-    /// Returns the planes of a sample.
-    #[inline(always)]
-    fn sample(&mut self, sample: usize) -> &mut [T] {
-        let sample_words = self.words * AREA;
-        &mut self.planes[sample * sample_words..(sample + 1) * sample_words]
-    }
-}
 
 /// A tile of a pass's attachments.
 #[derive(Debug)]
@@ -158,17 +111,17 @@ pub(crate) fn draw<S: Simd>(
     let samples = pass.positions.len();
     let across = pass.size[0].div_ceil(TILE);
     let index = tile.at[1] * across + tile.at[0];
-    let cleared = (tile.color.planes.is_empty() || tile.color.clear.is_some())
-        && tile.others.iter().all(|o| o.clear.is_some())
-        && (tile.depth.planes.is_empty() || tile.depth.clear.is_some())
-        && (tile.stencil.planes.is_empty() || tile.stencil.clear.is_some());
+    let cleared = (tile.color.planes.is_empty() || tile.color.cleared().is_some())
+        && tile.others.iter().all(|o| o.cleared().is_some())
+        && (tile.depth.planes.is_empty() || tile.depth.cleared().is_some())
+        && (tile.stencil.planes.is_empty() || tile.stencil.cleared().is_some());
     let mut drawing = Drawing {
         pass,
         index,
         texels: tile_texels(pass, tile.at),
         same: samples == 1 || cleared,
-        range: tile.depth.clear.map_or(ANY, |[code, ..]| [code; 2]),
-        stencils: (tile.stencil.clear).map_or(ANY_STENCIL, |[value, ..]| [value; 2]),
+        range: tile.depth.cleared().map_or(ANY, |[code, ..]| [code; 2]),
+        stencils: (tile.stencil.cleared()).map_or(ANY_STENCIL, |[value, ..]| [value; 2]),
         tile,
     };
     for part in parts {
@@ -646,22 +599,14 @@ impl Drawing<'_, '_> {
         }
     }
 
-    /// Writes clear values that are not in memory yet, and resolves colour.
+    /// Resolves colour, and gives every sample its own planes.
     #[inline(always)]
     fn finish<S: Simd>(&mut self, simd: S) {
-        let Tile {
-            color,
-            others,
-            resolved,
-            depth,
-            stencil,
-            ..
-        } = &mut self.tile;
-        color.touch(self.same);
-        others.iter_mut().for_each(|o| o.touch(self.same));
-        depth.touch(self.same);
-        stencil.touch(self.same);
         if let Some((_, resolve)) = &self.pass.resolve {
+            let Tile {
+                color, resolved, ..
+            } = &mut self.tile;
+            color.touch(self.same);
             resolve.tile(simd, color.planes, self.same, resolved);
         }
         if self.same {

@@ -4,8 +4,8 @@
 //! The steps and their order are the pipeline's plain arithmetic. Planes are flat, since loops over groups of
 //! lanes become gathers and scatters.
 
+use super::AREA;
 use super::fragments::Fragments;
-use super::image::AREA;
 use super::lanes::{Mask, lanes, select};
 use super::layout::Layout;
 use super::planes::{CodePlane, GROUPS, Plane, TEXELS, decode, encode};

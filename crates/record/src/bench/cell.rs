@@ -73,6 +73,8 @@ pub struct CellRate {
     pub measure: Measure,
     /// The difference of the two cases' work.
     pub work: u64,
+    /// The bytes that the additional work moves, and its arithmetic operations; 0 if they were not counted.
+    pub traffic: [u64; 2],
     /// The kind of time that was compared.
     pub time: Time,
     /// The slope between the two cases.
@@ -107,9 +109,20 @@ impl CellRate {
             .collect();
         let medians =
             |times: fn(&Pair<'_>) -> Option<f64>| pairs.iter().filter_map(times).collect();
+        let difference = |f: fn(Work) -> u64| {
+            let [less, more] = [less, more].map(|r| r.picture.work.map_or(0, f));
+            more.saturating_sub(less)
+        };
+        let traffic = match measure {
+            Measure::Read => [difference(|w| w.read_bytes), 0],
+            // The few texels that its passes draw are not its work.
+            Measure::Cleared => [difference(|w| w.bytes), 0],
+            _ => [difference(|w| w.bytes), difference(|w| w.operations)],
+        };
         Some(Self {
             measure,
             work,
+            traffic,
             time,
             slope: Slope::new(&pairs, work)?,
             medians: [medians(|p| median(p.less)), medians(|p| median(p.more))],
@@ -150,6 +163,7 @@ mod tests {
             cleared,
             resolved,
             read,
+            ..Work::default()
         };
         let between = |a, b| Measure::between(a, b);
         let none = work(4, 4000, 10, 0, 10);

@@ -7,8 +7,8 @@ use crate::shader_cache::ShaderCache;
 use serde::{Deserialize, Serialize};
 
 /// The format of `bench.jsonl` that this crate writes. It reads format 1 too, which has no counted
-/// instructions.
-pub const BENCH_FORMAT: u32 = 2;
+/// instructions, and format 2, which has no limits of the machine.
+pub const BENCH_FORMAT: u32 = 3;
 
 /// The cases, adapters, machine and time of a bench.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -38,6 +38,9 @@ pub struct BenchHeader {
     /// A description of the fixed work on the processor that is timed around each round. It changes when
     /// the work does. Benches with different rulers cannot be corrected by them.
     pub ruler: String,
+    /// The limits of the processor, by number of threads; empty if they were not measured.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub limits: Vec<ProcessorLimits>,
     /// The settings of the bench.
     #[serde(default)]
     pub settings: BenchSettings,
@@ -45,6 +48,18 @@ pub struct BenchHeader {
     pub adapters: Vec<AdapterRecord>,
     /// The adapters that were looked for and could not be used.
     pub absent: Vec<AbsentAdapter>,
+}
+
+/// What the processor reaches at most with some threads.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ProcessorLimits {
+    /// The number of threads.
+    pub threads: u32,
+    /// The bytes that a copy larger than the caches reads and writes in a second.
+    pub bytes: f64,
+    /// The products and sums of 32-bit floats in a second, not fused, in the widest vectors.
+    pub operations: f64,
 }
 
 /// The settings of a bench. A bench can be resumed only with the same settings, except for the time limits.

@@ -27,6 +27,7 @@ fn header() -> BenchHeader {
         rounds: 3,
         shader_cache: ShaderCache::Cold,
         ruler: "counting".to_owned(),
+        limits: Vec::new(),
         settings: Default::default(),
         adapters: vec![serde_json::from_value(adapter).unwrap()],
         absent: Vec::new(),

@@ -46,6 +46,14 @@ impl Scale {
         }
     }
 
+    /// Returns the least and the greatest value.
+    pub(crate) fn ends(self) -> (f64, f64) {
+        match self {
+            Self::Linear(low, high) => (low, high),
+            Self::Log(low, high) => (10_f64.powf(low), 10_f64.powf(high)),
+        }
+    }
+
     /// Returns the position of a value, from 0 to 1.
     pub(crate) fn at(self, value: f64) -> f64 {
         let (low, high, value) = match self {

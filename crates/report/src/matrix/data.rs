@@ -1,5 +1,6 @@
 //! The cells of a bench: their rates, and the rates they are compared with.
 
+use super::reached::Reached;
 use crate::bench::figures::{end, software};
 use crate::lists::{distinct, grouped};
 use etalon_record::{Bench, BenchRecord, CellRate, Measure, Verdict, cell};
@@ -35,6 +36,9 @@ pub(crate) struct Entry {
     pub(crate) of_base: Option<f64>,
     /// The cell's rate divided by the rate of clearing.
     pub(crate) of_clear: Option<f64>,
+    /// What the cell reaches of the processor's limits, if the adapter draws with the processor and they were
+    /// measured.
+    pub(crate) reached: Option<Reached>,
 }
 
 /// The rate of a cell on an adapter, or the reason why it has none.
@@ -134,10 +138,14 @@ impl Cell {
         let size = axes.remove("size").unwrap_or_default();
         let results = grouped(records.into_iter().map(|r| (r.picture.adapter.as_str(), r)));
         let results = results.into_iter().map(|(adapter, records)| {
+            let software = software(bench.header.adapter(adapter));
+            let outcome = CellOutcome::new(&records, software);
+            let limits = bench.header.limits.last().filter(|_| software);
             let entry = Entry {
-                outcome: CellOutcome::new(&records, software(bench.header.adapter(adapter))),
                 of_base: None,
                 of_clear: None,
+                reached: limits.and_then(|limits| Reached::new(outcome.times()?, *limits)),
+                outcome,
             };
             (adapter.to_owned(), entry)
         });

@@ -6,8 +6,10 @@
 use super::csv::state;
 use super::data::{Cell, CellOutcome, Entry, Matrix, unit};
 use super::heat::Heat;
+use super::roofline;
 use super::table::half_width;
 use crate::bench::figures::{incomplete, limits};
+use crate::chart;
 use crate::numbers::{count, digits, duration};
 use crate::page::adapter::breakable;
 use crate::page::origin::origin;
@@ -38,6 +40,7 @@ pub(crate) fn page(matrix: &Matrix<'_>) -> String {
             }
             div id="ratios" {}
         }
+        @if let Some(section) = roofline::section(matrix) { (section) }
         @for (i, adapter) in matrix.adapters.iter().enumerate() { (of_adapter(matrix, i, adapter)) }
         section id="samples" {
             h2 { "Samples" }
@@ -53,6 +56,7 @@ pub(crate) fn page(matrix: &Matrix<'_>) -> String {
         "bench.jsonl in this folder",
         &main,
     )
+    .style(&chart::style())
     .style(OWN_STYLE)
     .script(SCRIPT, false)
     .html()
@@ -78,9 +82,11 @@ fn head(matrix: &Matrix<'_>) -> Markup {
                 (limits(&h.settings))
                 dt { "Below resolution" } dd { (below) " of " (entries().count()) }
                 @if let Some(clock) = clock(matrix) { dt { "Clock" } dd { (clock) } }
+                dt { "Limits" } dd { (roofline::in_words(&h.limits)) }
             }
             nav {
                 @for (i, adapter) in matrix.adapters.iter().enumerate() { a href={ "#adapter-" (i) } { (adapter) } }
+                @if !h.limits.is_empty() { a href="#roofline" { "Roofline" } }
                 a href="#samples" { "Samples" }
                 a href="index.html" { "Frame times" }
                 a href="matrix.csv" { "CSV" }
@@ -118,6 +124,15 @@ fn explanation() -> Markup {
                 "regardless of samples and attachments. Texels that a test or the shader rejects count too. "
                 b { "Mtri/s" } " counts triangles of 1,024 texels or fewer. "
                 "The second number of a cell is its share of the base cell: rgba8unorm filled without blending and tests."
+            }
+            p {
+                b { "Of memory" } " and " b { "of arithmetic" } " compare a software adapter's cell with two limits, measured before the "
+                "rounds with as many threads: a copy larger than the caches, which counts the bytes that it reads and writes, and "
+                "products and sums of 32-bit floats in the widest vectors, not fused. The cell's bytes and operations follow from "
+                "its states: what each sample reads and writes of attachments and textures if it passes its tests and nothing is "
+                "cached; conversions, products, sums and comparisons of each channel. Shaders, edges and vertices do not count. "
+                "More than 100 % of memory means that caches keep the texels; more than 100 % of arithmetic, that fewer operations "
+                "gave the same result."
             }
             p {
                 b { "Below" } ": the additional work takes less time than the scatter of single times, or the interval contains no "
@@ -188,16 +203,19 @@ fn figure(cell: &Cell, adapter: &str, link: &dyn Fn(&Cell) -> String) -> Markup 
     }
 }
 
-/// Returns the cell's name with the interval of its rate.
+/// Returns the cell's name with the interval of its rate and its shares of the limits.
 fn words(cell: &Cell, entry: &Entry) -> String {
     let times = entry.outcome.times();
     let interval = times.and_then(|t| Some((unit(t.measure), t.slope.rate_interval()?)));
-    match interval {
-        None => cell.short(),
-        Some(((unit, divisor), ends)) => {
-            let [low, high] = ends.map(|end| digits(end / divisor, 3));
-            format!("{}: {low} to {high} {unit}", cell.short())
-        }
+    let interval = interval.map(|((unit, divisor), ends)| {
+        let [low, high] = ends.map(|end| digits(end / divisor, 3));
+        format!("{low} to {high} {unit}")
+    });
+    let reached = entry.reached.as_ref().map(roofline::words);
+    let facts: Vec<String> = interval.into_iter().chain(reached).collect();
+    match facts.as_slice() {
+        [] => cell.short(),
+        facts => format!("{}: {}", cell.short(), facts.join("; ")),
     }
 }
 
@@ -247,6 +265,15 @@ fn listed(group: &str, cells: &[&Cell], adapter: &str, link: &dyn Fn(&Cell) -> S
         .number("of base", |cell| share(cell.results.get(adapter)?.of_base))
         .number("of clear", |cell| {
             share(cell.results.get(adapter)?.of_clear)
+        })
+        .number("of memory", |cell| {
+            Some(roofline::of_limit(
+                cell.results.get(adapter)?.reached?.shares()[0],
+            ))
+        })
+        .number("of arithmetic", |cell| {
+            let share = cell.results.get(adapter)?.reached?.shares()[1];
+            (share > 0.0).then(|| roofline::of_limit(share))
         })
         .page(cells.iter().copied())
 }
@@ -299,6 +326,7 @@ fn rounds(times: &CellRate, entry: &Entry) -> Markup {
             } }
             @if let Some(share) = entry.of_base { dt { "Of base" } dd { (share_of(share)) } }
             @if let Some(share) = entry.of_clear { dt { "Of clear" } dd { (share_of(share)) } }
+            @if let Some(reached) = &entry.reached { dt { "Of limits" } dd { (roofline::words(reached)) } }
             dt { "Work between" } dd { (times.work) " " (noun(times.measure)) }
             dt { "Rounds" } dd { (each.join(", ")) " " (unit) }
             dt { "Fewer layers" } dd { (list(&times.medians[0])) }

@@ -3,8 +3,8 @@
 use crate::synthetic::adapter;
 use etalon_frame::Api;
 use etalon_record::{
-    BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchWriter, Ended, Machine, Picture, Round,
-    ShaderCache, Time, Verdict,
+    BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchWriter, Ended, Machine, Picture,
+    ProcessorLimits, Round, ShaderCache, Time, Verdict,
 };
 use etalon_report::{TableOptions, bench_table, diff, diff_table, write_bench, write_diff};
 use etalon_stats::Conclusion;
@@ -33,6 +33,11 @@ pub(crate) fn header() -> BenchHeader {
         rounds: 9,
         shader_cache: ShaderCache::Warm,
         ruler: "a million multiplications".to_owned(),
+        limits: vec![ProcessorLimits {
+            threads: 2,
+            bytes: 16e9,
+            operations: 256e9,
+        }],
         settings: Default::default(),
         adapters: vec![
             adapter("cpu", Api::Vulkan),

@@ -53,6 +53,9 @@ fn picture(case: &str, adapter: &str, verdict: Verdict, layers: u64) -> BenchLin
             cleared: if clears { TEXELS * layers } else { 0 },
             resolved: 0,
             read: TEXELS,
+            bytes: 8 * TEXELS * layers,
+            operations: 16 * TEXELS * layers,
+            read_bytes: 0,
         }),
     })
 }

@@ -23,7 +23,7 @@ const MOST_WARM_UP: usize = 60;
 /// The minimum and the maximum number of timed frames of a round. More rounds give more information than more
 /// frames per round.
 const FRAMES: [u32; 2] = [3, 25];
-/// The maximum number of times that a frame is read back in a round.
+/// The maximum number of times that reading a frame back is timed in a round.
 const MOST_READ_BACKS: usize = 3;
 
 /// The measurements of one round.
@@ -81,18 +81,16 @@ impl WorkerProcess {
         let [fewest, most] = FRAMES;
         let fit = (budget.as_secs_f64() / seconds(recent)) as u32;
         let frames = self.submit(SLOT, fit.clamp(fewest, most), timeout)?;
+        // The first time is mostly that of the system, which maps new memory for the frame.
+        let (mut picture, _) = self.read_back(timeout)?;
         let mut read_back = Vec::new();
-        let mut picture = 0;
         let reading = Instant::now();
         while read_back.is_empty()
             || (read_back.len() < MOST_READ_BACKS && reading.elapsed() < budget / 4)
         {
-            let (payload, took) = self.ask(Request::ReadBack { slot: SLOT }, timeout)?;
-            let Payload::Frame(frame) = payload else {
-                return Err(wrong_answer().into());
-            };
+            let (again, took) = self.read_back(timeout)?;
             read_back.push(seconds(took));
-            picture = fingerprint(&frame);
+            picture = again;
         }
         Ok(RoundTimes {
             prepare: seconds(prepare),
@@ -102,6 +100,15 @@ impl WorkerProcess {
             read_back,
             picture,
         })
+    }
+
+    /// Reads the frame back. Returns its fingerprint, and the time that the worker took.
+    fn read_back(&mut self, timeout: Duration) -> Result<(u64, Duration), Failure> {
+        let (payload, took) = self.ask(Request::ReadBack { slot: SLOT }, timeout)?;
+        let Payload::Frame(frame) = payload else {
+            return Err(wrong_answer().into());
+        };
+        Ok((fingerprint(&frame), took))
     }
 }
 

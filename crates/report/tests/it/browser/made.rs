@@ -66,7 +66,7 @@ fn catalogue() -> Catalogue {
                 "</script><i>pass 0".to_owned(),
             ],
             shaders: vec!["uniform_color"],
-            picture: etalon_report::reference_picture(&frame),
+            picture: etalon_report::Thumbnails::default().uri(&frame.images[0]),
         });
     }
     catalogue
