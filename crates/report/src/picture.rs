@@ -537,30 +537,29 @@ fn pixels(image: &Image) -> Option<(Vec<[u8; 4]>, [u32; 2])> {
             (encoding.value_of_order(encoding.order_of_code(code)) / most).clamp(0.0, 1.0)
         }
     };
-    // Neighbours mostly have the same code.
-    let mut last: Vec<(u32, f64)> = (0..channels).map(|c| (0, decoded(c, 0))).collect();
-    let mut value = |texel: usize, channel: usize| {
-        let mut sum = 0.0;
-        for sample in 0..image.samples as usize {
-            let code = image.codes[(texel * image.samples as usize + sample) * channels + channel];
-            let last = &mut last[channel];
-            if last.0 != code {
-                *last = (code, decoded(channel, code));
-            }
-            sum += last.1;
-        }
-        (sum / f64::from(image.samples) * 255.0 + 0.5) as u8
+    let value = |codes: &[u32], channel: usize| {
+        let samples = codes.chunks_exact(channels);
+        let sum: f64 = samples.map(|codes| decoded(channel, codes[channel])).sum();
+        (sum / f64::from(image.samples) * 255.0).round() as u8
     };
-    let texels = image.size[0] as usize * image.size[1] as usize;
-    let pixel = |texel: usize| match (image.aspect, channels) {
-        (Aspect::Color, 3..) => [value(texel, 0), value(texel, 1), value(texel, 2), 255],
-        (Aspect::Color, 2) => [value(texel, 0), value(texel, 1), 0, 255],
+    let pixel = |codes: &[u32]| match (image.aspect, channels) {
+        (Aspect::Color, 3..) => [value(codes, 0), value(codes, 1), value(codes, 2), 255],
+        (Aspect::Color, 2) => [value(codes, 0), value(codes, 1), 0, 255],
         _ => {
-            let grey = value(texel, 0);
+            let grey = value(codes, 0);
             [grey, grey, grey, 255]
         }
     };
-    Some(((0..texels).map(pixel).collect(), image.size))
+    // Neighbours mostly have the same codes.
+    let mut last = (&[][..], [0; 4]);
+    let mut pixels = Vec::with_capacity(image.size[0] as usize * image.size[1] as usize);
+    for codes in image.codes.chunks_exact(channels * image.samples as usize) {
+        if codes != last.0 {
+            last = (codes, pixel(codes));
+        }
+        pixels.push(last.1);
+    }
+    Some((pixels, image.size))
 }
 
 /// Returns the pixels as a `data:` URL, in the smallest suitable PNG format.
