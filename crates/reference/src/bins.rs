@@ -8,8 +8,9 @@ use crate::primitive::{Bounds, Shape, SnappedPrimitive, misses};
 use crate::sample::Sample;
 use crate::setup;
 use crate::sides::sides;
-use crate::snap::units_per_texel;
+use crate::snap::{SnapBox, units_per_texel};
 use crate::vertex::Vertices;
+use etalon_pipeline::Point;
 use etalon_scene::{Draw, Pass};
 use std::ops::Range;
 
@@ -43,6 +44,8 @@ pub(crate) struct PassSetup {
     bounds: Vec<Vec<Bounds>>,
     clips: Vec<Clip>,
     reaches: Vec<Reach>,
+    /// The box around the samples of the texel at the upper left.
+    samples: SnapBox,
     /// Sub-texel units per texel.
     units: i64,
 }
@@ -54,6 +57,7 @@ impl PassSetup {
             bounds: Vec::new(),
             clips: Vec::new(),
             reaches: Vec::new(),
+            samples: around_samples(context),
             units: units_per_texel(context.limits),
         };
         let mut vertices = Vertices::of(pass);
@@ -152,6 +156,37 @@ fn common(a: Bounds, b: Bounds) -> Bounds {
     ]
 }
 
+/// Returns a sample of a pass's attachments.
+fn sample_of(context: &PassContext<'_>, [x, y]: [u32; 2], sample: u32) -> Sample {
+    Sample {
+        size: context.size,
+        samples: context.samples,
+        x,
+        y,
+        sample,
+    }
+}
+
+/// Returns the box around the points at which the samples of the texel at the upper left can be.
+fn around_samples(context: &PassContext<'_>) -> SnapBox {
+    let units = units_per_texel(context.limits);
+    let texel = SnapBox {
+        low: Point { x: 0, y: 0 },
+        high: Point { x: units, y: units },
+    };
+    if context.samples > 1 && !context.rules.covers_at_positions.value() {
+        return texel;
+    }
+    let points = (0..context.samples).map(|sample| {
+        let point = sample_of(context, [0, 0], sample).point(context.limits);
+        SnapBox {
+            low: point,
+            high: point,
+        }
+    });
+    points.reduce(SnapBox::hull).unwrap_or(texel)
+}
+
 /// Returns false if a small triangle misses all judged samples of the texels that it can touch.
 fn reaches(
     context: &PassContext<'_>,
@@ -166,13 +201,7 @@ fn reaches(
     }
     let units = units_per_texel(context.limits);
     let covers = |x: u32, y: u32, sample: u32| {
-        let at = Sample {
-            size: context.size,
-            samples: context.samples,
-            x,
-            y,
-            sample,
-        };
+        let at = sample_of(context, [x, y], sample);
         let point = at.point(context.limits);
         !misses(triangle, sides(context.rules, triangle, at, point, units))
     };
@@ -271,10 +300,8 @@ impl Segments {
         for number in active {
             let reach = &setup.reaches[*number as usize];
             let mut columns = reach.columns.clone();
-            if columns.len() > 2
-                && let Shape::Triangle(triangle) = &setup.primitive(reach).shape
-            {
-                let [outer, inner] = triangle.columns(row, columns, setup.units);
+            if let Shape::Triangle(triangle) = &setup.primitive(reach).shape {
+                let [outer, inner] = triangle.columns(row, columns, setup.samples, setup.units);
                 columns = outer;
                 if !inner.is_empty() {
                     self.breaks.extend([inner.start, inner.end]);

@@ -223,9 +223,15 @@ impl Triangle {
         }
     }
 
-    /// Returns the columns of a row, within `among`, whose texels a triangle can touch, and the columns that
-    /// it certainly covers.
-    pub(crate) fn columns(&self, row: u32, among: Range<u32>, units: i64) -> [Range<u32>; 2] {
+    /// Returns the columns of a row, within `among`, whose samples a triangle can cover, and the columns whose
+    /// samples it certainly covers. The samples of a texel are inside `samples`.
+    pub(crate) fn columns(
+        &self,
+        row: u32,
+        among: Range<u32>,
+        samples: SnapBox,
+        units: i64,
+    ) -> [Range<u32>; 2] {
         let (least, most) = self.area;
         let mut outer = i64::from(among.start)..i64::from(among.end);
         let mut inner = outer.clone();
@@ -235,20 +241,18 @@ impl Triangle {
             (_, true) => -1,
             _ => return [among, 0..0],
         };
-        let (top, bottom) = (i64::from(row) * units, (i64::from(row) + 1) * units);
+        let top = i64::from(row) * units;
         let Edges::Between(vertices) = &self.edges else {
             return [among, 0..0];
         };
         for i in 0..3 {
             let (p, q) = (vertices[i].low(), vertices[(i + 1) % 3].low());
             let (dx, dy) = (sign * (q.x - p.x), sign * (q.y - p.y));
-            let (at_top, at_bottom) = (dx * (top - p.y), dx * (bottom - p.y));
-            let growth = -dy * units;
-            // Over the texel in column x, the edge function is at least start + growth * x, and greater by at
-            // most the variation within a texel.
-            let start = dy * p.x;
-            let lowest = start + at_top.min(at_bottom) + growth.min(0);
-            let highest = start + at_top.max(at_bottom) + growth.max(0);
+            // At the upper left corner of the texel in column x, the edge function is start + growth * x.
+            let (start, growth) = (dx * (top - p.y) + dy * p.x, -dy * units);
+            let values = samples.corners().map(|at| start + dx * at.y - dy * at.x);
+            let lowest = values.into_iter().fold(i64::MAX, i64::min);
+            let highest = values.into_iter().fold(i64::MIN, i64::max);
             keep_below(&mut outer, lowest, growth, self.moved);
             keep_below(&mut inner, highest, growth, -self.moved - 1);
         }

@@ -24,7 +24,7 @@ impl Hash for Cell {
     fn hash<H: Hasher>(&self, state: &mut H) {
         let [red, green, blue, alpha] = self.channels;
         let lows = [red.low, green.low, blue.low, alpha.low];
-        (lows, red.high, self.stencil).hash(state);
+        (lows, red.high, self.stencil, self.origin).hash(state);
     }
 }
 
