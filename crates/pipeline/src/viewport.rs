@@ -13,11 +13,21 @@ pub fn window_position<A: Arithmetic>(
     position: [f32; 4],
     viewport: &Viewport,
 ) -> [A::Real; 3] {
-    [0, 1, 2].map(|axis| window_coordinate(a, [position[axis], position[3]], axis, viewport))
+    let [x, y, z, w] = position.map(|v| a.constant(v));
+    let [x, y, z] = if position[3] == 1.0 {
+        [x, y, z]
+    } else {
+        [a.div(x, w), a.div(y, w), a.div(z, w)]
+    };
+    // No loop, because one over the axes costs the rasterizer a third of its vertices.
+    [
+        placed(a, x, 0, viewport),
+        placed(a, y, 1, viewport),
+        placed(a, z, 2, viewport),
+    ]
 }
 
 /// Returns a coordinate of a window position along an axis, from the clip-space coordinate and w.
-#[inline]
 pub fn window_coordinate<A: Arithmetic>(
     a: &mut A,
     [value, w]: [f32; 2],
@@ -29,6 +39,12 @@ pub fn window_coordinate<A: Arithmetic>(
         let w = a.constant(w);
         ndc = a.div(ndc, w);
     }
+    placed(a, ndc, axis, viewport)
+}
+
+/// Returns a coordinate of a window position along an axis, from that of normalized device coordinates.
+#[inline(always)]
+fn placed<A: Arithmetic>(a: &mut A, ndc: A::Real, axis: usize, viewport: &Viewport) -> A::Real {
     if axis == 2 {
         let [near, far] = viewport.depth.map(|d| a.constant(d));
         let range = a.sub(far, near);
