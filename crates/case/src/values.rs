@@ -14,7 +14,9 @@ pub(crate) fn is_word(text: &str) -> bool {
 
 /// Parses a value.
 pub(crate) fn typed<T: DeserializeOwned>(value: &Value) -> Result<T, At> {
-    serde_path_to_error::deserialize(value).map_err(At::from_typed)
+    // Tracking the path of an error takes as long as parsing, so it is tracked only if there is one.
+    T::deserialize(value)
+        .or_else(|_| serde_path_to_error::deserialize(value).map_err(At::from_typed))
 }
 
 /// Replaces every string `"$name"` by the value of that name.

@@ -123,9 +123,7 @@ const ROUNDINGS: f64 = 8.0;
 
 /// Returns the least and greatest slope per texel over all snapped positions.
 pub(crate) fn slopes(context: &PassContext<'_>, boxes: [SnapBox; 3], z: [Interval; 3]) -> Interval {
-    let units = units_per_texel(context.limits);
-    let grid = (units >> context.limits.sub_pixel_bits) as f64;
-    let units = units as f64;
+    let units = units_per_texel(context.limits) as f64;
     let middle = z.map(|z| (z.low + z.high) / 2.0);
     if z[0] == z[1] && z[1] == z[2] {
         return Interval::exact(0.0);
@@ -142,6 +140,7 @@ pub(crate) fn slopes(context: &PassContext<'_>, boxes: [SnapBox; 3], z: [Interva
     // The error of each vertex's depth: half the depth's interval, plus the roundings of the terms that use
     // it.
     let off = z.map(|z| (z.high - z.low) / 2.0 + (hull.high - hull.low) * error);
+    let step = context.step() as f64;
     // The plane that is 1 at one vertex and 0 at the others.
     let share = |vertex: usize| {
         let mut depths = [0.0; 3];
@@ -159,7 +158,7 @@ pub(crate) fn slopes(context: &PassContext<'_>, boxes: [SnapBox; 3], z: [Interva
                 .map(|(growth, off)| growth * off)
                 .sum();
             // Positions may be those before or after snapping.
-            let by_positions = growth.iter().sum::<f64>() * grid;
+            let by_positions = growth.iter().sum::<f64>() * step;
             let slope = slope(context, plane.dx * units, plane.dy * units);
             slope.widen(by_depths * units + slope.high * by_positions)
         })

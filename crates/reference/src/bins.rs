@@ -4,9 +4,9 @@
 
 use crate::clip::Clip;
 use crate::context::PassContext;
-use crate::primitive::{Bounds, Shape, SnappedPrimitive, misses};
+use crate::primitive::{Bounds, Shape, Side, SnappedPrimitive, misses};
 use crate::sample::Sample;
-use crate::setup;
+use crate::setup::{self, Filter};
 use crate::sides::sides;
 use crate::snap::{SnapBox, units_per_texel};
 use crate::vertex::Vertices;
@@ -62,12 +62,14 @@ impl PassSetup {
         };
         let mut vertices = Vertices::of(pass);
         for (d, draw) in pass.draws.iter().enumerate() {
-            let touched = |p: &SnappedPrimitive| texels(context.size, draw, p, setup.units);
-            let is_kept =
-                |p: &SnappedPrimitive| context.keeps_misses || reaches(context, p, touched(p));
-            let primitives = setup::draw(context, draw, &mut vertices, is_kept);
+            let touched = |shape: &Shape| texels(context.size, draw, shape, setup.units);
+            let filter = Filter {
+                keeps: &|shape| context.keeps_misses || reaches(context, shape, touched(shape)),
+                decides: &|shape| decides(context, shape, touched(shape), setup.samples),
+            };
+            let primitives = setup::draw(context, draw, &mut vertices, &filter);
             for (i, primitive) in primitives.iter().enumerate() {
-                let [columns, rows] = touched(primitive);
+                let [columns, rows] = touched(&primitive.shape);
                 if !columns.is_empty() && !rows.is_empty() {
                     setup.reaches.push(Reach {
                         draw: d as u32,
@@ -78,13 +80,14 @@ impl PassSetup {
                 }
             }
             let bounds = primitives.chunks(RUN).map(|run| {
-                let each = run.iter().map(|primitive| primitive.bounds(setup.units));
+                let each = run
+                    .iter()
+                    .map(|primitive| primitive.shape.bounds(setup.units));
                 each.reduce(common).unwrap_or_default()
             });
             setup.bounds.push(bounds.collect());
             setup.draws.push(primitives);
-            let clip = Clip::new(context.rules, context.limits, &draw.viewport);
-            setup.clips.push(clip);
+            setup.clips.push(Clip::new(context, &draw.viewport));
         }
         setup
     }
@@ -126,7 +129,7 @@ impl PassSetup {
         let runs = self.draws[draw].chunks(RUN).zip(&self.bounds[draw]);
         let runs = runs.filter(move |(_, bounds)| holds(**bounds));
         let primitives = runs.flat_map(|(run, _)| run);
-        primitives.filter(move |primitive| holds(primitive.bounds(self.units)))
+        primitives.filter(move |primitive| holds(primitive.shape.bounds(self.units)))
     }
 
     /// Returns the rows of the pass's attachments, from the top, with the primitives of a range of draws.
@@ -188,12 +191,8 @@ fn around_samples(context: &PassContext<'_>) -> SnapBox {
 }
 
 /// Returns false if a small triangle misses all judged samples of the texels that it can touch.
-fn reaches(
-    context: &PassContext<'_>,
-    primitive: &SnappedPrimitive,
-    [columns, mut rows]: [Range<u32>; 2],
-) -> bool {
-    let Shape::Triangle(triangle) = &primitive.shape else {
+fn reaches(context: &PassContext<'_>, shape: &Shape, [columns, mut rows]: [Range<u32>; 2]) -> bool {
+    let Shape::Triangle(triangle) = shape else {
         return true;
     };
     if columns.len() * rows.len() > MOST_TRIED {
@@ -213,19 +212,45 @@ fn reaches(
     })
 }
 
+/// Returns true if a triangle covers or misses each judged sample of the texels that it can touch, wherever its
+/// vertices are snapped.
+fn decides(
+    context: &PassContext<'_>,
+    shape: &Shape,
+    [columns, mut rows]: [Range<u32>; 2],
+    samples: SnapBox,
+) -> bool {
+    let Shape::Triangle(triangle) = shape else {
+        return false;
+    };
+    if triangle.area.0 <= 0 && triangle.area.1 >= 0 {
+        return false;
+    }
+    let units = units_per_texel(context.limits);
+    let is_sure = |x: u32, y: u32, sample: u32| {
+        let at = sample_of(context, [x, y], sample);
+        let point = at.point(context.limits);
+        let sides = sides(context.rules, triangle, at, point, units);
+        misses(triangle, sides) || !sides.contains(&Side::Unknown)
+    };
+    rows.all(|y| {
+        let [mut outer, inner] = triangle.columns(y, columns.clone(), samples, units);
+        outer.all(|x| {
+            inner.contains(&x)
+                || !context.lattice.contains(x, y)
+                || (0..context.samples).all(|sample| is_sure(x, y, sample))
+        })
+    })
+}
+
 /// Returns the columns and rows of the texels that a primitive can touch.
-fn texels(
-    size: [u32; 2],
-    draw: &Draw,
-    primitive: &SnappedPrimitive,
-    units: i64,
-) -> [Range<u32>; 2] {
+fn texels(size: [u32; 2], draw: &Draw, shape: &Shape, units: i64) -> [Range<u32>; 2] {
     let viewport = draw.viewport.area();
-    let bounds = primitive.bounds(units);
+    let bounds = shape.bounds(units);
     [0, 1].map(|axis| {
         let most = i64::from(size[axis]);
         let (mut low, mut high) = (bounds[axis], bounds[axis + 2]);
-        if let Shape::Triangle(_) = primitive.shape {
+        if let Shape::Triangle(_) = shape {
             let (start, length) = (viewport[axis], viewport[axis + 2]);
             // The cast saturates.
             low = low.max((start.floor() as i64).saturating_sub(BEYOND_VIEWPORT));

@@ -1,10 +1,10 @@
 //! Clipping by a viewport's edges, which legal snapping leaves partly open.
 
+use crate::context::PassContext;
 use crate::possible::Possible;
 use crate::primitive::{Shape, SnappedPrimitive};
 use crate::rules::Rules;
-use crate::snap::{SnapBox, units_per_texel};
-use etalon_frame::Limits;
+use crate::snap::{SnapBox, coarsest_step, units_per_texel};
 use etalon_pipeline::Point;
 use etalon_scene::Viewport;
 
@@ -16,34 +16,18 @@ use etalon_scene::Viewport;
 pub(crate) struct Clip {
     /// Left, top, width and height in sub-texel units.
     rect: [f64; 4],
-    /// The distance from an edge at which a vertex is certainly outside.
-    slack: f64,
-    triangles: Reach,
-    wide: Reach,
-    points_at_sides: bool,
-    lines_at_sides: bool,
-}
-
-/// The samples that can be inside, and the samples that must be.
-#[derive(Clone, Debug)]
-struct Reach {
-    can: SnapBox,
-    must: SnapBox,
+    /// The samples that are inside wherever edges are snapped, on any adapter's grid.
+    inside: SnapBox,
 }
 
 impl Clip {
-    pub(crate) fn new(rules: &Rules, limits: &Limits, viewport: &Viewport) -> Self {
-        let units = units_per_texel(limits) as f64;
+    pub(crate) fn new(context: &PassContext<'_>, viewport: &Viewport) -> Self {
+        let units = units_per_texel(context.limits) as f64;
         let rect = viewport.area().map(|v| f64::from(v) * units);
-        let slack = units / f64::from(1_u32 << limits.sub_pixel_bits)
-            + units * rules.float_error.value() * 16.0;
+        let slack = coarsest_step(context.limits) as f64 + rounding(context.rules, units);
         Self {
             rect,
-            slack,
-            triangles: Reach::new(rect, slack),
-            wide: Reach::new(rect, slack + units),
-            points_at_sides: rules.clips_points_at_sides.value(),
-            lines_at_sides: rules.clips_lines_at_sides.value(),
+            inside: within(rect, -slack),
         }
     }
 
@@ -52,42 +36,57 @@ impl Clip {
         primitive.inside_rect(self.rect)
     }
 
-    /// Returns whether a sample is inside.
-    pub(crate) fn holds(&self, primitive: &SnappedPrimitive, point: Point) -> Possible {
-        let (reach, clips) = match primitive.shape {
-            Shape::Triangle(_) => (&self.triangles, true),
+    /// Returns whether a sample that a primitive may cover is inside.
+    pub(crate) fn holds(
+        &self,
+        primitive: &SnappedPrimitive,
+        point: Point,
+        rules: &Rules,
+        units: i64,
+    ) -> Possible {
+        let clips = match primitive.shape {
+            Shape::Triangle(_) if self.inside.contains(point) => return Possible::Always,
+            Shape::Triangle(_) => true,
             _ if primitive.inside_rect(self.rect) => return Possible::Always,
-            Shape::Point(_) => (&self.wide, self.points_at_sides),
-            Shape::Line(_) => (&self.wide, self.lines_at_sides),
-            Shape::Outline(_) => (&self.wide, true),
+            Shape::Point(_) => rules.clips_points_at_sides.value(),
+            Shape::Line(_) => rules.clips_lines_at_sides.value(),
+            Shape::Outline(_) => true,
         };
-        let discarded = clips && primitive.beyond_rect(self.rect, self.slack);
-        let can = !discarded && (!clips || reach.can.contains(point));
-        Possible::of(can, !discarded && reach.must.contains(point))
+        let units = units as f64;
+        // The distance from an edge at which a vertex is certainly outside.
+        let slack =
+            units / f64::from(1_u32 << rules.sub_pixel_bits.value()) + rounding(rules, units);
+        let wide = match primitive.shape {
+            Shape::Triangle(_) => 0.0,
+            _ => units,
+        };
+        let reach = slack + wide;
+        let discarded = clips && primitive.beyond_rect(self.rect, slack);
+        let can = !discarded && (!clips || within(self.rect, reach).contains(point));
+        let must = !discarded && within(self.rect, -reach).contains(point);
+        Possible::of(can, must)
     }
 }
 
-impl Reach {
-    fn new(rect: [f64; 4], slack: f64) -> Self {
-        // The integers strictly between the edges. The casts saturate.
-        let within = |slack: f64| {
-            let first = |axis: usize| ((rect[axis] - slack).floor() as i64).saturating_add(1);
-            let end = |axis: usize| rect[axis] + rect[axis + 2] + slack;
-            let last = |axis: usize| (end(axis).ceil() as i64).saturating_sub(1);
-            SnapBox {
-                low: Point {
-                    x: first(0),
-                    y: first(1),
-                },
-                high: Point {
-                    x: last(0),
-                    y: last(1),
-                },
-            }
-        };
-        Self {
-            can: within(slack),
-            must: within(-slack),
-        }
+/// Returns the error of an edge through rounding.
+fn rounding(rules: &Rules, units: f64) -> f64 {
+    units * rules.float_error.value() * 16.0
+}
+
+/// Returns the integer points strictly between edges that are moved outwards.
+fn within(rect: [f64; 4], outwards: f64) -> SnapBox {
+    // The casts saturate.
+    let first = |axis: usize| ((rect[axis] - outwards).floor() as i64).saturating_add(1);
+    let end = |axis: usize| rect[axis] + rect[axis + 2] + outwards;
+    let last = |axis: usize| (end(axis).ceil() as i64).saturating_sub(1);
+    SnapBox {
+        low: Point {
+            x: first(0),
+            y: first(1),
+        },
+        high: Point {
+            x: last(0),
+            y: last(1),
+        },
     }
 }

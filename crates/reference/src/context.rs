@@ -1,6 +1,7 @@
 //! The pass for which primitives are set up, as setup and bias need it.
 
 use crate::rules::Rules;
+use crate::snap::units_per_texel;
 use crate::texels::Lattice;
 use etalon_frame::{ChannelEncoding, Limits};
 
@@ -18,4 +19,11 @@ pub(crate) struct PassContext<'a> {
     pub(crate) lattice: Lattice,
     /// The encoding of the pass's depth, if it has one.
     pub(crate) depth: Option<ChannelEncoding>,
+}
+
+impl PassContext<'_> {
+    /// Returns the step of the adapter's grid in sub-texel units.
+    pub(crate) fn step(&self) -> i64 {
+        units_per_texel(self.limits) >> self.rules.sub_pixel_bits.value()
+    }
 }

@@ -120,8 +120,7 @@ impl<'a> Seen<'a> {
             each.map(|(v, share)| share * value(*v)).sum()
         };
         let w = sum(&|v| self.window(v)[2]);
-        let limits = self.context.limits;
-        let step = self.units / f64::from(1_u32 << limits.sub_pixel_bits);
+        let step = self.context.step() as f64;
         let off = [0, 1].map(|axis| {
             let terms = sum(&|v| self.terms(v)[axis]);
             let off = terms / w * self.error() + step;

@@ -81,10 +81,11 @@ impl Depth {
         depth
     }
 
+    /// Returns the depth over a triangle. `step` gives the step of the adapter's grid.
     pub(crate) fn over(
         vertices: [SnapBox; 3],
         z: [Interval; 3],
-        [units, grid]: [i64; 2],
+        (units, step): (i64, &dyn Fn() -> i64),
         float_error: f64,
     ) -> Self {
         let mut depth = Self::flat(&z).interpolated(float_error);
@@ -104,7 +105,7 @@ impl Depth {
         depth.planes = extreme(&candidates, near(vertices, units));
         // Positions may be interpolated before or after snapping, so they may differ by one step of the grid.
         let widest = z.iter().map(|z| z.high - z.low).fold(0.0, f64::max);
-        depth.error += depth.steepest * grid as f64 + widest;
+        depth.error += depth.steepest * step() as f64 + widest;
         depth
     }
 

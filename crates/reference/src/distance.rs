@@ -56,7 +56,7 @@ impl Distance {
     pub(crate) fn over(
         vertices: [SnapBox; 3],
         values: [f64; 3],
-        [units, grid]: [i64; 2],
+        (units, step): (i64, &dyn Fn() -> i64),
         float_error: f64,
     ) -> Self {
         // If all values have the same sign, nothing or everything is clipped.
@@ -64,8 +64,8 @@ impl Distance {
             return Self::between(&values);
         }
         let exact = values.map(Interval::exact);
-        let plane = Depth::over(vertices, exact, [units, grid], float_error);
-        let error = plane.steepest * grid as f64 * EDGE_STEPS;
+        let plane = Depth::over(vertices, exact, (units, step), float_error);
+        let error = plane.steepest * step() as f64 * EDGE_STEPS;
         Self::Over { plane, error }
     }
 
@@ -128,7 +128,7 @@ mod tests {
     #[test]
     fn a_plane_is_open_only_where_an_edge_may_lie() {
         let corners = [exact(0, 0), exact(16, 0), exact(0, 16)];
-        let over = |values| Distance::over(corners, values, [UNITS, UNITS / 16], 1e-5);
+        let over = |values| Distance::over(corners, values, (UNITS, &|| UNITS / 16), 1e-5);
         // Zero between columns 5 and 6, half a texel from both centres.
         let between = over([-6.0, 10.0, -6.0]);
         assert_eq!(between.keeps(at(5)), Possible::Never);
@@ -147,7 +147,7 @@ mod tests {
     #[test]
     fn zero_is_inside_and_all_negative_is_outside() {
         let corners = [exact(0, 0), exact(16, 0), exact(0, 16)];
-        let over = |values| Distance::over(corners, values, [UNITS, UNITS / 16], 1e-5);
+        let over = |values| Distance::over(corners, values, (UNITS, &|| UNITS / 16), 1e-5);
         assert_eq!(over([0.0; 3]).keeps(at(4)), Possible::Always);
         assert_eq!(over([0.0, 1.0, -0.0]).keeps(at(0)), Possible::Always);
         assert_eq!(over([-1.0, -0.5, -2.0]).keeps(at(4)), Possible::Never);

@@ -2,8 +2,9 @@
 //! often differ only in tests, blending or colours, and then share it.
 
 use crate::bins::PassSetup;
-use crate::rules::{AskedValues, Rules};
+use crate::rules::Rules;
 use crate::setups::{pass_depth, setups};
+use crate::snap::units_per_texel;
 use crate::strokes::PassStrokes;
 use crate::texels::Texels;
 use crate::walk::Walk;
@@ -35,7 +36,8 @@ struct Kept {
     scene: Scene,
     limits: Limits,
     texels: Texels,
-    asked: AskedValues,
+    /// The rules, which know what was asked.
+    rules: Rules,
     geometry: Arc<Geometry>,
 }
 
@@ -61,7 +63,7 @@ impl Geometries {
         let serves = |k: &Kept| {
             k.texels == texels
                 && same_geometry((&k.scene, &k.limits), (scene, limits))
-                && rules.agree_on(&k.asked)
+                && rules.agree_on_asked(&k.rules)
         };
         let mut kept = self.lock();
         let found = kept.iter().position(serves);
@@ -79,7 +81,7 @@ impl Geometries {
                 entry
             }
         };
-        rules.ask(&entry.asked);
+        rules.ask(&entry.rules);
         let geometry = Arc::clone(&entry.geometry);
         kept.truncate(MOST_KEPT - 1);
         kept.push_front(entry);
@@ -103,14 +105,14 @@ impl Kept {
             scene: scene.clone(),
             limits: limits.clone(),
             texels,
-            asked: asking.asked(),
+            rules: asking,
             geometry: Arc::new(geometry),
         }
     }
 
     fn with_strokes(self, rules: &Rules) -> Self {
         let asking = rules.clone();
-        asking.ask(&self.asked);
+        asking.ask(&self.rules);
         let setups = Arc::clone(&self.geometry.setups);
         let walk = Walk::over(&self.scene, &self.limits, &asking, self.texels, setups);
         let geometry = Geometry {
@@ -118,7 +120,7 @@ impl Kept {
             setups: walk.setups,
         };
         Self {
-            asked: asking.asked(),
+            rules: asking,
             geometry: Arc::new(geometry),
             ..self
         }
@@ -148,7 +150,7 @@ fn same_geometry((a, a_limits): (&Scene, &Limits), (b, b_limits): (&Scene, &Limi
     };
     let textures = a.passes.iter().flat_map(|pass| &pass.draws);
     let mut textures = textures.flat_map(|draw| &draw.textures);
-    a_limits.sub_pixel_bits == b_limits.sub_pixel_bits
+    units_per_texel(a_limits) == units_per_texel(b_limits)
         && a_limits.sample_positions == b_limits.sample_positions
         && a.passes.len() == b.passes.len()
         && a.attachments.len() == b.attachments.len()

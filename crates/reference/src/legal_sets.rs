@@ -9,6 +9,7 @@ use crate::read_back::as_read;
 use crate::rules::Rules;
 use crate::ruling::ruling;
 use crate::sample::{Sample, Shape};
+use crate::snap::basis_bits;
 use crate::states::{OPEN, State};
 use crate::texels::Texels;
 use crate::walk::Walk;
@@ -131,7 +132,8 @@ fn basis(scene: &Scene, limits: &Limits) -> Limits {
         api: Api::Vulkan,
         version: ApiVersion::UNKNOWN,
         properties: BTreeSet::new(),
-        sub_pixel_bits: limits.sub_pixel_bits,
+        // Where the grid itself matters, the rules are asked.
+        sub_pixel_bits: basis_bits(limits.sub_pixel_bits),
         max_size: 0,
         max_color_attachments: 0,
         formats: formats.collect(),

@@ -71,6 +71,6 @@ pub use legal_sets::{
 };
 pub use lines::{LineGap, line_gap};
 pub use range::Range;
-pub use rules::{AskedValues, Permission, Rules};
+pub use rules::{Permission, Rules};
 pub use sample::Sample;
 pub use texels::Texels;

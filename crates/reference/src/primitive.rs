@@ -296,6 +296,33 @@ pub(crate) type Bounds = [i64; 4];
 /// The least and the largest number of times that one primitive covers a sample.
 pub(crate) type Times = (u32, u32);
 
+impl Shape {
+    /// Returns the hull of all snapped vertices, or of the visible part.
+    #[inline]
+    fn hull(&self) -> SnapBox {
+        match self {
+            Self::Triangle(triangle) | Self::Outline(triangle) => triangle.bounds(),
+            Self::Line([a, b]) => a.hull(*b),
+            Self::Point(point) => *point,
+        }
+    }
+
+    /// Returns the texels that a primitive of this shape can touch.
+    pub(crate) fn bounds(&self, units: i64) -> Bounds {
+        let reach = match self {
+            Self::Triangle(_) => 0,
+            _ => 2 * units,
+        };
+        let SnapBox { low, high } = self.hull();
+        [
+            (low.x - reach).div_euclid(units),
+            (low.y - reach).div_euclid(units),
+            (high.x + reach).div_euclid(units) + 1,
+            (high.y + reach).div_euclid(units) + 1,
+        ]
+    }
+}
+
 impl SnappedPrimitive {
     /// Returns how often a point, a line or an outline covers a sample. Triangles are walked edge by edge
     /// instead.
@@ -314,31 +341,6 @@ impl SnappedPrimitive {
             }
             Shape::Triangle(_) => (0, 1),
         }
-    }
-
-    /// Returns the hull of all snapped vertices, or of the visible part.
-    #[inline]
-    fn hull(&self) -> SnapBox {
-        match &self.shape {
-            Shape::Triangle(triangle) | Shape::Outline(triangle) => triangle.bounds(),
-            Shape::Line([a, b]) => a.hull(*b),
-            Shape::Point(point) => *point,
-        }
-    }
-
-    /// Returns the texels that the primitive can touch.
-    pub(crate) fn bounds(&self, units: i64) -> Bounds {
-        let reach = match self.shape {
-            Shape::Triangle(_) => 0,
-            _ => 2 * units,
-        };
-        let SnapBox { low, high } = self.hull();
-        [
-            (low.x - reach).div_euclid(units),
-            (low.y - reach).div_euclid(units),
-            (high.x + reach).div_euclid(units) + 1,
-            (high.y + reach).div_euclid(units) + 1,
-        ]
     }
 
     /// Returns the flat vertex colour.
@@ -409,14 +411,14 @@ impl SnappedPrimitive {
 
     /// Returns true if all vertices are inside a rectangle of left, top, width and height.
     pub(crate) fn inside_rect(&self, [x, y, w, h]: [f64; 4]) -> bool {
-        let SnapBox { low, high } = self.hull();
+        let SnapBox { low, high } = self.shape.hull();
         low.x as f64 >= x && low.y as f64 >= y && high.x as f64 <= x + w && high.y as f64 <= y + h
     }
 
     /// Returns true if all vertices are beyond one side of a rectangle by more than `by` units, wherever they
     /// are snapped to.
     pub(crate) fn beyond_rect(&self, [x, y, w, h]: [f64; 4], by: f64) -> bool {
-        let hull = self.hull();
+        let hull = self.shape.hull();
         let [low, high] = [hull.low, hull.high].map(|p| [p.x as f64, p.y as f64]);
         let beyond = |axis: usize, start: f64, length: f64| {
             high[axis] < start - by || low[axis] > start + length + by

@@ -10,19 +10,31 @@ use crate::primitive::{Shape, SnappedPrimitive, Triangle, VertexId};
 use crate::snap::{SnapBox, area, units_per_texel};
 use crate::texels::Lattice;
 use crate::varying::{Perspective, Varying};
-use crate::vertex::Vertices;
+use crate::vertex::{Grid, Vertices};
 use etalon_pipeline::{Plain, is_beyond, shader, window_position};
-use etalon_scene::{Draw, Interpolation, PolygonMode, PrimitiveVertices};
+use etalon_scene::{DepthBias, Draw, Interpolation, PolygonMode, PrimitiveVertices};
 use smallvec::{SmallVec, smallvec};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-/// Returns a draw's primitives in drawing order, without primitives far from all judged texels and primitives
-/// that `is_kept` refuses.
+/// The maximum number of vertices of a draw whose triangles are tried on the coarsest grid. Of many triangles,
+/// one needs the adapter's grid.
+const MOST_TRIED: usize = 256;
+
+/// What a pass's samples say about shapes.
+pub(crate) struct Filter<'a> {
+    /// Returns false if a shape misses all judged samples.
+    pub(crate) keeps: &'a dyn Fn(&Shape) -> bool,
+    /// Returns true if a shape covers or misses each judged sample, wherever its vertices are snapped.
+    pub(crate) decides: &'a dyn Fn(&Shape) -> bool,
+}
+
+/// Returns a draw's primitives in drawing order, without those that are far from all judged texels or that the
+/// filter does not keep.
 pub(crate) fn draw(
     context: &PassContext<'_>,
     draw: &Draw,
     vertices: &mut Vertices,
-    is_kept: impl Fn(&SnappedPrimitive) -> bool,
+    filter: &Filter<'_>,
 ) -> Vec<SnappedPrimitive> {
     let mut primitives = Vec::new();
     if draw.rasterizer_discard {
@@ -67,22 +79,23 @@ pub(crate) fn draw(
             (Some(_), Some(_)) => Some(geometry(draw, indices, draw_geometry.clone())),
             _ => None,
         };
-        let primitive = parts(context, draw, vertices, indices).map(|parts| SnappedPrimitive {
-            shape: parts.shape,
-            beyond: is_beyond(draw, indices),
-            color,
-            window_depth: parts.window_depth,
-            clip_depth: Some(parts.clip_depth)
-                .filter(|depth| !(depth.hull.low >= 0.0 && depth.hull.high <= 1.0))
-                .map(Box::new),
-            bias: parts.bias,
-            uv: parts.uv.map(Box::new),
-            reciprocal_w: parts.reciprocal_w.map(Box::new),
-            distances: parts.distances.into(),
-            geometry,
-            index: index as u32,
-        });
-        primitives.extend(primitive.filter(&is_kept));
+        let primitive =
+            parts(context, draw, vertices, indices, filter).map(|parts| SnappedPrimitive {
+                shape: parts.shape,
+                beyond: is_beyond(draw, indices),
+                color,
+                window_depth: parts.window_depth,
+                clip_depth: Some(parts.clip_depth)
+                    .filter(|depth| !(depth.hull.low >= 0.0 && depth.hull.high <= 1.0))
+                    .map(Box::new),
+                bias: parts.bias,
+                uv: parts.uv.map(Box::new),
+                reciprocal_w: parts.reciprocal_w.map(Box::new),
+                distances: parts.distances.into(),
+                geometry,
+                index: index as u32,
+            });
+        primitives.extend(primitive.filter(|primitive| (filter.keeps)(&primitive.shape)));
     }
     primitives
 }
@@ -145,6 +158,7 @@ fn parts(
     draw: &Draw,
     vertices: &mut Vertices,
     indices: PrimitiveVertices,
+    filter: &Filter<'_>,
 ) -> Option<Parts> {
     let fill = draw.polygon_mode == PolygonMode::Fill;
     match indices {
@@ -157,7 +171,40 @@ fn parts(
         PrimitiveVertices::Triangle(triangle) if fill && is_cut(context, draw, &triangle) => {
             cut_triangle(context, draw, vertices, triangle)
         }
-        _ => Some(snapped(context, draw, vertices, indices)),
+        PrimitiveVertices::Triangle(triangle)
+            if fill && only_covers(context, draw, vertices, triangle) =>
+        {
+            let widest = snapped(context, draw, vertices, indices, Grid::Coarsest);
+            Some(if (filter.decides)(&widest.shape) {
+                widest
+            } else {
+                snapped(context, draw, vertices, indices, Grid::Adapter)
+            })
+        }
+        _ => Some(snapped(context, draw, vertices, indices, Grid::Adapter)),
+    }
+}
+
+/// Returns true if the position of a triangle only affects which samples it covers. If the coarsest grid
+/// decides these, the adapter's grid is unimportant, and adapters with different grids share a legal set.
+fn only_covers(
+    context: &PassContext<'_>,
+    draw: &Draw,
+    vertices: &mut Vertices,
+    triangle: [usize; 3],
+) -> bool {
+    let shader = draw.shader;
+    let may = draw.mesh.vertices.len() <= MOST_TRIED
+        && !context.keeps_misses
+        && draw.depth_bias == DepthBias::default()
+        && !shader.uses_uv()
+        && !shader.reads_w()
+        && !shader.reads_mask()
+        && clipping_distances(draw).next().is_none();
+    may && {
+        let [a, b, c] = triangle.map(|i| vertices.get(context, draw, i, Grid::Coarsest));
+        let mut others = [b, c].into_iter();
+        others.all(|v| (v.window_z, v.clip_z) == (a.window_z, a.clip_z))
     }
 }
 
@@ -167,16 +214,16 @@ fn snapped(
     draw: &Draw,
     vertices: &mut Vertices,
     indices: PrimitiveVertices,
+    grid: Grid,
 ) -> Parts {
     let units = units_per_texel(context.limits);
-    let grid = units >> context.limits.sub_pixel_bits;
     let error = context.rules.float_error.value();
     let v = match indices {
         PrimitiveVertices::Point(i) => [i; 3],
         PrimitiveVertices::Line([a, b]) => [a, b, a],
         PrimitiveVertices::Triangle(triangle) => triangle,
     }
-    .map(|i| vertices.get(context, draw, i));
+    .map(|i| vertices.get(context, draw, i, grid));
     let boxes = v.map(|v| v.snapped);
     let mut bias = Interval::exact(0.0);
     let (shape, window_depth, clip_depth) = match indices {
@@ -196,7 +243,9 @@ fn snapped(
         }
         PrimitiveVertices::Triangle(_) => {
             let triangle = Triangle::new(boxes, v.map(|v| v.id), units);
-            let window = Depth::over(boxes, v.map(|v| v.window_z), [units, grid], error);
+            let step = || context.step();
+            let steps: (i64, &dyn Fn() -> i64) = (units, &step);
+            let window = Depth::over(boxes, v.map(|v| v.window_z), steps, error);
             let z = v.map(|v| v.window_z);
             let biased = Biased {
                 z: &z,
@@ -218,7 +267,7 @@ fn snapped(
                 // Nothing is clipped at any sample.
                 Depth::flat(&clip_z)
             } else {
-                Depth::over(boxes, clip_z, [units, grid], error).between(&clip_z)
+                Depth::over(boxes, clip_z, steps, error).between(&clip_z)
             };
             let mut depths = [window, clip];
             if draw.polygon_mode == PolygonMode::Line {
@@ -267,7 +316,13 @@ fn point_behind(
     if clips || w == 0.0 || !near {
         return None;
     }
-    let mut parts = snapped(context, draw, vertices, PrimitiveVertices::Point(i));
+    let mut parts = snapped(
+        context,
+        draw,
+        vertices,
+        PrimitiveVertices::Point(i),
+        Grid::Adapter,
+    );
     parts.distances.push(Distance::UNKNOWN);
     Some(parts)
 }
@@ -282,7 +337,7 @@ fn cut_triangle(
     let cut = CutTriangle::new(context, draw, triangle)?;
     let boxes = triangle.map(|i| {
         let uncut = !is_cut(context, draw, &[i]);
-        uncut.then(|| vertices.get(context, draw, i).snapped)
+        uncut.then(|| vertices.get(context, draw, i, Grid::Adapter).snapped)
     });
     let ids = triangle.map(|i| VertexId::new(draw.mesh.vertices[i].position));
     let window_depth = cut.window_depth();
@@ -389,9 +444,8 @@ impl Over<'_> {
         f64::from(self.draw.mesh.vertices[i].position[3])
     }
 
-    fn grids(&self) -> [i64; 2] {
-        let units = units_per_texel(self.context.limits);
-        [units, units >> self.context.limits.sub_pixel_bits]
+    fn units(&self) -> i64 {
+        units_per_texel(self.context.limits)
     }
 
     /// Returns the texture coordinates.
@@ -414,9 +468,8 @@ impl Over<'_> {
                     let exact = values.map(Interval::exact);
                     return Varying::Linear(Depth::flat(&exact).interpolated(error));
                 }
-                let [_, grid] = self.grids();
-                let w = corners.map(w);
-                Varying::Perspective(Perspective::over(self.boxes, w, values, grid, error))
+                let (w, step) = (corners.map(w), self.context.step());
+                Varying::Perspective(Perspective::over(self.boxes, w, values, step, error))
             }
             PrimitiveVertices::Line([a, b]) if perspective && w(a) != w(b) => {
                 let values = [a, b].map(|i| Interval::exact(value(i)));
@@ -428,12 +481,13 @@ impl Over<'_> {
 
     /// Returns a value that is linear in the window.
     fn linear(&self, value: impl Fn(usize) -> f64) -> Depth {
-        let [units, grid] = self.grids();
+        let units = self.units();
         let error = self.context.rules.float_error.value();
         match self.indices {
             PrimitiveVertices::Triangle(corners) => {
                 let values = corners.map(|i| Interval::exact(value(i)));
-                let mut plane = Depth::over(self.boxes, values, [units, grid], error);
+                let grid: (_, &dyn Fn() -> i64) = (units, &|| self.context.step());
+                let mut plane = Depth::over(self.boxes, values, grid, error);
                 if self.outline {
                     plane.reach_out(units);
                 }
@@ -464,7 +518,8 @@ impl Over<'_> {
                 let over_w = |i: usize| value(i) / self.w(i);
                 match self.indices {
                     PrimitiveVertices::Triangle(corners) if !self.outline => {
-                        Distance::over(self.boxes, corners.map(over_w), self.grids(), error)
+                        let grid: (_, &dyn Fn() -> i64) = (self.units(), &|| self.context.step());
+                        Distance::over(self.boxes, corners.map(over_w), grid, error)
                     }
                     PrimitiveVertices::Line(ends)
                         if may_stay_unclipped(self.context, ends.map(value)) =>
@@ -472,7 +527,7 @@ impl Over<'_> {
                         Distance::UNKNOWN
                     }
                     PrimitiveVertices::Line(ends) if self.w(ends[0]) == self.w(ends[1]) => {
-                        Distance::along([a, b], ends.map(value), self.grids()[0])
+                        Distance::along([a, b], ends.map(value), self.units())
                     }
                     // Along a line in perspective, clip distances are not linear in the picture.
                     PrimitiveVertices::Triangle(corners) => Distance::between(&corners.map(value)),

@@ -74,9 +74,25 @@ impl SnapBox {
     }
 }
 
+/// The bits of the coarsest grid that the specifications permit.
+const COARSEST_BITS: u8 = 4;
+
 /// Returns the units per texel: enough for the adapter's grid and for sample positions in 1/256 texel.
 pub(crate) fn units_per_texel(limits: &Limits) -> i64 {
     1 << limits.sub_pixel_bits.max(8)
+}
+
+/// Returns the step of the coarsest grid in sub-texel units. A position on this grid is on every adapter's grid.
+pub(crate) fn coarsest_step(limits: &Limits) -> i64 {
+    units_per_texel(limits) >> limits.sub_pixel_bits.min(COARSEST_BITS)
+}
+
+/// Returns a grid with the same units and the same coarsest step, for adapters whose own grids are unimportant.
+pub(crate) fn basis_bits(bits: u8) -> u8 {
+    match bits {
+        0..COARSEST_BITS => bits,
+        _ => bits.max(8),
+    }
 }
 
 /// Returns the least and the greatest signed area of a triangle, y up.

@@ -7,7 +7,7 @@ use crate::primitive::VertexId;
 use crate::range::Range;
 use crate::rounding::{ceil, floor};
 use crate::rules::Snap;
-use crate::snap::{SnapBox, units_per_texel};
+use crate::snap::{SnapBox, coarsest_step, units_per_texel};
 use etalon_pipeline::{Arithmetic, Point, window_coordinate};
 use etalon_scene::{Draw, Pass, Viewport};
 use rustc_hash::FxHasher;
@@ -15,6 +15,15 @@ use std::hash::{Hash, Hasher};
 
 /// The maximum number of kept coordinates of each axis.
 const MOST: usize = 4096;
+
+/// The grid to which vertices are snapped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Grid {
+    /// The coarsest grid, either side: the result contains that of every adapter's grid.
+    Coarsest,
+    /// The adapter's.
+    Adapter,
+}
 
 #[derive(Clone, Copy)]
 pub(crate) struct Vertex {
@@ -29,8 +38,8 @@ pub(crate) struct Vertex {
 pub(crate) struct Vertices {
     /// The viewport of the kept coordinates.
     viewport: Option<Viewport>,
-    /// Columns and rows: the least and the greatest snapped coordinate.
-    snapped: [Latest<(i64, i64)>; 2],
+    /// Columns and rows of each grid: the least and the greatest snapped coordinate.
+    snapped: [[Latest<(i64, i64)>; 2]; 2],
     /// The depth in the window and in clip space.
     depths: Latest<[Interval; 2]>,
 }
@@ -64,7 +73,7 @@ impl Vertices {
         let slots = count.sum::<usize>().min(MOST).next_power_of_two();
         Self {
             viewport: None,
-            snapped: [Latest(vec![None; slots]), Latest(vec![None; slots])],
+            snapped: [(); 2].map(|()| [(); 2].map(|()| Latest(vec![None; slots]))),
             depths: Latest(vec![None; slots]),
         }
     }
@@ -72,20 +81,27 @@ impl Vertices {
     /// Prepares for draws with a viewport.
     pub(crate) fn enter(&mut self, viewport: &Viewport) {
         if self.viewport.is_some_and(|known| known != *viewport) {
-            self.snapped.iter_mut().for_each(|axis| axis.0.fill(None));
+            let axes = self.snapped.iter_mut().flatten();
+            axes.for_each(|axis| axis.0.fill(None));
             self.depths.0.fill(None);
         }
         self.viewport = Some(*viewport);
     }
 
     /// Returns a vertex of a draw whose viewport was entered.
-    pub(crate) fn get(&mut self, context: &PassContext<'_>, draw: &Draw, i: usize) -> Vertex {
+    pub(crate) fn get(
+        &mut self,
+        context: &PassContext<'_>,
+        draw: &Draw,
+        i: usize,
+        grid: Grid,
+    ) -> Vertex {
         let position = draw.mesh.vertices[i].position;
         let [x, y, z, w] = position;
         let viewport = &draw.viewport;
-        let [columns, rows] = &mut self.snapped;
-        let x = columns.get([x, w], || snapped(context, [x, w], 0, viewport));
-        let y = rows.get([y, w], || snapped(context, [y, w], 1, viewport));
+        let [columns, rows] = &mut self.snapped[grid as usize];
+        let x = columns.get([x, w], || snapped(context, [x, w], 0, viewport, grid));
+        let y = rows.get([y, w], || snapped(context, [y, w], 1, viewport, grid));
         let [window_z, clip_z] = self.depths.get([z, w], || {
             let mut judging = Judging::new(context.rules);
             let window = window_coordinate(&mut judging, [z, w], 2, viewport);
@@ -109,16 +125,26 @@ fn snapped(
     coordinate: [f32; 2],
     axis: usize,
     viewport: &Viewport,
+    grid: Grid,
 ) -> (i64, i64) {
     let mut judging = Judging::new(context.rules);
     let window = window_coordinate(&mut judging, coordinate, axis, viewport);
     let Interval { low, high } = window.hull();
-    let limits = context.limits;
-    let grid = f64::from(1_u32 << limits.sub_pixel_bits);
-    let step = units_per_texel(limits) >> limits.sub_pixel_bits;
-    let (low, high) = match context.rules.snap.value() {
-        Snap::EitherSide => (floor(low * grid), ceil(high * grid)),
-        Snap::Nearest => (floor(low * grid + 0.5), floor(high * grid + 0.5)),
+    let units = units_per_texel(context.limits);
+    let coarsest = coarsest_step(context.limits);
+    let lines = (units / coarsest) as f64;
+    if low == high && (low * lines).fract() == 0.0 {
+        let position = (low * units as f64) as i64;
+        return (position, position);
+    }
+    let (step, snap) = match grid {
+        Grid::Coarsest => (coarsest, Snap::EitherSide),
+        Grid::Adapter => (context.step(), context.rules.snap.value()),
+    };
+    let lines = (units / step) as f64;
+    let (low, high) = match snap {
+        Snap::EitherSide => (floor(low * lines), ceil(high * lines)),
+        Snap::Nearest => (floor(low * lines + 0.5), floor(high * lines + 0.5)),
     };
     (low as i64 * step, high as i64 * step)
 }

@@ -366,10 +366,14 @@ impl<'a> Walk<'a> {
             Shape::Triangle(triangle) => misses(triangle, sides),
             _ => false,
         };
-        let in_viewport = self.setups[p].clip(d).holds(primitive, point);
+        if missed {
+            return Err(Rejection::Coverage);
+        }
+        let clip = self.setups[p].clip(d);
+        let in_viewport = clip.holds(primitive, point, self.rules, self.units);
         if !in_viewport.can() {
             let reached = match &primitive.shape {
-                Shape::Triangle(_) => !missed,
+                Shape::Triangle(_) => true,
                 _ => primitive.times(point, self.units).1 > 0,
             };
             return Err(if reached {
@@ -377,9 +381,6 @@ impl<'a> Walk<'a> {
             } else {
                 Rejection::Coverage
             });
-        }
-        if missed {
-            return Err(Rejection::Coverage);
         }
         let passes = matches!(primitive.shape, Shape::Point(_)) && !self.rules.clips_points.value();
         let in_depth = if draw.depth_clamp {

@@ -15,10 +15,10 @@ mod webgpu;
 mod yardstick;
 
 pub use permission::{
-    AlphaToCoverage, AskedValues, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder,
-    DepthRange, DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMask, MaskOfOne,
-    NegativeAlpha, Permission, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge,
-    SignedClamp, SmallFloats, Snap, SrgbLogic,
+    AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
+    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMask, MaskOfOne, NegativeAlpha,
+    Permission, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp,
+    SmallFloats, Snap, SrgbLogic,
 };
 
 use etalon_frame::{Api, Limits};
@@ -31,7 +31,7 @@ impl Rules {
             Api::Vulkan => vulkan::rules(limits),
             Api::OpenGl => opengl::rules(limits),
             Api::OpenGlEs => opengl_es::rules(limits),
-            Api::WebGpu => webgpu::rules(),
+            Api::WebGpu => webgpu::rules(limits),
         }
     }
 

@@ -87,6 +87,11 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 10.3.6 Primitive Restart: the index is tested before the base vertex is added",
             ]),
         ),
+        sub_pixel_bits: permit(limits.sub_pixel_bits, text.cite([
+                "OpenGL 3.3: table 6.38, SUBPIXEL_BITS: at least 4",
+                "OpenGL 4.5: Implementation Dependent Values, SUBPIXEL_BITS: at least 4",
+                "OpenGL 4.6: Implementation Dependent Values, SUBPIXEL_BITS: at least 4",
+            ])),
         snap: permit(
             Snap::EitherSide,
             text.cite([

@@ -68,6 +68,11 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             true,
             "OpenGL ES 3.2: 10.3.4 Primitive Restart: the index is tested before the base vertex is added",
         ),
+        sub_pixel_bits: permit(limits.sub_pixel_bits, text.cite([
+                "OpenGL ES 3.0: tables of chapter 6, SUBPIXEL_BITS: at least 4",
+                "OpenGL ES 3.1: table 20.40 SUBPIXEL_BITS: at least 4",
+                "OpenGL ES 3.2: table 21.40 SUBPIXEL_BITS: at least 4",
+            ])),
         snap: permit(
             Snap::EitherSide,
             text.cite([

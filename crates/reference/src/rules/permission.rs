@@ -24,6 +24,10 @@ impl<T: Copy> Permission<T> {
         self.value
     }
 
+    fn was_asked(&self) -> bool {
+        self.asked.0.load(Ordering::Relaxed)
+    }
+
     /// Replaces the permission.
     pub fn set(&mut self, value: T) {
         self.value = value;
@@ -40,17 +44,6 @@ impl<T: Copy> Permission<T> {
             value,
             ..self.clone()
         }
-    }
-}
-
-/// The permissions that were asked for, by name, with their values as text.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct AskedValues(Vec<(&'static str, String)>);
-
-impl AskedValues {
-    /// Returns the names of the permissions.
-    pub fn names(&self) -> impl Iterator<Item = &'static str> {
-        self.0.iter().map(|(name, _)| *name)
     }
 }
 
@@ -394,34 +387,24 @@ macro_rules! rules {
                 }
             }
 
-            /// Returns the permissions that were asked for since these rules were made or cloned.
-            pub fn asked(&self) -> AskedValues {
-                let mut asked = AskedValues::default();
-                $(if self.$field.asked.0.load(Ordering::Relaxed) {
-                    asked.0.push((stringify!($field), format!("{:?}", self.$field.value)));
-                })+
-                asked
+            /// Returns the names of the permissions that were asked for since these rules were made or cloned.
+            pub fn asked(&self) -> Vec<&'static str> {
+                let each = [$((stringify!($field), self.$field.was_asked()),)+];
+                let asked = each.into_iter().filter(|(_, asked)| *asked);
+                asked.map(|(name, _)| name).collect()
             }
 
             /// Returns true if these rules have the same values for everything that was asked of other rules.
             /// Results computed by those rules then hold under these too, whatever the citations.
-            pub fn agree_on(&self, asked: &AskedValues) -> bool {
-                asked.0.iter().all(|(name, value)| match *name {
-                    $(stringify!($field) => format!("{:?}", self.$field.value) == *value,)+
-                    _ => false,
-                })
+            pub fn agree_on_asked(&self, other: &Self) -> bool {
+                $((!other.$field.was_asked() || self.$field.value == other.$field.value))&&+
             }
 
             /// Asks for what was asked of other rules.
-            pub(crate) fn ask(&self, asked: &AskedValues) {
-                for (name, _) in &asked.0 {
-                    match *name {
-                        $(stringify!($field) => {
-                            self.$field.value();
-                        })+
-                        _ => {}
-                    }
-                }
+            pub(crate) fn ask(&self, other: &Self) {
+                $(if other.$field.was_asked() {
+                    self.$field.value();
+                })+
             }
 
             /// Returns every permission's name, citation and grade.
@@ -449,6 +432,8 @@ rules! {
     restarts_before_base_vertex: bool,
     /// Vertex snapping.
     snap: Snap,
+    /// Bits of the adapter's sub-pixel grid.
+    sub_pixel_bits: u8,
     /// Coverage of samples on edges.
     shared_edge: SharedEdge,
     /// True if coverage is tested at the sample positions that the adapter reports; otherwise it may be

@@ -68,6 +68,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             true,
             "Vulkan: Drawing Commands, primitiveRestartEnable: the index is compared before vertexOffset is added",
         ),
+        sub_pixel_bits: permit(
+            limits.sub_pixel_bits,
+            "Vulkan: Limits, subPixelPrecisionBits: at least 4",
+        ),
         snap: permit(
             Snap::EitherSide,
             "Vulkan: Limits, subPixelPrecisionBits: the rounding to the grid is not stated",

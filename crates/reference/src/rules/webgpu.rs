@@ -7,9 +7,9 @@ use super::permission::{
     Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap,
     SrgbLogic, narrowed, permit,
 };
-use etalon_frame::Grade;
+use etalon_frame::{Grade, Limits};
 
-pub(super) fn rules() -> Rules {
+pub(super) fn rules(limits: &Limits) -> Rules {
     Rules {
         name: "webgpu",
         text: "WebGPU (editor's draft of 2026-11)",
@@ -30,6 +30,10 @@ pub(super) fn rules() -> Rules {
             false,
             Grade::Disputed,
             "WebGPU: 23.2.1 Index Resolution adds the base vertex, 23.2.3 Primitive Assembly then splits strips; Vulkan and OpenGL compare before",
+        ),
+        sub_pixel_bits: permit(
+            limits.sub_pixel_bits,
+            "WebGPU: silent on the grid; Vulkan and OpenGL: at least 4 bits",
         ),
         snap: permit(
             Snap::EitherSide,

@@ -45,6 +45,10 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             text.restarts_before_base_vertex.value,
             "Yardstick: as the API's text says",
         ),
+        sub_pixel_bits: permit(
+            limits.sub_pixel_bits,
+            "Yardstick: the grid that the adapter reports",
+        ),
         snap: permit(snap, "Direct3D 11.3: 3.4.1 Coordinate Snapping: nearest"),
         shared_edge: permit(SharedEdge::TopLeft, "Direct3D 11.3: 3.4.2.1 Top-Left Rule"),
         covers_at_positions: permit(true, "Yardstick: at the positions that are told"),
