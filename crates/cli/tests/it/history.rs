@@ -501,7 +501,10 @@ fn a_writer_that_is_killed_loses_nothing() {
         killed += u32::from(writer.try_wait().unwrap().is_none());
         writer.kill().unwrap();
         writer.wait().unwrap();
-        if !place.db().exists() {
+        let mut show = etalon(&["history", "show", "--db"]);
+        let shown = show.arg(place.db()).assert();
+        if shown.get_output().status.code() == Some(64) {
+            shown.stderr(contains("there is no history"));
             continue;
         }
         // Only complete runs are there.
