@@ -193,10 +193,7 @@ fn extreme(planes: &[DepthPlane], corners: [Point; 4]) -> Vec<DepthPlane> {
 /// Returns the planes through all corners of the snapped positions: one if they are exact. A plane's slope is
 /// a quotient of functions that are linear in each coordinate, so its extremes are at corners.
 pub(crate) fn planes(boxes: [SnapBox; 3], z: [f64; 3]) -> impl Iterator<Item = DepthPlane> {
-    let corners = |b: SnapBox| {
-        let corners = b.corners();
-        corners.into_iter().take(if b.is_exact() { 1 } else { 4 })
-    };
+    let corners = SnapBox::positions;
     corners(boxes[0]).flat_map(move |a| {
         corners(boxes[1])
             .flat_map(move |b| corners(boxes[2]).map(move |c| DepthPlane::new([a, b, c], z)))

@@ -50,6 +50,12 @@ impl SnapBox {
         ]
     }
 
+    /// Returns the corners, or the position if there is only one.
+    pub(crate) fn positions(self) -> impl Iterator<Item = Point> + Clone {
+        let corners = self.corners().into_iter();
+        corners.take(if self.is_exact() { 1 } else { 4 })
+    }
+
     pub(crate) fn is_exact(self) -> bool {
         self.low == self.high
     }
