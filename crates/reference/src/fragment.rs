@@ -21,6 +21,7 @@ use etalon_pipeline::{
 };
 use etalon_scene::{CompareFunction, EarlyTests, Shader, StencilOperation};
 use smallvec::SmallVec;
+use std::num::NonZeroU64;
 
 /// A fragment that is tested before its shader runs.
 struct Shaded<'a> {
@@ -667,7 +668,7 @@ impl Walk<'_> {
         notes: &mut Notes<'_>,
     ) -> Possible {
         let encoding = self.depth_encoding(index);
-        let stored = world.cells[index].channels[0];
+        let stored = world.cells[index].channel(0);
         let mut judging = Judging::new(self.rules);
         let exact = Interval::of_codes(encoding, stored);
         let stored = exact.hull(judging.decode(encoding, stored).hull());
@@ -719,9 +720,8 @@ impl Walk<'_> {
             return;
         };
         let stored = (after != before).then_some(Cell {
-            channels: [CodeInterval::exact(0); 4],
             stencil: after,
-            origin: None,
+            ..Cell::default()
         });
         self.note_effect(notes, place, self.rules.stencil, stored, || {
             let target = self.target(attachment, Aspect::Stencil);
@@ -764,7 +764,7 @@ impl Walk<'_> {
             });
             return [passes, !passes];
         }
-        let (incoming, stored) = (incoming.depth, stored.channels[0]);
+        let (incoming, stored) = (incoming.depth, stored.channel(0));
         let mut judging = Judging::new(self.rules);
         let codes = judging.encode(encoding, incoming);
         let of_codes = |codes: CodeInterval| Interval::of_codes(encoding, codes);
@@ -845,7 +845,7 @@ enum Source {
 pub(crate) struct Incoming {
     pub(crate) depth: Range,
     /// The geometry that the depth belongs to, if redraws of that geometry have the same depth.
-    pub(crate) origin: Option<u64>,
+    pub(crate) origin: Option<NonZeroU64>,
 }
 
 /// Returns whether a comparison of some value of `left` with some value of `right` can be true, and

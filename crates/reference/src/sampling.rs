@@ -98,7 +98,7 @@ impl Walk<'_> {
             return self.anything(index);
         }
         if attachment.samples == at.samples {
-            return self.decoded(index, world.cells[index].channels);
+            return self.decoded(index, world.cells[index].channels());
         }
         let at = Sample {
             samples: attachment.samples,
@@ -108,7 +108,7 @@ impl Walk<'_> {
         let Some(worlds) = self.earlier(at, place.pass) else {
             return self.anything(index);
         };
-        let contents = worlds.iter().map(|w| w.cells[index].channels);
+        let contents = worlds.iter().map(|w| w.cells[index].channels());
         let hull = contents.reduce(|a, b| std::array::from_fn(|c| a[c].hull(b[c])));
         hull.map_or_else(
             || self.anything(index),
@@ -118,7 +118,7 @@ impl Walk<'_> {
 
     /// Returns one texel of a texture that no pass drew to.
     fn fetched(&self, index: usize, at: [usize; 2]) -> [Range; 4] {
-        self.decoded(index, self.first_contents(index, at).channels)
+        self.decoded(index, self.first_contents(index, at).channels())
     }
 
     /// Returns the value of stored codes. A format without alpha is read with alpha 1.
@@ -213,7 +213,7 @@ impl Walk<'_> {
             sample: 0,
         };
         let worlds = self.earlier(at, pass)?;
-        let contents = worlds.iter().map(|w| w.cells[index].channels);
+        let contents = worlds.iter().map(|w| w.cells[index].channels());
         let hull = contents.reduce(|a, b| std::array::from_fn(|c| a[c].hull(b[c])))?;
         Some(self.decoded(index, hull))
     }

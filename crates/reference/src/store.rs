@@ -31,7 +31,7 @@ impl Walk<'_> {
         {
             let encoding = self.depth_encoding(index);
             let codes = judging.encode(encoding, incoming.depth);
-            world.cells[index].channels[0] = codes;
+            world.cells[index].set_channel(0, codes);
             world.cells[index].origin = incoming.origin;
             let cell = world.cells[index];
             self.note_effect(notes, place, self.rules.store.citation, Some(cell), || {
@@ -162,7 +162,7 @@ impl Walk<'_> {
             let per_channel: [ChannelEncoding; 4] =
                 std::array::from_fn(|c| encodings[c.min(encodings.len() - 1)]);
             let missing = missing_channels(encodings.len());
-            let stored = world.cells[*index].channels;
+            let stored = world.cells[*index].channels();
             let mut dst = || {
                 std::array::from_fn(|c| match missing[c] {
                     Some(value) => Range::exact(value),
@@ -207,10 +207,11 @@ impl Walk<'_> {
                         ChannelEncoding::Srgb8 => ChannelEncoding::Unorm(8),
                         other => *other,
                     };
-                    world.cells[*index].channels[c] = match logic {
+                    let codes = match logic {
                         Some(operation) => judging.logic(bits, operation, codes, stored[c]),
                         None => codes,
                     };
+                    world.cells[*index].set_channel(c, codes);
                 }
             }
             let cell = world.cells[*index];
