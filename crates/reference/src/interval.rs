@@ -212,6 +212,12 @@ impl From<Interval> for ValueRange {
     }
 }
 
+/// Returns the lesser of two numbers in one instruction, unlike [`f64::min`].
+#[inline]
+pub(crate) fn lesser(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
+
 /// Returns an end plus an amount; infinite ends stay unchanged.
 #[inline]
 fn widened(end: f64, amount: f64) -> f64 {

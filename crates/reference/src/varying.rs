@@ -1,7 +1,7 @@
 //! Values interpolated over a primitive, which legal snapping leaves partly open.
 
 use crate::depth::Depth;
-use crate::interval::Interval;
+use crate::interval::{Interval, lesser};
 use crate::snap::SnapBox;
 use etalon_pipeline::{DepthPlane, Point};
 
@@ -155,12 +155,6 @@ impl Perspective {
         ];
         Interval { low, high }.widen(self.error)
     }
-}
-
-/// Returns the lesser of two numbers in one instruction, unlike [`f64::min`].
-#[inline]
-fn lesser(a: f64, b: f64) -> f64 {
-    if b < a { b } else { a }
 }
 
 #[cfg(test)]
