@@ -24,20 +24,17 @@ impl Walk<'_> {
         incoming: Incoming,
         notes: &mut Notes<'_>,
     ) {
-        let mut judging = Judging::new(self.rules);
         let pass = &self.scene.passes[place.pass];
         if let (Some(state), Some(index)) = (place.draw.depth, pass.depth_stencil)
             && state.write
         {
-            let encoding = self.depth_encoding(index);
-            let codes = judging.encode(encoding, incoming.depth);
-            world.cells[index].set_channel(0, codes);
+            world.cells[index].set_channel(0, incoming.codes);
             world.cells[index].origin = incoming.origin;
             let cell = world.cells[index];
             self.note_effect(notes, place, self.rules.store.citation, Some(cell), || {
                 let step = Step::StoreDepth {
                     depth: incoming.depth.hull().into(),
-                    codes: Codes::new(encoding, codes),
+                    codes: Codes::new(self.depth_encoding(index), incoming.codes),
                 };
                 (Effect::Stores(self.target(index, Aspect::Depth)), step)
             });

@@ -362,24 +362,19 @@ impl<'a> Walk<'a> {
         point: Point,
     ) -> Result<Hit, Rejection> {
         let draw = &self.scene.passes[p].draws[d];
-        let missed = match &primitive.shape {
-            Shape::Triangle(triangle) => misses(triangle, sides),
-            _ => false,
-        };
+        if let Shape::Triangle(triangle) = &primitive.shape
+            && misses(triangle, sides)
+        {
+            return Err(Rejection::Coverage);
+        }
         let in_viewport = self.setups[p].clip(d).holds(primitive, point);
         if !in_viewport.can() {
-            let reached = match &primitive.shape {
-                Shape::Triangle(_) => !missed,
-                _ => primitive.times(point, self.units).1 > 0,
-            };
+            let reached = primitive.times(point, self.units).1 > 0;
             return Err(if reached {
                 Rejection::Viewport
             } else {
                 Rejection::Coverage
             });
-        }
-        if missed {
-            return Err(Rejection::Coverage);
         }
         let passes = matches!(primitive.shape, Shape::Point(_)) && !self.rules.clips_points.value();
         let in_depth = if draw.depth_clamp {
