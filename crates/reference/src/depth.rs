@@ -1,7 +1,7 @@
 //! Depth over a primitive, which legal snapping leaves partly open.
 
 use crate::interval::{Interval, lesser};
-use crate::snap::{SnapBox, area};
+use crate::snap::{SnapBox, area, texel_of};
 use etalon_pipeline::{DepthPlane, Point};
 use smallvec::SmallVec;
 
@@ -123,7 +123,7 @@ impl Depth {
 
     /// Returns the hull over the texel that contains a point, inside the primitive or not.
     pub(crate) fn over_texel(&self, point: Point, units: i64) -> Interval {
-        let corner = |v: i64| v.div_euclid(units) * units;
+        let corner = |v: i64| texel_of(v, units) * units;
         let (x, y) = (corner(point.x), corner(point.y));
         let corners = [(0, 0), (units, 0), (0, units), (units, units)];
         self.hull_of(corners.map(|(dx, dy)| Point {

@@ -5,7 +5,7 @@ use crate::distance::Distance;
 use crate::interval::Interval;
 use crate::possible::Possible;
 use crate::range::Range as Values;
-use crate::snap::{PackedBox, SnapBox, area};
+use crate::snap::{PackedBox, SnapBox, area, texel_of};
 use crate::varying::Varying;
 use etalon_pipeline::{DepthPlane, Point, edge_value};
 use etalon_scene::InterpolationSampling;
@@ -341,10 +341,10 @@ impl SnappedPrimitive {
         };
         let SnapBox { low, high } = self.hull();
         [
-            (low.x - reach).div_euclid(units),
-            (low.y - reach).div_euclid(units),
-            (high.x + reach).div_euclid(units) + 1,
-            (high.y + reach).div_euclid(units) + 1,
+            texel_of(low.x - reach, units),
+            texel_of(low.y - reach, units),
+            texel_of(high.x + reach, units) + 1,
+            texel_of(high.y + reach, units) + 1,
         ]
     }
 
@@ -490,7 +490,7 @@ pub(crate) fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
     let unit = units as f64;
     let far = (2.5 * unit) as i64;
     // Such a fragment covers all samples of its texel (Vulkan, Bresenham Line Segment Rasterization).
-    let middle = |position: i64| position.div_euclid(units) * units + units / 2;
+    let middle = |position: i64| texel_of(position, units) * units + units / 2;
     let center = Point {
         x: middle(at.x),
         y: middle(at.y),
@@ -531,9 +531,9 @@ pub(crate) fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
         |low: i64, high: i64, position: i64| !touches(low - units, high + units, position, units);
     let across = |line: SnapBox, low: fn(Point) -> i64, position: i64| {
         let (least, most) = (low(line.low), low(line.high));
-        let cell = position.div_euclid(units);
-        least.div_euclid(units) == cell
-            && most.div_euclid(units) == cell
+        let cell = texel_of(position, units);
+        texel_of(least, units) == cell
+            && texel_of(most, units) == cell
             && most - units / 2 < position
             && position < least + units / 2
     };
@@ -553,8 +553,8 @@ pub(crate) fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
 
 /// Returns true if a line between two positions can run through a sample's texel.
 fn touches(low: i64, high: i64, position: i64, units: i64) -> bool {
-    let cell = position.div_euclid(units);
-    low.div_euclid(units) <= cell && cell <= high.div_euclid(units)
+    let cell = texel_of(position, units);
+    texel_of(low, units) <= cell && cell <= texel_of(high, units)
 }
 
 /// Returns the inner side of a triangle's edges. With y down, edge functions are negative inside a triangle

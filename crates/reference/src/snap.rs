@@ -85,6 +85,12 @@ pub(crate) fn units_per_texel(limits: &Limits) -> i64 {
     1 << limits.sub_pixel_bits.max(8)
 }
 
+/// Returns the row or column of the texels that contain a coordinate. The units per texel are a power of two.
+#[inline]
+pub(crate) fn texel_of(coordinate: i64, units: i64) -> i64 {
+    coordinate >> units.trailing_zeros()
+}
+
 /// Returns the least and the greatest signed area of a triangle, y up.
 pub(crate) fn area(boxes: [SnapBox; 3]) -> (i64, i64) {
     // One corner decides most triangles; see `Triangle::side`.
