@@ -6,7 +6,7 @@ use crate::coverage::{Point, signed_area};
 /// positions. Units are those of [`Point`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DepthPlane {
-    origin: Point,
+    origin: [f64; 2],
     z: f64,
     /// Growth per unit to the right.
     pub dx: f64,
@@ -17,7 +17,7 @@ pub struct DepthPlane {
 impl DepthPlane {
     /// Returns the plane of a value at the top left corner and its growth per unit.
     pub fn of(z: f64, dx: f64, dy: f64) -> Self {
-        let origin = Point::default();
+        let origin = [0.0; 2];
         Self { origin, z, dx, dy }
     }
 
@@ -42,7 +42,7 @@ impl DepthPlane {
             }
         };
         Self {
-            origin: a,
+            origin: [a.x, a.y].map(|v| v as f64),
             z: z[0],
             dx: per(d1 * cy - d2 * by),
             dy: per(d2 * bx - d1 * cx),
@@ -59,7 +59,7 @@ impl DepthPlane {
             (z[1] - z[0]) / square
         };
         Self {
-            origin: a,
+            origin: [a.x, a.y].map(|v| v as f64),
             z: z[0],
             dx: growth * x,
             dy: growth * y,
@@ -68,8 +68,9 @@ impl DepthPlane {
 
     /// Returns the depth at a point.
     pub fn at(&self, point: Point) -> f64 {
-        let dx = (point.x - self.origin.x) as f64 * self.dx;
-        let dy = (point.y - self.origin.y) as f64 * self.dy;
+        let [x, y] = self.origin;
+        let dx = (point.x as f64 - x) * self.dx;
+        let dy = (point.y as f64 - y) * self.dy;
         self.z + dx + dy
     }
 }

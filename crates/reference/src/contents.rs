@@ -85,10 +85,10 @@ impl Walk<'_> {
             };
             let worlds = self.earlier(at, passes)?;
             if sample == 0 || self.rules.resolve.value() != Resolve::CoarseAverage {
-                single.extend(worlds.iter().map(|w| w.cells[source].channels));
+                single.extend(worlds.iter().map(|w| w.cells[source].channels()));
             }
             for (c, encoding) in encodings.iter().enumerate() {
-                let intervals = worlds.iter().map(|w| w.cells[source].channels[c]);
+                let intervals = worlds.iter().map(|w| w.cells[source].channel(c));
                 if let Some(codes) = intervals.reduce(CodeInterval::hull) {
                     let value = Judging::new(self.rules).decode(*encoding, codes).float;
                     sums[c].add(codes, value);
@@ -199,14 +199,10 @@ impl Walk<'_> {
                 samples: codes(samples),
                 results: codes(results),
             };
-            let stored = Cell {
-                channels: results
-                    .first()
-                    .copied()
-                    .unwrap_or([CodeInterval::exact(0); 4]),
-                stencil: 0,
-                origin: None,
-            };
+            let mut stored = Cell::default();
+            if let Some(channels) = results.first() {
+                stored.set_channels(*channels);
+            }
             let citation = self.rules.resolve.citation;
             Note::store(Origin::AfterPass(passes - 1), step, into, stored, citation)
         });
@@ -217,28 +213,24 @@ impl Walk<'_> {
         let mut judging = Judging::new(self.rules);
         let attachment = &self.scene.attachments[index];
         let encodings = attachment.format.color_channels();
-        let mut cell = Cell {
-            channels: [CodeInterval::exact(0); 4],
-            stencil: 0,
-            origin: None,
-        };
+        let mut cell = Cell::default();
         match &attachment.contents {
             Contents::Color(color) => {
                 for (c, encoding) in encodings.iter().enumerate() {
                     let value = judging.constant(color[c]);
-                    cell.channels[c] = judging.encode(*encoding, value);
+                    cell.set_channel(c, judging.encode(*encoding, value));
                 }
             }
             Contents::DepthStencil { depth, stencil } => {
                 let value = judging.constant(*depth);
-                cell.channels[0] = judging.encode(self.depth_encoding(index), value);
+                cell.set_channel(0, judging.encode(self.depth_encoding(index), value));
                 cell.stencil = *stencil;
             }
             Contents::Texels(codes) => {
                 let start = (y * attachment.size[0] as usize + x) * encodings.len();
                 for (c, encoding) in encodings.iter().enumerate() {
                     let order = encoding.order_of_code(codes[start + c]);
-                    cell.channels[c] = CodeInterval::exact(order);
+                    cell.set_channel(c, CodeInterval::exact(order));
                 }
             }
         }

@@ -314,7 +314,7 @@ impl<'a> CutTriangle<'a> {
             return Varying::Linear(Depth::flat(&values.map(Interval::exact)).interpolated(error));
         }
         let planes = [values, [1.0; 3]].map(|values| self.homogeneous.over_w(values));
-        Varying::Perspective(Perspective::of(vec![planes], self.seen.off, values, error))
+        Varying::Perspective(Perspective::of([planes], self.seen.off, values, error))
     }
 
     /// Returns 1 over w.

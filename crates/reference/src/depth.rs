@@ -1,7 +1,7 @@
 //! Depth over a primitive, which legal snapping leaves partly open.
 
-use crate::interval::Interval;
-use crate::snap::{SnapBox, area};
+use crate::interval::{Interval, lesser};
+use crate::snap::{SnapBox, area, texel_of};
 use etalon_pipeline::{DepthPlane, Point};
 use smallvec::SmallVec;
 
@@ -124,18 +124,13 @@ impl Depth {
 
     /// Returns the hull over the texel that contains a point, inside the primitive or not.
     pub(crate) fn over_texel(&self, point: Point, units: i64) -> Interval {
-        let corner = |v: i64| v.div_euclid(units) * units;
+        let corner = |v: i64| texel_of(v, units) * units;
         let (x, y) = (corner(point.x), corner(point.y));
         let corners = [(0, 0), (units, 0), (0, units), (units, units)];
-        let depths = corners.map(|(dx, dy)| {
-            self.beyond(Point {
-                x: x + dx,
-                y: y + dy,
-            })
-        });
-        depths[1..]
-            .iter()
-            .fold(depths[0], |hull, depth| hull.hull(*depth))
+        self.hull_of(corners.map(|(dx, dy)| Point {
+            x: x + dx,
+            y: y + dy,
+        }))
     }
 
     pub(crate) fn at(&self, point: Point) -> Interval {
@@ -144,10 +139,29 @@ impl Depth {
 
     /// Returns the depth at a point, which can be outside.
     pub(crate) fn beyond(&self, point: Point) -> Interval {
-        let values = self.planes.iter().map(|p| Interval::exact(p.at(point)));
-        values
-            .reduce(Interval::hull)
-            .map_or(self.hull, |depth| depth.widen(self.error))
+        self.hull_of([point])
+    }
+
+    /// Returns the hull of the depths at some points, which can be outside.
+    #[inline]
+    fn hull_of<const N: usize>(&self, points: [Point; N]) -> Interval {
+        if self.is_flat() {
+            return self.hull;
+        }
+        // The points are lanes of one instruction.
+        let (mut least, mut most) = ([f64::INFINITY; N], [f64::NEG_INFINITY; N]);
+        for plane in &self.planes {
+            for (i, point) in points.iter().enumerate() {
+                let depth = plane.at(*point);
+                least[i] = lesser(least[i], depth);
+                most[i] = -lesser(-most[i], -depth);
+            }
+        }
+        let [low, high] = [
+            least.into_iter().fold(f64::INFINITY, f64::min),
+            most.into_iter().fold(f64::NEG_INFINITY, f64::max),
+        ];
+        Interval { low, high }.widen(self.error)
     }
 }
 
@@ -194,10 +208,7 @@ fn extreme(planes: &[DepthPlane], corners: [Point; 4]) -> Vec<DepthPlane> {
 /// Returns the planes through all corners of the snapped positions: one if they are exact. A plane's slope is
 /// a quotient of functions that are linear in each coordinate, so its extremes are at corners.
 pub(crate) fn planes(boxes: [SnapBox; 3], z: [f64; 3]) -> impl Iterator<Item = DepthPlane> {
-    let corners = |b: SnapBox| {
-        let corners = b.corners();
-        corners.into_iter().take(if b.is_exact() { 1 } else { 4 })
-    };
+    let corners = SnapBox::positions;
     corners(boxes[0]).flat_map(move |a| {
         corners(boxes[1])
             .flat_map(move |b| corners(boxes[2]).map(move |c| DepthPlane::new([a, b, c], z)))

@@ -58,7 +58,7 @@ impl Walk<'_> {
                     let mut world = world.clone();
                     let cell = &mut world.cells[resolve.to];
                     if let Some(codes) = depth {
-                        cell.channels[0] = *codes;
+                        cell.set_channel(0, *codes);
                         cell.origin = None;
                     }
                     cell.stencil = stencil.unwrap_or(cell.stencil);
@@ -82,15 +82,15 @@ impl Walk<'_> {
         let cells = cells.map(|world| world.cells[source]);
         if first(resolve.depth) && first(resolve.stencil) {
             return cells
-                .map(|c| (Some(c.channels[0]), Some(c.stencil)))
+                .map(|c| (Some(c.channel(0)), Some(c.stencil)))
                 .collect();
         }
         let depths: BTreeSet<Option<CodeInterval>> = match resolve.depth {
             ResolveMode::None => [None].into(),
-            ResolveMode::SampleZero => cells.clone().map(|c| Some(c.channels[0])).collect(),
+            ResolveMode::SampleZero => cells.clone().map(|c| Some(c.channel(0))).collect(),
             mode => {
                 let hulls = each.iter().filter_map(|worlds| {
-                    let codes = worlds.iter().map(|w| w.cells[source].channels[0]);
+                    let codes = worlds.iter().map(|w| w.cells[source].channel(0));
                     codes.reduce(CodeInterval::hull)
                 });
                 [self.depth_of(

@@ -21,6 +21,7 @@ use etalon_pipeline::{
 };
 use etalon_scene::{CompareFunction, EarlyTests, Shader, StencilOperation};
 use smallvec::SmallVec;
+use std::num::NonZeroU64;
 
 /// A fragment that is tested before its shader runs.
 struct Shaded<'a> {
@@ -585,7 +586,7 @@ impl Walk<'_> {
         // The rules can let a point beyond the near or far plane be drawn.
         let point = matches!(place.primitive.shape, Shape::Point(_));
         let exported = written || point || place.primitive.is_biased();
-        let depth = if depth.float.may_be_nan() {
+        let depth = Range::same(if depth.float.may_be_nan() {
             // NaN stays NaN, or is clamped to any value of the range.
             depth.float
         } else if place.draw.depth_clamp {
@@ -599,14 +600,19 @@ impl Walk<'_> {
                 DepthRange::ViewportIfWritten if written => held,
                 DepthRange::Either | DepthRange::ViewportIfWritten => held.hull(unit),
             }
-        };
+        });
+        let attachment = self.scene.passes[place.pass].depth_stencil;
+        let attachment = attachment.filter(|_| place.draw.depth.is_some());
+        let encoded = attachment
+            .map(|index| Judging::new(self.rules).encode(self.depth_encoding(index), depth));
         let keeps_depth = !written || place.draw.shader == Shader::FragCoordDepth;
         let same = match self.rules.same_depth.value() {
             SameDepth::All => keeps_depth,
             SameDepth::Written => written && keeps_depth,
         };
         Incoming {
-            depth: Range::same(depth),
+            depth,
+            codes: encoded.unwrap_or(CodeInterval::exact(0)),
             origin: (place.primitive.geometry).filter(|_| same && place.at.samples == 1),
         }
     }
@@ -667,7 +673,7 @@ impl Walk<'_> {
         notes: &mut Notes<'_>,
     ) -> Possible {
         let encoding = self.depth_encoding(index);
-        let stored = world.cells[index].channels[0];
+        let stored = world.cells[index].channel(0);
         let mut judging = Judging::new(self.rules);
         let exact = Interval::of_codes(encoding, stored);
         let stored = exact.hull(judging.decode(encoding, stored).hull());
@@ -719,9 +725,8 @@ impl Walk<'_> {
             return;
         };
         let stored = (after != before).then_some(Cell {
-            channels: [CodeInterval::exact(0); 4],
             stencil: after,
-            origin: None,
+            ..Cell::default()
         });
         self.note_effect(notes, place, self.rules.stencil, stored, || {
             let target = self.target(attachment, Aspect::Stencil);
@@ -764,19 +769,26 @@ impl Walk<'_> {
             });
             return [passes, !passes];
         }
-        let (incoming, stored) = (incoming.depth, stored.channels[0]);
-        let mut judging = Judging::new(self.rules);
-        let codes = judging.encode(encoding, incoming);
+        let stored = stored.channel(0);
         let of_codes = |codes: CodeInterval| Interval::of_codes(encoding, codes);
-        let (left, right) = match self.rules.depth_order.value() {
-            DepthOrder::Either => (
-                of_codes(codes).hull(incoming.hull()),
-                of_codes(stored).hull(judging.decode(encoding, stored).hull()),
-            ),
-            DepthOrder::ConvertedFirst => (of_codes(codes), of_codes(stored)),
+        let compared = || {
+            let both = [of_codes(incoming.codes), of_codes(stored)];
+            match self.rules.depth_order.value() {
+                DepthOrder::Either => {
+                    let decoded = Judging::new(self.rules).decode(encoding, stored);
+                    let [left, right] = both;
+                    [left.hull(incoming.depth.hull()), right.hull(decoded.hull())]
+                }
+                DepthOrder::ConvertedFirst => both,
+            }
         };
-        let outcomes = possible(function, left, right);
+        let outcomes = match function {
+            CompareFunction::Never => [false, true],
+            CompareFunction::Always => [true, false],
+            _ => possible(function, compared()),
+        };
         let step = || {
+            let [left, right] = compared();
             Step::DepthTest(DepthTest::Compared {
                 compare: function.name().to_owned(),
                 incoming: left.into(),
@@ -844,13 +856,15 @@ enum Source {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Incoming {
     pub(crate) depth: Range,
+    /// The depth as an attachment stores it, if the draw has a depth test.
+    pub(crate) codes: CodeInterval,
     /// The geometry that the depth belongs to, if redraws of that geometry have the same depth.
-    pub(crate) origin: Option<u64>,
+    pub(crate) origin: Option<NonZeroU64>,
 }
 
 /// Returns whether a comparison of some value of `left` with some value of `right` can be true, and
 /// whether it can be false.
-fn possible(function: CompareFunction, left: Interval, right: Interval) -> [bool; 2] {
+fn possible(function: CompareFunction, [left, right]: [Interval; 2]) -> [bool; 2] {
     let can_be_less = left.low < right.high;
     let can_be_greater = left.high > right.low;
     let can_be_equal = left.low <= right.high && right.low <= left.high;

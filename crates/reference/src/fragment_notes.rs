@@ -150,11 +150,8 @@ impl Walk<'_> {
         } = self.target(attachment, aspect);
         let format = self.scene.attachments[attachment].format;
         let codes = match aspect {
-            Aspect::Color => Codes::of_channels(format.color_channels(), cell.channels),
-            Aspect::Depth => vec![Codes::new(
-                self.depth_encoding(attachment),
-                cell.channels[0],
-            )],
+            Aspect::Color => Codes::of_channels(format.color_channels(), cell.channels()),
+            Aspect::Depth => vec![Codes::new(self.depth_encoding(attachment), cell.channel(0))],
             Aspect::Stencil => vec![stencil_codes(cell.stencil)],
         };
         Contents {

@@ -45,10 +45,12 @@ impl Interval {
     /// Returns the values of an interval of codes; all values if the codes include a NaN.
     #[inline]
     pub fn of_codes(encoding: ChannelEncoding, codes: CodeInterval) -> Self {
-        let (low, high) = (
-            encoding.value_of_order(codes.low),
-            encoding.value_of_order(codes.high),
-        );
+        let low = encoding.value_of_order(codes.low);
+        let high = if codes.is_exact() {
+            low
+        } else {
+            encoding.value_of_order(codes.high)
+        };
         if low.is_nan() || high.is_nan() {
             return Self::EVERYTHING;
         }
@@ -210,6 +212,12 @@ impl From<Interval> for ValueRange {
             high: interval.high,
         }
     }
+}
+
+/// Returns the lesser of two numbers in one instruction, unlike [`f64::min`].
+#[inline]
+pub(crate) fn lesser(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
 }
 
 /// Returns an end plus an amount; infinite ends stay unchanged.

@@ -167,7 +167,7 @@ impl Walk<'_> {
         for world in worlds.iter_mut() {
             let cell = &mut world.cells[filling.attachment];
             for (channel, codes) in &filling.channels {
-                cell.channels[*channel] = *codes;
+                cell.set_channel(*channel, *codes);
             }
             if !filling.channels.is_empty() {
                 cell.origin = None;

@@ -140,8 +140,13 @@ impl Walk<'_> {
         let Some(index) = self.pictures.borrow().shape(shape) else {
             return;
         };
-        // Draws that sample the picture see its contents before the pass.
-        let mut picture = self.pictures.borrow().samples[index].clone();
+        // Draws with textures can see the picture before the pass.
+        let is_seen = pass.draws.iter().any(|draw| !draw.textures.is_empty());
+        let mut picture = if is_seen {
+            self.pictures.borrow().samples[index].clone()
+        } else {
+            std::mem::take(&mut self.pictures.borrow_mut().samples[index])
+        };
         if !pass.cleared().is_empty() {
             self.each_state(&mut picture, |worlds| {
                 self.load(p, worlds, &mut Notes(None));
@@ -223,30 +228,39 @@ impl Walk<'_> {
             self.each_state(picture, |worlds| clear(anywhere, worlds));
             return;
         }
+        // The same clears contain all texels of a row between two columns.
+        let sides = clears.iter().filter_map(|clear| clear.rect);
+        let sides = sides.flat_map(|[left, _, width, _]| [left, left.saturating_add(width)]);
+        let columns: BTreeSet<u32> = sides.chain([0, u32::MAX]).map(|x| x.min(size[0])).collect();
+        let columns = Vec::from_iter(columns);
         let mut known: FxHashMap<(State, SmallVec<[bool; 8]>), State> = FxHashMap::default();
-        for_each_judged(self.texels.lattice(size), size, |x, y| {
-            let inside = |rect: Option<[u32; 4]>| {
-                rect.is_none_or(|[left, top, w, h]| {
-                    x >= left && y >= top && x - left < w && y - top < h
-                })
-            };
-            let inside: SmallVec<[bool; 8]> = clears.iter().map(|c| inside(c.rect)).collect();
-            if !inside.contains(&true) {
-                return;
-            }
-            for sample in 0..samples {
-                let at = Sample {
+        for y in 0..size[1] {
+            for part in columns.windows(2) {
+                let [at, end] = [part[0], part[1]].map(|x| Sample {
                     size,
                     samples,
                     x,
                     y,
-                    sample,
+                    sample: 0,
+                });
+                let inside = |rect: Option<[u32; 4]>| {
+                    rect.is_none_or(|[left, top, w, h]| {
+                        at.x >= left && y >= top && at.x - left < w && y - top < h
+                    })
                 };
-                let state = &mut picture[at.place()];
-                let known = known.entry((*state, inside.clone()));
-                *state = *known.or_insert_with(|| self.changed(*state, |worlds| clear(at, worlds)));
+                let inside: SmallVec<[bool; 8]> = clears.iter().map(|c| inside(c.rect)).collect();
+                if !inside.contains(&true) {
+                    continue;
+                }
+                for run in picture[at.place()..end.place()].chunk_by_mut(|a, b| a == b) {
+                    let before = run[0];
+                    let after = known.entry((before, inside.clone()));
+                    run.fill(
+                        *after.or_insert_with(|| self.changed(before, |worlds| clear(at, worlds))),
+                    );
+                }
             }
-        });
+        }
     }
 
     /// Changes the worlds of all samples in the same way.
@@ -401,18 +415,22 @@ impl Strokes for Brush<'_, '_> {
     }
 
     fn stroke(&mut self, first: Sample, end: u32, signature: &SampleKey) {
-        let mut before = None;
-        for x in first.x..end {
+        let step = first.samples as usize;
+        let mut x = first.x;
+        while x < end {
             let at = Sample { x, ..first };
-            let place = at.place();
-            let old = self.picture[place];
-            match before {
-                Some((state, after)) if state == old => self.picture[place] = after,
-                _ => {
-                    self.texel(at, signature);
-                    before = Some((old, self.picture[place]));
-                }
-            }
+            let before = self.picture[at.place()];
+            self.texel(at, signature);
+            // Texels in the same state end in the same state.
+            let run = &mut self.picture[at.place()..];
+            let after = run[0];
+            let rest = run
+                .iter_mut()
+                .step_by(step)
+                .take((end - x) as usize)
+                .skip(1);
+            let same = rest.take_while(|state| **state == before);
+            x += 1 + same.map(|state| *state = after).count() as u32;
         }
     }
 }
@@ -457,11 +475,14 @@ impl Brush<'_, '_> {
         let hits = hits
             .iter()
             .map(|(i, hit)| (&primitives[*i as usize], Ok(*hit)));
-        let before = self.walk.pictures.borrow().states.worlds(before).cloned();
-        let after = before.and_then(|worlds| {
-            let draw = (self.pass, draw as usize);
-            self.walk.draw(at, draw, hits, &worlds, &mut Notes(None))
-        });
+        let Some(worlds) = self.walk.pictures.borrow().states.worlds(before).cloned() else {
+            return OPEN;
+        };
+        let draw = (self.pass, draw as usize);
+        let after = self.walk.draw(at, draw, hits, &worlds, &mut Notes(None));
+        if after.as_ref() == Some(&*worlds) {
+            return before;
+        }
         self.walk.pictures.borrow_mut().states.number(after)
     }
 }

@@ -5,10 +5,11 @@ use crate::distance::Distance;
 use crate::interval::Interval;
 use crate::possible::Possible;
 use crate::range::Range as Values;
-use crate::snap::{PackedBox, SnapBox, area};
+use crate::snap::{PackedBox, SnapBox, area, texel_of};
 use crate::varying::Varying;
 use etalon_pipeline::{DepthPlane, Point, edge_value};
 use etalon_scene::InterpolationSampling;
+use std::num::NonZeroU64;
 use std::ops::Range;
 
 /// The shape of a primitive.
@@ -89,7 +90,7 @@ pub(crate) struct SnappedPrimitive {
     pub(crate) distances: Box<[Distance]>,
     /// A number that is equal for the same vertices under the same viewport; `None` if the draw tests no
     /// depth, or if no other fragment of the scene can have the same.
-    pub(crate) geometry: Option<u64>,
+    pub(crate) geometry: Option<NonZeroU64>,
     /// The primitive's index in the draw.
     pub(crate) index: u32,
 }
@@ -203,15 +204,7 @@ impl Triangle {
                 };
             }
         };
-        // The edge function is linear in each coordinate alone, so its extremes are at corners.
-        let (mut least, mut most) = (i64::MAX, i64::MIN);
-        for p in p.corners() {
-            for q in q.corners() {
-                let value = edge_value(p, q, at);
-                least = least.min(value);
-                most = most.max(value);
-            }
-        }
+        let (least, most) = edge_values(p, q, at);
         if least > 0 {
             Side::Positive
         } else if most < 0 {
@@ -275,6 +268,20 @@ impl Triangle {
     }
 }
 
+/// Returns the least and the greatest value at a point of the function of an edge.
+fn edge_values(p: SnapBox, q: SnapBox, at: Point) -> (i64, i64) {
+    // The function is linear in each coordinate alone, so its extremes are at corners.
+    let (mut least, mut most) = (i64::MAX, i64::MIN);
+    for p in p.corners() {
+        for q in q.corners() {
+            let value = edge_value(p, q, at);
+            least = least.min(value);
+            most = most.max(value);
+        }
+    }
+    (least, most)
+}
+
 /// Restricts columns to those in which a linear function is at most `most`.
 fn keep_below(columns: &mut Range<i64>, start: i64, growth: i64, most: i64) {
     let room = most - start;
@@ -315,10 +322,10 @@ impl Shape {
         };
         let SnapBox { low, high } = self.hull();
         [
-            (low.x - reach).div_euclid(units),
-            (low.y - reach).div_euclid(units),
-            (high.x + reach).div_euclid(units) + 1,
-            (high.y + reach).div_euclid(units) + 1,
+            texel_of(low.x - reach, units),
+            texel_of(low.y - reach, units),
+            texel_of(high.x + reach, units) + 1,
+            texel_of(high.y + reach, units) + 1,
         ]
     }
 }
@@ -442,10 +449,10 @@ impl SnappedPrimitive {
 impl SnappedPrimitive {
     /// Returns whether the clip distances keep a covered sample: at a point, or anywhere in its texel if
     /// `spread` gives the units per texel.
-    pub(crate) fn inside_distances(&self, at: Point, spread: Option<i64>) -> Possible {
+    pub(crate) fn inside_distances(&self, at: Point, spread: impl Fn() -> Option<i64>) -> Possible {
         let mut inside = Possible::Always;
         for distance in &self.distances {
-            inside = inside.and(match spread {
+            inside = inside.and(match spread() {
                 None => distance.keeps(at),
                 Some(units) => distance.keeps_in_texel(at, units),
             });
@@ -483,6 +490,20 @@ pub(crate) fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
     let [a, b] = ends;
     let bounds = a.hull(b);
     let unit = units as f64;
+    let far = (2.5 * unit) as i64;
+    // Such a fragment covers all samples of its texel (Vulkan, Bresenham Line Segment Rasterization).
+    let middle = |position: i64| texel_of(position, units) * units + units / 2;
+    let center = Point {
+        x: middle(at.x),
+        y: middle(at.y),
+    };
+    let is_near = center.x >= bounds.low.x - far
+        && center.x <= bounds.high.x + far
+        && center.y >= bounds.low.y - far
+        && center.y <= bounds.high.y + far;
+    if !is_near {
+        return (0, 0);
+    }
     let (dx, dy) = ((b.low.x - a.low.x) as f64, (b.low.y - a.low.y) as f64);
     let length = dx.hypot(dy);
     // Half a texel for the diamond, and one texel along each axis for a fragment that deviates.
@@ -492,31 +513,13 @@ pub(crate) fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
         2.0
     };
     let reach = unit * (0.5 + along_axes);
-    let far = (2.5 * unit) as i64;
-    // Such a fragment covers all samples of its texel (Vulkan, Bresenham Line Segment Rasterization).
-    let middle = |position: i64| position.div_euclid(units) * units + units / 2;
-    let center = Point {
-        x: middle(at.x),
-        y: middle(at.y),
+    let far_from_line = |value: i64| length > 0.0 && value as f64 > length * reach;
+    // One corner of each box decides most texels.
+    let is_far = far_from_line(edge_value(a.low, b.low, center).abs()) && {
+        let (least, most) = edge_values(a, b, center);
+        far_from_line(least.max(-most))
     };
-    let near = center.x >= bounds.low.x - far
-        && center.x <= bounds.high.x + far
-        && center.y >= bounds.low.y - far
-        && center.y <= bounds.high.y + far;
-    // An edge function is linear in each end, so its extremes are at corners of the boxes.
-    let values = a
-        .corners()
-        .into_iter()
-        .flat_map(|p| b.corners().map(|q| edge_value(p, q, center)));
-    let (least, most) = values.fold((i64::MAX, i64::MIN), |(least, most), v| {
-        (least.min(v), most.max(v))
-    });
-    let nearest = if least <= 0 && most >= 0 {
-        0.0
-    } else {
-        least.unsigned_abs().min(most.unsigned_abs()) as f64
-    };
-    if !near || (length > 0.0 && nearest > length * reach) {
+    if is_far {
         return (0, 0);
     }
     // A texel is certain if it is more than 1.5 texels from both ends: half a texel for the diamond at an end,
@@ -530,9 +533,9 @@ pub(crate) fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
         |low: i64, high: i64, position: i64| !touches(low - units, high + units, position, units);
     let across = |line: SnapBox, low: fn(Point) -> i64, position: i64| {
         let (least, most) = (low(line.low), low(line.high));
-        let cell = position.div_euclid(units);
-        least.div_euclid(units) == cell
-            && most.div_euclid(units) == cell
+        let cell = texel_of(position, units);
+        texel_of(least, units) == cell
+            && texel_of(most, units) == cell
             && most - units / 2 < position
             && position < least + units / 2
     };
@@ -552,8 +555,8 @@ pub(crate) fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
 
 /// Returns true if a line between two positions can run through a sample's texel.
 fn touches(low: i64, high: i64, position: i64, units: i64) -> bool {
-    let cell = position.div_euclid(units);
-    low.div_euclid(units) <= cell && cell <= high.div_euclid(units)
+    let cell = texel_of(position, units);
+    texel_of(low, units) <= cell && cell <= texel_of(high, units)
 }
 
 /// Returns the inner side of a triangle's edges. With y down, edge functions are negative inside a triangle

@@ -249,8 +249,8 @@ impl Known<'_> {
             let here = target.attachment == name && target.aspect == aspect;
             here.then(|| {
                 let codes = match aspect {
-                    Aspect::Color => cell.channels[..n].to_vec(),
-                    Aspect::Depth => vec![self.walk.read_depth(attachment, cell.channels[0])],
+                    Aspect::Color => cell.channels()[..n].to_vec(),
+                    Aspect::Depth => vec![self.walk.read_depth(attachment, cell.channel(0))],
                     Aspect::Stencil => vec![CodeInterval::exact(i64::from(cell.stencil))],
                 };
                 (note, codes)

@@ -10,6 +10,7 @@ use crate::world::World;
 use etalon_frame::{ChannelEncoding, CodeInterval};
 use etalon_pipeline::{Arithmetic, texel_position};
 use etalon_scene::{AddressMode, FilterMode, Sampler};
+use smallvec::SmallVec;
 
 /// A texture as a sampler sees it.
 #[derive(Clone, Copy)]
@@ -19,6 +20,9 @@ struct Texture {
     /// The reading pass, if an earlier pass drew to the texture.
     pass: Option<usize>,
 }
+
+/// The texels that one coordinate has reached, before addressing.
+type Taps = SmallVec<[([i64; 2], [Range; 4]); 4]>;
 
 /// The maximum number of texels of a drawn texture that one coordinate can reach; beyond it, any result is
 /// legal.
@@ -98,7 +102,7 @@ impl Walk<'_> {
             return self.anything(index);
         }
         if attachment.samples == at.samples {
-            return self.decoded(index, world.cells[index].channels);
+            return self.decoded(index, world.cells[index].channels());
         }
         let at = Sample {
             samples: attachment.samples,
@@ -108,7 +112,7 @@ impl Walk<'_> {
         let Some(worlds) = self.earlier(at, place.pass) else {
             return self.anything(index);
         };
-        let contents = worlds.iter().map(|w| w.cells[index].channels);
+        let contents = worlds.iter().map(|w| w.cells[index].channels());
         let hull = contents.reduce(|a, b| std::array::from_fn(|c| a[c].hull(b[c])));
         hull.map_or_else(
             || self.anything(index),
@@ -118,7 +122,7 @@ impl Walk<'_> {
 
     /// Returns one texel of a texture that no pass drew to.
     fn fetched(&self, index: usize, at: [usize; 2]) -> [Range; 4] {
-        self.decoded(index, self.first_contents(index, at).channels)
+        self.decoded(index, self.first_contents(index, at).channels())
     }
 
     /// Returns the value of stored codes. A format without alpha is read with alpha 1.
@@ -164,15 +168,16 @@ impl Walk<'_> {
             return None;
         }
         let mut result: Option<[Range; 4]> = None;
+        let mut taps = Taps::new();
         for y in &down {
             for x in &across {
                 let value = match sampler.filter {
                     FilterMode::Nearest => {
                         let at = [*x as i64, *y as i64];
-                        let texel = self.tap(texture, sampler, at)?;
+                        let texel = self.tap(texture, sampler, at, &mut taps)?;
                         texel.map(|c| Range::same(c.hull()))
                     }
-                    FilterMode::Linear => self.weighted(texture, sampler, [*x, *y])?,
+                    FilterMode::Linear => self.weighted(texture, sampler, [*x, *y], &mut taps)?,
                 };
                 result = Some(match result {
                     None => value,
@@ -183,17 +188,28 @@ impl Walk<'_> {
         Some(result.unwrap_or([Range::exact(0.0); 4]))
     }
 
-    fn tap(&self, texture: Texture, sampler: Sampler, at: [i64; 2]) -> Option<[Range; 4]> {
+    fn tap(
+        &self,
+        texture: Texture,
+        sampler: Sampler,
+        at: [i64; 2],
+        taps: &mut Taps,
+    ) -> Option<[Range; 4]> {
+        if let Some((_, texel)) = taps.iter().find(|(known, _)| *known == at) {
+            return Some(*texel);
+        }
         let index = texture.index;
         let inside = |axis: usize| {
             let mode: AddressMode = sampler.address[axis];
             texel_position(mode, at[axis], self.scene.attachments[index].size[axis])
         };
         let texel = [inside(0), inside(1)];
-        match texture.pass {
-            None => Some(self.fetched(index, texel)),
-            Some(pass) => self.drawn(index, texel, pass),
-        }
+        let texel = match texture.pass {
+            None => self.fetched(index, texel),
+            Some(pass) => self.drawn(index, texel, pass)?,
+        };
+        taps.push((at, texel));
+        Some(texel)
     }
 
     /// Returns everything that a texel of a texture can contain after earlier passes; `None` if that is
@@ -213,14 +229,20 @@ impl Walk<'_> {
             sample: 0,
         };
         let worlds = self.earlier(at, pass)?;
-        let contents = worlds.iter().map(|w| w.cells[index].channels);
+        let contents = worlds.iter().map(|w| w.cells[index].channels());
         let hull = contents.reduce(|a, b| std::array::from_fn(|c| a[c].hull(b[c])))?;
         Some(self.decoded(index, hull))
     }
 
     /// Returns the linearly filtered value at a position relative to the centre of the first texel: computed in
     /// floats, and, if the rules allow it, in steps that are rounded to codes.
-    fn weighted(&self, texture: Texture, sampler: Sampler, at: [f64; 2]) -> Option<[Range; 4]> {
+    fn weighted(
+        &self,
+        texture: Texture,
+        sampler: Sampler,
+        at: [f64; 2],
+        taps: &mut Taps,
+    ) -> Option<[Range; 4]> {
         let first = at.map(f64::floor);
         let weight = [at[0] - first[0], at[1] - first[1]];
         let mut sum = [Interval::exact(0.0); 4];
@@ -237,8 +259,8 @@ impl Walk<'_> {
                 (first[0] as i64).saturating_add(dx),
                 (first[1] as i64).saturating_add(dy),
             ];
-            let taps = self.tap(texture, sampler, position)?;
-            for (c, texel) in taps.into_iter().enumerate() {
+            let texel = self.tap(texture, sampler, position, taps)?;
+            for (c, texel) in texel.into_iter().enumerate() {
                 let tap = texel.hull();
                 largest = largest.max(tap.low.abs()).max(tap.high.abs());
                 sum[c] = sum[c].plus(tap.map_increasing(|v| v * share));

@@ -15,6 +15,7 @@ use etalon_pipeline::{Plain, is_beyond, shader, window_position};
 use etalon_scene::{DepthBias, Draw, Interpolation, PolygonMode, PrimitiveVertices};
 use smallvec::{SmallVec, smallvec};
 use std::hash::{DefaultHasher, Hash, Hasher};
+use std::num::NonZeroU64;
 
 /// The maximum number of vertices of a draw whose triangles are tried on the coarsest grid. Of many triangles,
 /// one needs the adapter's grid.
@@ -415,7 +416,7 @@ fn draw_geometry(draw: &Draw) -> DefaultHasher {
 }
 
 /// Returns the hash of a primitive's vertices in order and of all other inputs of its depth.
-fn geometry(draw: &Draw, indices: PrimitiveVertices, mut hasher: DefaultHasher) -> u64 {
+fn geometry(draw: &Draw, indices: PrimitiveVertices, mut hasher: DefaultHasher) -> NonZeroU64 {
     let corners = match indices {
         PrimitiveVertices::Point(i) => [i, i, i],
         PrimitiveVertices::Line([a, b]) => [a, b, a],
@@ -425,7 +426,7 @@ fn geometry(draw: &Draw, indices: PrimitiveVertices, mut hasher: DefaultHasher) 
         let position = draw.mesh.vertices[i].position;
         position.map(f32::to_bits).hash(&mut hasher);
     }
-    hasher.finish()
+    NonZeroU64::new(hasher.finish()).unwrap_or(NonZeroU64::MIN)
 }
 
 /// Values over a primitive in front of the eye.

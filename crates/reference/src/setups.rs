@@ -9,6 +9,7 @@ use crate::texels::Texels;
 use etalon_frame::{ChannelEncoding, Limits};
 use etalon_scene::{Pass, Scene};
 use rustc_hash::FxHashMap;
+use std::num::NonZeroU64;
 
 /// Returns the setup of each pass, with the triangles that miss all judged samples or without them.
 pub(crate) fn setups(
@@ -43,13 +44,13 @@ pub(crate) fn pass_depth(scene: &Scene, limits: &Limits, pass: &Pass) -> Option<
 /// Removes the geometry numbers of primitives that no other primitive of the scene repeats: they would only
 /// distinguish states that are otherwise equal.
 fn without_lone_geometry(mut setups: Vec<PassSetup>) -> Vec<PassSetup> {
-    let mut times: FxHashMap<u64, u32> = FxHashMap::default();
+    let mut times: FxHashMap<NonZeroU64, u32> = FxHashMap::default();
     let primitives = setups.iter_mut().flat_map(PassSetup::primitives_mut);
     for geometry in primitives.filter_map(|primitive| primitive.geometry) {
         *times.entry(geometry).or_default() += 1;
     }
     for primitive in setups.iter_mut().flat_map(PassSetup::primitives_mut) {
-        let lone = |geometry: &u64| times[geometry] == 1;
+        let lone = |geometry: &NonZeroU64| times[geometry] == 1;
         if matches!(primitive.shape, Shape::Triangle(_)) {
             primitive.geometry = primitive.geometry.filter(|g| !lone(g));
         }

@@ -12,6 +12,7 @@ use etalon_frame::Rejection;
 use etalon_scene::{Contents, Draw, EarlyTests, InterpolationSampling, Multisample};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
+use std::num::NonZeroU64;
 
 /// The inputs of a draw's fragments that its signatures must distinguish.
 #[derive(Clone, Debug)]
@@ -379,7 +380,7 @@ impl Inputs {
         }
         words.extend(bits(primitive.bias));
         words.push(u64::from(primitive.geometry.is_some()) | u64::from(primitive.beyond) << 1);
-        words.extend(primitive.geometry);
+        words.extend(primitive.geometry.map(NonZeroU64::get));
         if (self.depth || self.depth_seen) && primitive.window_depth.is_flat() {
             words.extend(bits(primitive.window_depth.hull));
         }

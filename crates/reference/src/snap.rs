@@ -50,6 +50,12 @@ impl SnapBox {
         ]
     }
 
+    /// Returns the corners, or the position if there is only one.
+    pub(crate) fn positions(self) -> impl Iterator<Item = Point> + Clone {
+        let corners = self.corners().into_iter();
+        corners.take(if self.is_exact() { 1 } else { 4 })
+    }
+
     pub(crate) fn is_exact(self) -> bool {
         self.low == self.high
     }
@@ -93,6 +99,12 @@ pub(crate) fn basis_bits(bits: u8) -> u8 {
         0..COARSEST_BITS => bits,
         _ => bits.max(8),
     }
+}
+
+/// Returns the row or column of the texels that contain a coordinate. The units per texel are a power of two.
+#[inline]
+pub(crate) fn texel_of(coordinate: i64, units: i64) -> i64 {
+    coordinate >> units.trailing_zeros()
 }
 
 /// Returns the least and the greatest signed area of a triangle, y up.

@@ -24,20 +24,17 @@ impl Walk<'_> {
         incoming: Incoming,
         notes: &mut Notes<'_>,
     ) {
-        let mut judging = Judging::new(self.rules);
         let pass = &self.scene.passes[place.pass];
         if let (Some(state), Some(index)) = (place.draw.depth, pass.depth_stencil)
             && state.write
         {
-            let encoding = self.depth_encoding(index);
-            let codes = judging.encode(encoding, incoming.depth);
-            world.cells[index].channels[0] = codes;
+            world.cells[index].set_channel(0, incoming.codes);
             world.cells[index].origin = incoming.origin;
             let cell = world.cells[index];
             self.note_effect(notes, place, self.rules.store.citation, Some(cell), || {
                 let step = Step::StoreDepth {
                     depth: incoming.depth.hull().into(),
-                    codes: Codes::new(encoding, codes),
+                    codes: Codes::new(self.depth_encoding(index), incoming.codes),
                 };
                 (Effect::Stores(self.target(index, Aspect::Depth)), step)
             });
@@ -162,7 +159,7 @@ impl Walk<'_> {
             let per_channel: [ChannelEncoding; 4] =
                 std::array::from_fn(|c| encodings[c.min(encodings.len() - 1)]);
             let missing = missing_channels(encodings.len());
-            let stored = world.cells[*index].channels;
+            let stored = world.cells[*index].channels();
             let mut dst = || {
                 std::array::from_fn(|c| match missing[c] {
                     Some(value) => Range::exact(value),
@@ -207,10 +204,11 @@ impl Walk<'_> {
                         ChannelEncoding::Srgb8 => ChannelEncoding::Unorm(8),
                         other => *other,
                     };
-                    world.cells[*index].channels[c] = match logic {
+                    let codes = match logic {
                         Some(operation) => judging.logic(bits, operation, codes, stored[c]),
                         None => codes,
                     };
+                    world.cells[*index].set_channel(c, codes);
                 }
             }
             let cell = world.cells[*index];

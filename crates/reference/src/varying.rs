@@ -1,8 +1,8 @@
 //! Values interpolated over a primitive, which legal snapping leaves partly open.
 
 use crate::depth::Depth;
-use crate::interval::Interval;
-use crate::snap::SnapBox;
+use crate::interval::{Interval, lesser};
+use crate::snap::{SnapBox, texel_of};
 use etalon_pipeline::{DepthPlane, Point};
 
 /// The roundings of a quotient of two interpolated values: each value, and the quotient. The specifications
@@ -22,8 +22,9 @@ pub(crate) enum Varying {
 /// A value that is linear in space.
 #[derive(Clone, Debug)]
 pub(crate) struct Perspective {
-    /// The planes of the value over w and of 1 over w, for each position that legal snapping allows.
-    choices: Vec<[DepthPlane; 2]>,
+    /// The planes of the value over w and of 1 over w, for each position that legal snapping allows: the value
+    /// at the top left corner, and the growth to the right and down.
+    choices: Vec<[[f64; 3]; 2]>,
     /// The additional error of a position: horizontally, and vertically.
     off: [f64; 2],
     error: f64,
@@ -61,7 +62,7 @@ impl Varying {
         match self {
             Self::Linear(depth) => depth.over_texel(point, units),
             Self::Perspective(value) => {
-                let corner = |v: i64| v.div_euclid(units) * units;
+                let corner = |v: i64| texel_of(v, units) * units;
                 let [x, y] = [corner(point.x), corner(point.y)];
                 let (low, high) = (
                     Point { x, y },
@@ -87,30 +88,24 @@ impl Perspective {
         grid: i64,
         float_error: f64,
     ) -> Self {
-        let corners = |b: SnapBox| {
-            let corners = b.corners();
-            corners.into_iter().take(if b.is_exact() { 1 } else { 4 })
-        };
+        let corners = SnapBox::positions;
         let (value, reciprocal_w) = ([0, 1, 2].map(|i| values[i] / w[i]), w.map(|w| 1.0 / w));
         let choices = corners(boxes[0]).flat_map(|a| {
             corners(boxes[1]).flat_map(move |b| {
                 corners(boxes[2]).map(move |c| {
                     let points = [a, b, c];
-                    [
-                        DepthPlane::new(points, value),
-                        DepthPlane::new(points, reciprocal_w),
-                    ]
+                    [value, reciprocal_w].map(|z| DepthPlane::new(points, z))
                 })
             })
         });
         // Positions may be interpolated before or after snapping, so they may differ by one step of the grid.
-        Self::of(choices.collect(), [grid as f64; 2], values, float_error)
+        Self::of(choices, [grid as f64; 2], values, float_error)
     }
 
     /// Returns the value with known planes of it over w and of 1 over w, at positions that can be off by
     /// `off`.
     pub(crate) fn of(
-        choices: Vec<[DepthPlane; 2]>,
+        choices: impl IntoIterator<Item = [DepthPlane; 2]>,
         off: [f64; 2],
         values: [f64; 3],
         float_error: f64,
@@ -121,8 +116,11 @@ impl Perspective {
             .reduce(Interval::hull);
         let hull = hull.unwrap_or(Interval::EVERYTHING);
         let error = hull.low.abs().max(hull.high.abs()) * float_error * ROUNDINGS;
+        let parts = choices
+            .into_iter()
+            .map(|both| both.map(|plane| plane.parts()));
         Self {
-            choices,
+            choices: Vec::from_iter(parts),
             off,
             error,
             hull: hull.widen(error),
@@ -132,29 +130,31 @@ impl Perspective {
     /// Returns the values over a rectangle: along each axis the quotient is monotone if w is positive.
     fn within(&self, [low, high]: [Point; 2]) -> Interval {
         let [right, down] = self.off;
-        let across = [low.x as f64 - right, high.x as f64 + right];
-        let along = [low.y as f64 - down, high.y as f64 + down];
-        let mut hull: Option<Interval> = None;
+        let (left, right) = (low.x as f64 - right, high.x as f64 + right);
+        let (top, bottom) = (low.y as f64 - down, high.y as f64 + down);
+        // The corners are lanes of one instruction.
+        let (across, along) = ([left, right, left, right], [top, top, bottom, bottom]);
+        let (mut least, mut most) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
+        let mut divisors = [f64::INFINITY; 4];
         for [value, reciprocal_w] in &self.choices {
-            for x in across {
-                for y in along {
-                    let divisor = at(reciprocal_w, x, y);
-                    if divisor <= 0.0 {
-                        return Interval::EVERYTHING;
-                    }
-                    let quotient = Interval::exact(at(value, x, y) / divisor);
-                    hull = Some(hull.map_or(quotient, |hull| hull.hull(quotient)));
-                }
+            for i in 0..4 {
+                let at = |[value, dx, dy]: &[f64; 3]| value + across[i] * dx + along[i] * dy;
+                let divisor = at(reciprocal_w);
+                let quotient = at(value) / divisor;
+                divisors[i] = lesser(divisors[i], divisor);
+                least[i] = lesser(least[i], quotient);
+                most[i] = -lesser(-most[i], -quotient);
             }
         }
-        hull.unwrap_or(self.hull).widen(self.error)
+        if divisors.into_iter().any(|divisor| divisor <= 0.0) {
+            return Interval::EVERYTHING;
+        }
+        let [low, high] = [
+            least.into_iter().fold(f64::INFINITY, f64::min),
+            most.into_iter().fold(f64::NEG_INFINITY, f64::max),
+        ];
+        Interval { low, high }.widen(self.error)
     }
-}
-
-/// Returns the value of a plane at a fractional point, in units.
-fn at(plane: &DepthPlane, x: f64, y: f64) -> f64 {
-    let [value, dx, dy] = plane.parts();
-    value + x * dx + y * dy
 }
 
 #[cfg(test)]

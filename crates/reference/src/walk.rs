@@ -362,20 +362,15 @@ impl<'a> Walk<'a> {
         point: Point,
     ) -> Result<Hit, Rejection> {
         let draw = &self.scene.passes[p].draws[d];
-        let missed = match &primitive.shape {
-            Shape::Triangle(triangle) => misses(triangle, sides),
-            _ => false,
-        };
-        if missed {
+        if let Shape::Triangle(triangle) = &primitive.shape
+            && misses(triangle, sides)
+        {
             return Err(Rejection::Coverage);
         }
         let clip = self.setups[p].clip(d);
         let in_viewport = clip.holds(primitive, point, self.rules, self.units);
         if !in_viewport.can() {
-            let reached = match &primitive.shape {
-                Shape::Triangle(_) => true,
-                _ => primitive.times(point, self.units).1 > 0,
-            };
+            let reached = primitive.times(point, self.units).1 > 0;
             return Err(if reached {
                 Rejection::Viewport
             } else {
@@ -394,9 +389,11 @@ impl<'a> Walk<'a> {
         if !in_depth.can() {
             return Err(Rejection::NearFar);
         }
-        let samples = self.scene.pass_samples(&self.scene.passes[p]);
-        let anywhere = samples > 1 && !self.rules.covers_at_positions.value();
-        let in_distances = primitive.inside_distances(point, anywhere.then_some(self.units));
+        let in_distances = primitive.inside_distances(point, || {
+            let samples = self.scene.pass_samples(&self.scene.passes[p]);
+            let anywhere = samples > 1 && !self.rules.covers_at_positions.value();
+            anywhere.then_some(self.units)
+        });
         if !in_distances.can() {
             return Err(Rejection::ClipDistance);
         }
@@ -476,14 +473,13 @@ impl<'a> Walk<'a> {
                     let first = channels.len();
                     match aspect {
                         Aspect::Color => {
-                            let n = attachment.format.color_channels().len();
                             let encodings = attachment.format.color_channels();
-                            let stored = cell.channels[..n].iter().zip(encodings);
+                            let stored = cell.channels().into_iter().zip(encodings);
                             channels.extend(
-                                stored.map(|(c, e)| self.read_color(attachment.samples, *e, *c)),
+                                stored.map(|(c, e)| self.read_color(attachment.samples, *e, c)),
                             );
                         }
-                        Aspect::Depth => channels.push(self.read_depth(*index, cell.channels[0])),
+                        Aspect::Depth => channels.push(self.read_depth(*index, cell.channel(0))),
                         Aspect::Stencil => {
                             channels.push(CodeInterval::exact(i64::from(cell.stencil)));
                         }
@@ -571,7 +567,7 @@ pub(crate) fn resolved(
     let each = worlds.iter().flat_map(|world| {
         outcomes.iter().map(|channels| {
             let mut world = world.clone();
-            world.cells[target].channels = *channels;
+            world.cells[target].set_channels(*channels);
             world
         })
     });

@@ -4,37 +4,58 @@ use crate::primitive::VertexId;
 use etalon_frame::CodeInterval;
 use smallvec::SmallVec;
 use std::hash::{Hash, Hasher};
+use std::num::NonZeroU64;
 
 /// The maximum number of worlds of one sample; beyond it, the sample is open.
 pub(crate) const WORLD_CAP: usize = 16;
 
 /// The contents of one attachment at a sample.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Cell {
-    /// Colour channels; for a depth attachment, the first is the depth.
-    pub(crate) channels: [CodeInterval; 4],
+    /// The lowest and the highest code of each colour channel; for a depth attachment, the first is the depth.
+    /// The orders of all encodings fit into 32 bits.
+    pub(crate) codes: [[i32; 2]; 4],
     /// Stencil.
     pub(crate) stencil: u8,
     /// The geometry that the depth comes from, if that determines it: see [`crate::rules::SameDepth`].
-    pub(crate) origin: Option<u64>,
+    pub(crate) origin: Option<NonZeroU64>,
+}
+
+impl Cell {
+    /// Returns the codes of a channel.
+    #[inline]
+    pub(crate) fn channel(&self, c: usize) -> CodeInterval {
+        let [low, high] = self.codes[c].map(i64::from);
+        CodeInterval { low, high }
+    }
+
+    /// Returns the codes of all channels.
+    #[inline]
+    pub(crate) fn channels(&self) -> [CodeInterval; 4] {
+        [0, 1, 2, 3].map(|c| self.channel(c))
+    }
+
+    #[inline]
+    pub(crate) fn set_channel(&mut self, c: usize, codes: CodeInterval) {
+        self.codes[c] = [codes.low, codes.high].map(|order| order as i32);
+    }
+
+    #[inline]
+    pub(crate) fn set_channels(&mut self, channels: [CodeInterval; 4]) {
+        for (c, codes) in channels.into_iter().enumerate() {
+            self.set_channel(c, codes);
+        }
+    }
 }
 
 impl Hash for Cell {
     /// Hashes what distinguishes most cells: every outcome needs a look-up of a state.
     fn hash<H: Hasher>(&self, state: &mut H) {
-        let [red, green, blue, alpha] = self.channels;
-        let lows = [red.low, green.low, blue.low, alpha.low];
-        (lows, red.high, self.stencil, self.origin).hash(state);
-    }
-}
-
-impl Default for Cell {
-    fn default() -> Self {
-        Self {
-            channels: [CodeInterval::exact(0); 4],
-            stencil: 0,
-            origin: None,
-        }
+        let [red, green, blue, alpha] = self.codes;
+        let both = |a: i32, b: i32| i64::from(a) << 32 | i64::from(b) & 0xffff_ffff;
+        let lows = [both(red[0], green[0]), both(blue[0], alpha[0])];
+        let origin = self.origin.map_or(0, NonZeroU64::get);
+        (lows, both(red[1], self.stencil.into()), origin).hash(state);
     }
 }
 
