@@ -152,8 +152,10 @@ $("choice").addEventListener("submit", (event) => {
   begin(selection);
 });
 $("stop").addEventListener("click", async () => {
+  // Noted at once: a click on "Continue" that comes before the records are kept is noted later.
+  const noted = store.note(true);
   await run?.stop();
-  await store.note(true);
+  await noted;
 });
 $("resume").addEventListener("click", () => goOn());
 $("save").addEventListener("click", save);

@@ -19,7 +19,7 @@ use std::num::NonZeroU64;
 
 /// The maximum number of vertices of a draw whose triangles are tried on the coarsest grid. Of many triangles,
 /// one needs the adapter's grid.
-const MOST_TRIED: usize = 256;
+const MOST_ON_COARSEST: usize = 256;
 
 /// What a pass's samples say about shapes.
 pub(crate) struct Filter<'a> {
@@ -29,8 +29,8 @@ pub(crate) struct Filter<'a> {
     pub(crate) decides: &'a dyn Fn(&Shape) -> bool,
 }
 
-/// Returns a draw's primitives in drawing order, without those that are far from all judged texels or that the
-/// filter does not keep.
+/// Returns a draw's primitives in drawing order, without primitives far from all judged texels and primitives
+/// that the filter does not keep.
 pub(crate) fn draw(
     context: &PassContext<'_>,
     draw: &Draw,
@@ -195,7 +195,7 @@ fn only_covers(
     triangle: [usize; 3],
 ) -> bool {
     let shader = draw.shader;
-    let may = draw.mesh.vertices.len() <= MOST_TRIED
+    let may = draw.mesh.vertices.len() <= MOST_ON_COARSEST
         && !context.keeps_misses
         && draw.depth_bias == DepthBias::default()
         && !shader.uses_uv()

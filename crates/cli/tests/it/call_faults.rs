@@ -8,49 +8,37 @@ use etalon_frame::Api;
 use etalon_record::{Run, Verdict};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The number of parts of the cases. One part shows most faults.
-const PARTS: u32 = 6;
-
-/// Runs a part of some cases on an adapter. Returns the names of the failing ones, and whether a finding expects
-/// the failure.
+/// Runs cases on an adapter. Returns the names of the failing ones, and whether a finding expects the
+/// failure.
 fn failed<'a>(
     adapter: &str,
     cases: impl IntoIterator<Item = &'a str>,
-    part: u32,
+    code: i32,
 ) -> BTreeMap<String, bool> {
     let out = tempfile::tempdir().unwrap();
     // A planted fault occurs in every process.
     let mut command = etalon(&["run", "--recheck", "off", "--adapter", adapter]);
-    let shard = format!("{part}/{PARTS}");
-    command.args(["--shard", &shard]).args(cases);
-    let assert = command.arg("--out").arg(out.path()).assert();
+    command.args(cases).arg("--out").arg(out.path());
+    command.assert().code(code);
     let records = Run::read(out.path()).unwrap().records;
     let failed = records.into_iter().filter(|r| r.verdict == Verdict::Fail);
-    let failed: BTreeMap<String, bool> = failed.map(|r| (r.case, r.expected.is_some())).collect();
-    let is_red = failed.values().any(|expected| !expected);
-    assert.code(i32::from(is_red));
-    failed
+    failed.map(|r| (r.case, r.expected.is_some())).collect()
 }
 
 /// Every fault turns the run of a driver red, by a case that passes without the fault.
-fn faults_are_found(driver: &str, faults: impl Iterator<Item = CallFault>) {
-    let mut hidden: Vec<CallFault> = faults.collect();
-    for part in 1..=PARTS {
-        if hidden.is_empty() {
-            return;
-        }
-        let cases: BTreeSet<&str> = hidden.iter().map(|fault| fault.cases()).collect();
-        let without = failed(driver, cases, part);
-        let expected = without.values().all(|expected| *expected);
-        assert!(expected, "{driver} without a fault: {without:?}");
-        hidden.retain(|fault| {
-            let adapter = format!("{driver}:call-fault={}", fault.name());
-            let with = failed(&adapter, [fault.cases()], part);
-            with.keys().all(|case| without.contains_key(case))
-        });
+fn faults_are_found(driver: &str, faults: impl Iterator<Item = CallFault> + Clone) {
+    let cases: BTreeSet<&str> = faults.clone().map(CallFault::cases).collect();
+    let without = failed(driver, cases, 0);
+    let expected = without.values().all(|expected| *expected);
+    assert!(expected, "{driver} without a fault: {without:?}");
+    for fault in faults {
+        let (name, cases) = (fault.name(), fault.cases());
+        let with = failed(&format!("{driver}:call-fault={name}"), [cases], 1);
+        assert!(
+            with.keys().any(|case| !without.contains_key(case)),
+            "{driver}: no case of {cases} fails with {name} alone"
+        );
     }
-    let names: Vec<&str> = hidden.iter().map(|fault| fault.name()).collect();
-    assert!(names.is_empty(), "{driver}: no case fails with {names:?}");
 }
 
 #[test]
