@@ -4,7 +4,7 @@ use crate::context::PassContext;
 use crate::possible::Possible;
 use crate::primitive::{Shape, SnappedPrimitive};
 use crate::rules::Rules;
-use crate::snap::{SnapBox, coarsest_step, units_per_texel};
+use crate::snap::{SnapBox, SubTexels, coarsest_step, units_per_texel};
 use etalon_pipeline::Point;
 use etalon_scene::Viewport;
 
@@ -52,10 +52,11 @@ impl Clip {
             Shape::Line(_) => rules.clips_lines_at_sides.value(),
             Shape::Outline(_) => true,
         };
+        let bits = &rules.sub_pixel_bits;
+        let step = SubTexels { units, bits }.step() as f64;
         let units = units as f64;
         // The distance from an edge at which a vertex is certainly outside.
-        let slack =
-            units / f64::from(1_u32 << rules.sub_pixel_bits.value()) + rounding(rules, units);
+        let slack = step + rounding(rules, units);
         let wide = match primitive.shape {
             Shape::Triangle(_) => 0.0,
             _ => units,

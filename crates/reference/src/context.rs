@@ -1,7 +1,7 @@
 //! The pass for which primitives are set up, as setup and bias need it.
 
 use crate::rules::Rules;
-use crate::snap::units_per_texel;
+use crate::snap::{SubTexels, units_per_texel};
 use crate::texels::Lattice;
 use etalon_frame::{ChannelEncoding, Limits};
 
@@ -22,8 +22,15 @@ pub(crate) struct PassContext<'a> {
 }
 
 impl PassContext<'_> {
+    pub(crate) fn sub_texels(&self) -> SubTexels<'_> {
+        SubTexels {
+            units: units_per_texel(self.limits),
+            bits: &self.rules.sub_pixel_bits,
+        }
+    }
+
     /// Returns the step of the adapter's grid in sub-texel units.
     pub(crate) fn step(&self) -> i64 {
-        units_per_texel(self.limits) >> self.rules.sub_pixel_bits.value()
+        self.sub_texels().step()
     }
 }

@@ -1,7 +1,7 @@
 //! Depth over a primitive, which legal snapping leaves partly open.
 
-use crate::interval::{Interval, lesser};
-use crate::snap::{SnapBox, area, texel_of};
+use crate::interval::{Interval, Lanes};
+use crate::snap::{SnapBox, SubTexels, area, texel_of};
 use etalon_pipeline::{DepthPlane, Point};
 use smallvec::SmallVec;
 
@@ -81,11 +81,11 @@ impl Depth {
         depth
     }
 
-    /// Returns the depth over a triangle. `step` gives the step of the adapter's grid.
+    /// Returns the depth over a triangle.
     pub(crate) fn over(
         vertices: [SnapBox; 3],
         z: [Interval; 3],
-        (units, step): (i64, &dyn Fn() -> i64),
+        sub_texels: SubTexels<'_>,
         float_error: f64,
     ) -> Self {
         let mut depth = Self::flat(&z).interpolated(float_error);
@@ -102,10 +102,10 @@ impl Depth {
             (x.max(p.dx.abs()), y.max(p.dy.abs()))
         });
         depth.steepest = growth.0 + growth.1;
-        depth.planes = extreme(&candidates, near(vertices, units));
+        depth.planes = extreme(&candidates, near(vertices, sub_texels.units));
         // Positions may be interpolated before or after snapping, so they may differ by one step of the grid.
         let widest = z.iter().map(|z| z.high - z.low).fold(0.0, f64::max);
-        depth.error += depth.steepest * step() as f64 + widest;
+        depth.error += depth.steepest * sub_texels.step() as f64 + widest;
         depth
     }
 
@@ -148,20 +148,13 @@ impl Depth {
         if self.is_flat() {
             return self.hull;
         }
-        // The points are lanes of one instruction.
-        let (mut least, mut most) = ([f64::INFINITY; N], [f64::NEG_INFINITY; N]);
+        let mut depths = Lanes::<N>::new();
         for plane in &self.planes {
             for (i, point) in points.iter().enumerate() {
-                let depth = plane.at(*point);
-                least[i] = lesser(least[i], depth);
-                most[i] = -lesser(-most[i], -depth);
+                depths.add(i, plane.at(*point));
             }
         }
-        let [low, high] = [
-            least.into_iter().fold(f64::INFINITY, f64::min),
-            most.into_iter().fold(f64::NEG_INFINITY, f64::max),
-        ];
-        Interval { low, high }.widen(self.error)
+        depths.hull().widen(self.error)
     }
 }
 

@@ -8,7 +8,7 @@
 use crate::depth::Depth;
 use crate::interval::Interval;
 use crate::possible::Possible;
-use crate::snap::SnapBox;
+use crate::snap::{SnapBox, SubTexels};
 use etalon_pipeline::{DepthPlane, Point};
 
 /// The number of grid steps that an edge made by clipping can be off by.
@@ -56,7 +56,7 @@ impl Distance {
     pub(crate) fn over(
         vertices: [SnapBox; 3],
         values: [f64; 3],
-        (units, step): (i64, &dyn Fn() -> i64),
+        sub_texels: SubTexels<'_>,
         float_error: f64,
     ) -> Self {
         // If all values have the same sign, nothing or everything is clipped.
@@ -64,8 +64,8 @@ impl Distance {
             return Self::between(&values);
         }
         let exact = values.map(Interval::exact);
-        let plane = Depth::over(vertices, exact, (units, step), float_error);
-        let error = plane.steepest * step() as f64 * EDGE_STEPS;
+        let plane = Depth::over(vertices, exact, sub_texels, float_error);
+        let error = plane.steepest * sub_texels.step() as f64 * EDGE_STEPS;
         Self::Over { plane, error }
     }
 
@@ -106,6 +106,9 @@ impl Distance {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::rules::Rules;
+    use crate::test_limits::limits;
+    use etalon_frame::{Api, Limits};
 
     const UNITS: i64 = 256;
 
@@ -115,6 +118,21 @@ mod tests {
             y: y * UNITS,
         };
         SnapBox { low: at, high: at }
+    }
+
+    /// Returns rules for an adapter with a grid of 1/16 texel.
+    fn rules() -> Rules {
+        Rules::of(&Limits {
+            sub_pixel_bits: 4,
+            ..limits(Api::Vulkan)
+        })
+    }
+
+    fn sixteenths(rules: &Rules) -> SubTexels<'_> {
+        SubTexels {
+            units: UNITS,
+            bits: &rules.sub_pixel_bits,
+        }
     }
 
     /// Returns the centre of a texel in row 3.
@@ -128,7 +146,8 @@ mod tests {
     #[test]
     fn a_plane_is_open_only_where_an_edge_may_lie() {
         let corners = [exact(0, 0), exact(16, 0), exact(0, 16)];
-        let over = |values| Distance::over(corners, values, (UNITS, &|| UNITS / 16), 1e-5);
+        let rules = rules();
+        let over = |values| Distance::over(corners, values, sixteenths(&rules), 1e-5);
         // Zero between columns 5 and 6, half a texel from both centres.
         let between = over([-6.0, 10.0, -6.0]);
         assert_eq!(between.keeps(at(5)), Possible::Never);
@@ -147,7 +166,8 @@ mod tests {
     #[test]
     fn zero_is_inside_and_all_negative_is_outside() {
         let corners = [exact(0, 0), exact(16, 0), exact(0, 16)];
-        let over = |values| Distance::over(corners, values, (UNITS, &|| UNITS / 16), 1e-5);
+        let rules = rules();
+        let over = |values| Distance::over(corners, values, sixteenths(&rules), 1e-5);
         assert_eq!(over([0.0; 3]).keeps(at(4)), Possible::Always);
         assert_eq!(over([0.0, 1.0, -0.0]).keeps(at(0)), Possible::Always);
         assert_eq!(over([-1.0, -0.5, -2.0]).keeps(at(4)), Possible::Never);

@@ -214,9 +214,47 @@ impl From<Interval> for ValueRange {
     }
 }
 
+/// The least and the greatest value of each of several lanes, which one instruction computes.
+pub(crate) struct Lanes<const N: usize> {
+    least: [f64; N],
+    most: [f64; N],
+}
+
+impl<const N: usize> Lanes<N> {
+    /// Returns lanes without a value.
+    #[inline]
+    pub(crate) fn new() -> Self {
+        Self {
+            least: [f64::INFINITY; N],
+            most: [f64::NEG_INFINITY; N],
+        }
+    }
+
+    #[inline]
+    pub(crate) fn add(&mut self, lane: usize, value: f64) {
+        self.least[lane] = lesser(self.least[lane], value);
+        self.most[lane] = -lesser(-self.most[lane], -value);
+    }
+
+    /// Returns the least value of all lanes.
+    #[inline]
+    pub(crate) fn least(&self) -> f64 {
+        self.least.into_iter().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Returns the hull of all lanes.
+    #[inline]
+    pub(crate) fn hull(&self) -> Interval {
+        Interval {
+            low: self.least(),
+            high: self.most.into_iter().fold(f64::NEG_INFINITY, f64::max),
+        }
+    }
+}
+
 /// Returns the lesser of two numbers in one instruction, unlike [`f64::min`].
 #[inline]
-pub(crate) fn lesser(a: f64, b: f64) -> f64 {
+fn lesser(a: f64, b: f64) -> f64 {
     if b < a { b } else { a }
 }
 

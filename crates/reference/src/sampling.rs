@@ -109,15 +109,17 @@ impl Walk<'_> {
             sample: 0,
             ..at
         };
-        let Some(worlds) = self.earlier(at, place.pass) else {
-            return self.anything(index);
-        };
+        let contents = self.contents_before(index, at, place.pass);
+        contents.unwrap_or_else(|| self.anything(index))
+    }
+
+    /// Returns everything that a sample of a texture can contain after earlier passes; `None` if that is
+    /// unknown.
+    fn contents_before(&self, index: usize, at: Sample, pass: usize) -> Option<[Range; 4]> {
+        let worlds = self.earlier(at, pass)?;
         let contents = worlds.iter().map(|w| w.cells[index].channels());
-        let hull = contents.reduce(|a, b| std::array::from_fn(|c| a[c].hull(b[c])));
-        hull.map_or_else(
-            || self.anything(index),
-            |channels| self.decoded(index, channels),
-        )
+        let hull = contents.reduce(|a, b| std::array::from_fn(|c| a[c].hull(b[c])))?;
+        Some(self.decoded(index, hull))
     }
 
     /// Returns one texel of a texture that no pass drew to.
@@ -228,10 +230,7 @@ impl Walk<'_> {
             y,
             sample: 0,
         };
-        let worlds = self.earlier(at, pass)?;
-        let contents = worlds.iter().map(|w| w.cells[index].channels());
-        let hull = contents.reduce(|a, b| std::array::from_fn(|c| a[c].hull(b[c])))?;
-        Some(self.decoded(index, hull))
+        self.contents_before(index, at, pass)
     }
 
     /// Returns the linearly filtered value at a position relative to the centre of the first texel: computed in

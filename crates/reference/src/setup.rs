@@ -244,9 +244,8 @@ fn snapped(
         }
         PrimitiveVertices::Triangle(_) => {
             let triangle = Triangle::new(boxes, v.map(|v| v.id), units);
-            let step = || context.step();
-            let steps: (i64, &dyn Fn() -> i64) = (units, &step);
-            let window = Depth::over(boxes, v.map(|v| v.window_z), steps, error);
+            let sub_texels = context.sub_texels();
+            let window = Depth::over(boxes, v.map(|v| v.window_z), sub_texels, error);
             let z = v.map(|v| v.window_z);
             let biased = Biased {
                 z: &z,
@@ -268,7 +267,7 @@ fn snapped(
                 // Nothing is clipped at any sample.
                 Depth::flat(&clip_z)
             } else {
-                Depth::over(boxes, clip_z, steps, error).between(&clip_z)
+                Depth::over(boxes, clip_z, sub_texels, error).between(&clip_z)
             };
             let mut depths = [window, clip];
             if draw.polygon_mode == PolygonMode::Line {
@@ -487,8 +486,8 @@ impl Over<'_> {
         match self.indices {
             PrimitiveVertices::Triangle(corners) => {
                 let values = corners.map(|i| Interval::exact(value(i)));
-                let grid: (_, &dyn Fn() -> i64) = (units, &|| self.context.step());
-                let mut plane = Depth::over(self.boxes, values, grid, error);
+                let sub_texels = self.context.sub_texels();
+                let mut plane = Depth::over(self.boxes, values, sub_texels, error);
                 if self.outline {
                     plane.reach_out(units);
                 }
@@ -519,8 +518,8 @@ impl Over<'_> {
                 let over_w = |i: usize| value(i) / self.w(i);
                 match self.indices {
                     PrimitiveVertices::Triangle(corners) if !self.outline => {
-                        let grid: (_, &dyn Fn() -> i64) = (self.units(), &|| self.context.step());
-                        Distance::over(self.boxes, corners.map(over_w), grid, error)
+                        let sub_texels = self.context.sub_texels();
+                        Distance::over(self.boxes, corners.map(over_w), sub_texels, error)
                     }
                     PrimitiveVertices::Line(ends)
                         if may_stay_unclipped(self.context, ends.map(value)) =>

@@ -1,5 +1,6 @@
 //! Snapped positions as boxes of integers, since legal snapping leaves a position open by a step of the grid.
 
+use crate::rules::Permission;
 use etalon_frame::Limits;
 use etalon_pipeline::{Point, signed_area};
 
@@ -77,6 +78,21 @@ impl SnapBox {
                 y: self.high.y.max(other.high.y),
             },
         }
+    }
+}
+
+/// The sub-texel units, and the adapter's grid, which is asked for only where it matters.
+#[derive(Clone, Copy)]
+pub(crate) struct SubTexels<'a> {
+    /// Units per texel.
+    pub(crate) units: i64,
+    pub(crate) bits: &'a Permission<u8>,
+}
+
+impl SubTexels<'_> {
+    /// Returns the step of the adapter's grid in units.
+    pub(crate) fn step(self) -> i64 {
+        self.units >> self.bits.value()
     }
 }
 

@@ -1,7 +1,7 @@
 //! Values interpolated over a primitive, which legal snapping leaves partly open.
 
 use crate::depth::Depth;
-use crate::interval::{Interval, lesser};
+use crate::interval::{Interval, Lanes};
 use crate::snap::{SnapBox, texel_of};
 use etalon_pipeline::{DepthPlane, Point};
 
@@ -132,28 +132,20 @@ impl Perspective {
         let [right, down] = self.off;
         let (left, right) = (low.x as f64 - right, high.x as f64 + right);
         let (top, bottom) = (low.y as f64 - down, high.y as f64 + down);
-        // The corners are lanes of one instruction.
         let (across, along) = ([left, right, left, right], [top, top, bottom, bottom]);
-        let (mut least, mut most) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
-        let mut divisors = [f64::INFINITY; 4];
+        let (mut quotients, mut divisors) = (Lanes::<4>::new(), Lanes::<4>::new());
         for [value, reciprocal_w] in &self.choices {
             for i in 0..4 {
                 let at = |[value, dx, dy]: &[f64; 3]| value + across[i] * dx + along[i] * dy;
                 let divisor = at(reciprocal_w);
-                let quotient = at(value) / divisor;
-                divisors[i] = lesser(divisors[i], divisor);
-                least[i] = lesser(least[i], quotient);
-                most[i] = -lesser(-most[i], -quotient);
+                quotients.add(i, at(value) / divisor);
+                divisors.add(i, divisor);
             }
         }
-        if divisors.into_iter().any(|divisor| divisor <= 0.0) {
+        if divisors.least() <= 0.0 {
             return Interval::EVERYTHING;
         }
-        let [low, high] = [
-            least.into_iter().fold(f64::INFINITY, f64::min),
-            most.into_iter().fold(f64::NEG_INFINITY, f64::max),
-        ];
-        Interval { low, high }.widen(self.error)
+        quotients.hull().widen(self.error)
     }
 }
 

@@ -37,7 +37,10 @@ impl Cell {
 
     #[inline]
     pub(crate) fn set_channel(&mut self, c: usize, codes: CodeInterval) {
-        self.codes[c] = [codes.low, codes.high].map(|order| order as i32);
+        self.codes[c] = [codes.low, codes.high].map(|order| {
+            debug_assert!(i32::try_from(order).is_ok(), "an order of {order}");
+            order as i32
+        });
     }
 
     #[inline]

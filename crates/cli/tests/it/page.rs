@@ -7,6 +7,7 @@ mod server;
 
 use crate::etalon::etalon;
 use crate::house::root;
+use crate::sample;
 use driven::Driven;
 use etalon_record::{Record, Run, Seconds, Verdict};
 use serde_json::Value;
@@ -186,9 +187,11 @@ fn quick_in_a_page_of_chromium_is_a_run_of_the_browser() {
 #[test]
 fn a_page_of_firefox_makes_a_run_of_the_browser() {
     // Chromium's page draws all of `quick`.
-    let globs: &[&str] = match std::env::var("ETALON_TESTS").as_deref() {
-        Ok("all") => &[],
-        _ => &["blend/*", "stencil/*"],
+    let globs: &[&str] = if sample::all() {
+        &[]
+    } else {
+        println!("two areas; ETALON_TESTS=all takes all");
+        &["blend/*", "stencil/*"]
     };
     let folder = tempfile::tempdir().unwrap();
     let server = site(folder.path());

@@ -1,7 +1,7 @@
 //! The share of a long test that runs by default; `ETALON_TESTS=all` in the environment runs everything.
 
 /// Returns true if everything runs.
-fn all() -> bool {
+pub(crate) fn all() -> bool {
     std::env::var_os("ETALON_TESTS").is_some_and(|value| value == "all")
 }
 
