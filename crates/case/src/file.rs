@@ -265,7 +265,8 @@ impl CaseRef<'_> {
             .collect();
         for (name, derived) in &wire.derived {
             let list = &wire.axes[&derived.axis];
-            let index = (positions[derived.axis.as_str()] + derived.shift) % list.len();
+            let index =
+                (positions[derived.axis.as_str()] + derived.shift % list.len()) % list.len();
             let given = derived.values.as_ref().and_then(|values| values.get(index));
             values.insert(name, given.unwrap_or(&list[index].value));
         }

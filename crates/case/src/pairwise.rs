@@ -66,21 +66,29 @@ impl<'a> State<'a> {
         }
     }
 
-    /// Adds rows until each value occurs in `times` of them, or in all possible rows.
+    /// Adds rows until each value occurs in `times` of them, or until no new row is found.
     fn each(&mut self, times: usize) {
         if self.lengths.is_empty() {
             self.rows.push(Vec::new());
+            return;
         }
+        let mut seen = HashSet::new();
         for round in 1..=times {
+            let (before, mut short) = (self.rows.len(), false);
             for axis in 0..self.lengths.len() {
                 for value in 0..self.lengths[axis] {
                     if self.used[axis][value] < round {
+                        short = true;
                         let row = self.row(&[(axis, value)]);
-                        if !self.rows.contains(&row) {
+                        if seen.insert(row.clone()) {
                             self.take(row);
                         }
                     }
                 }
+            }
+            // The next round would find the same rows again.
+            if short && self.rows.len() == before {
+                break;
             }
         }
     }
@@ -168,7 +176,7 @@ mod tests {
     fn every_value_stands_as_often_as_is_asked() {
         for lengths in shapes() {
             let product: usize = lengths.iter().product();
-            for times in [1, 2, 3, 100] {
+            for times in [1, 2, 3, 100, usize::MAX] {
                 let rows = rows(&lengths, Cover::Each(times));
                 let distinct: HashSet<_> = rows.iter().collect();
                 assert_eq!(distinct.len(), rows.len(), "{lengths:?}: a row comes twice");

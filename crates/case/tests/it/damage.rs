@@ -110,3 +110,30 @@ fn absurdities_are_refused() {
     assert!(!build(b""));
     assert!(!build(&[0xff, 0xfe, 0]));
 }
+
+/// A count beyond what the axes hold takes all they hold, and a shift beyond an axis goes round.
+#[test]
+fn counts_beyond_the_axes_end() {
+    let with = |quick: &str, shift: &str, axes: &str| {
+        let text = format!(
+            r#"{{ "about": "a", "spec": ["s"], "quick": {{ {quick} }}, "axes": {{ {axes} }},
+            "derived": {{ "other": {{ "axis": "y", "shift": {shift} }} }},
+            "scene": {{ "attachments": {{ "color": {{ "format": "rgba8unorm", "size": ["$other", 4] }} }},
+            "passes": [ {{ "color": ["color"], "draws": [ {{ "mesh": {{ "kind": "full" }},
+                "shader": "uniform_color", "params": {{ "color": [1, 0, 0, 1] }} }} ] }} ],
+            "read": ["color"] }} }}"#
+        );
+        build(text.as_bytes())
+    };
+    let most = usize::MAX.to_string();
+    for quick in ["each", "first"] {
+        let quick = format!(r#""{quick}": {most}"#);
+        for axes in [
+            r#""y": [1, 2, 4]"#,
+            r#""x": [1], "y": [1, 2, 4]"#,
+            r#""x": [1, 2], "y": [4]"#,
+        ] {
+            assert!(with(&quick, &most, axes), "{quick} {axes}");
+        }
+    }
+}
