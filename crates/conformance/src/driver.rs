@@ -65,19 +65,6 @@ impl<'a> Driver<'a> {
 }
 
 impl Driver<'_> {
-    fn run_each(&self, backend: &dyn Backend, chosen: impl Fn(&Check) -> bool) {
-        if let Some(lacks) = &self.known.lacks {
-            lacks.check(backend.limits());
-        }
-        let subject = self.subject(backend);
-        subject.check_silence("opening");
-        let chosen = CHECKS.iter().filter(|check| chosen(check));
-        let fails =
-            |check: &&Check| catch_unwind(AssertUnwindSafe(|| self.run(check, &subject))).is_err();
-        let failed: Vec<_> = chosen.filter(fails).map(|check| check.name).collect();
-        assert!(failed.is_empty(), "these checks fail: {failed:#?}");
-    }
-
     /// Runs a check, and asserts that it draws if the driver's description says so.
     fn run(&self, check: &Check, subject: &Subject<'_>) {
         let mut defects = self.known.defects.iter().copied().flatten();
@@ -115,22 +102,24 @@ impl Driver<'_> {
     }
 }
 
-/// Runs the checks of one subject on a driver, as part of the test with this path.
-///
-/// # Panics
-/// If checks fail; after all have run, with their names.
-pub fn run(test: &str, subject: &str, driver: &Driver<'_>) {
-    in_driver(test, driver, |backend| {
-        driver.run_each(backend, |check| check.subject == subject);
-    });
-}
-
 /// Runs every check on one open backend.
 ///
 /// # Panics
 /// If checks fail; after all have run, with their names.
 pub fn run_all(backend: &dyn Backend, driver: &Driver<'_>) {
-    driver.run_each(backend, |_| true);
+    if let Some(lacks) = &driver.known.lacks {
+        lacks.check(backend.limits());
+    }
+    let subject = driver.subject(backend);
+    subject.check_silence("opening");
+    let fails =
+        |check: &&Check| catch_unwind(AssertUnwindSafe(|| driver.run(check, &subject))).is_err();
+    let failed: Vec<_> = CHECKS
+        .iter()
+        .filter(fails)
+        .map(|check| check.name)
+        .collect();
+    assert!(failed.is_empty(), "these checks fail: {failed:#?}");
 }
 
 /// Opens the driver in a process with its environment, as part of the test with this path.

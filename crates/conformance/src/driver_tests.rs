@@ -1,31 +1,20 @@
 //! The macro that generates tests from checks.
-//!
-//! A test is a subject on a driver, not a single check: opening a driver costs as much as several checks.
 
-#[cfg(test)]
-use crate::checks::CHECKS;
-
-/// Generates a test of every subject for each driver `NAME`, which a function `drivers::NAME` returns as a
-/// [`Driver`](crate::Driver), and a test of each function in brackets, which takes the open backend.
+/// Generates tests for each driver `NAME`, which a function `drivers::NAME` returns as a
+/// [`Driver`](crate::Driver): one of all checks, since to open a driver costs as much as many of them, and one
+/// of each function in brackets, which takes the open backend.
 #[macro_export]
 macro_rules! driver_tests {
     ($($driver:ident)+; $more:tt) => {
         $(mod $driver {
             $crate::more_tests!($driver $more);
-            $crate::subject_tests!($driver: limits prepared drawing uploads sampling depth stencil raster fetch formats integers samples counters early_tests chains passes layers lists shaders targets);
-        })+
-    };
-}
 
-/// The tests of one driver.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! subject_tests {
-    ($driver:ident: $($subject:ident)+) => {
-        $(#[test]
-        fn $subject() {
-            let test = concat!(module_path!(), "::", stringify!($subject));
-            $crate::run(test, stringify!($subject), &super::drivers::$driver());
+            #[test]
+            fn checks() {
+                let test = concat!(module_path!(), "::checks");
+                let driver = super::drivers::$driver();
+                $crate::in_driver(test, &driver, |backend| $crate::run_all(backend, &driver));
+            }
         })+
     };
 }
@@ -41,14 +30,4 @@ macro_rules! more_tests {
             $crate::in_driver(test, &super::drivers::$driver(), super::$module::$more);
         })*
     };
-}
-
-#[test]
-fn every_subject_has_its_tests() {
-    let text = include_str!("driver_tests.rs");
-    let list = text.split("subject_tests!($driver: ").nth(1).unwrap();
-    let named: Vec<_> = list.split(')').next().unwrap().split_whitespace().collect();
-    let mut expected: Vec<_> = CHECKS.iter().map(|c| c.subject).collect();
-    expected.dedup();
-    assert_eq!(named, expected);
 }

@@ -167,9 +167,10 @@ fn output_that_is_the_product_must_be_written() {
         } else {
             command.to_owned()
         };
-        let fine = shell(&format!("\"$0\" {command}"));
+        // Without a path no browser is found, and none is started.
+        let fine = shell(&format!("PATH=/none \"$0\" {command}"));
         assert_eq!(fine.status.code(), Some(0), "{command}: {fine:?}");
-        let full = shell(&format!("\"$0\" {command} >/dev/full"));
+        let full = shell(&format!("PATH=/none \"$0\" {command} >/dev/full"));
         assert_eq!(full.status.code(), Some(3), "{command}: {full:?}");
         let stderr = String::from_utf8(full.stderr).unwrap();
         assert!(!stderr.contains("panicked"), "{command}: {stderr}");

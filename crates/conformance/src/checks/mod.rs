@@ -1,7 +1,6 @@
 //! The registry of checks, by subject.
 //!
-//! A test runs all checks of a subject, because opening a driver costs as much as several checks. Each
-//! check still passes, fails or is skipped under its own name.
+//! A test runs all checks on a driver. Each check still passes, fails or is skipped under its own name.
 
 mod chains;
 mod counters;
@@ -33,8 +32,6 @@ type Checked = Result<(), Missing>;
 pub struct Check {
     /// The check's subject and name: `chains::two_attachments_take_turns`.
     pub name: &'static str,
-    /// The check's subject: `chains`.
-    pub subject: &'static str,
     body: fn(&Subject<'_>) -> Checked,
 }
 
@@ -56,7 +53,6 @@ macro_rules! registry {
         /// not reset their factors, and Mesa then drops draws to several targets.
         pub const CHECKS: &[Check] = &[$($(Check {
             name: concat!(stringify!($module), "::", stringify!($check)),
-            subject: stringify!($module),
             body: $module::$check,
         }),+),+];
     };
