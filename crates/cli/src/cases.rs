@@ -224,11 +224,7 @@ pub(crate) fn ids(cases: Option<&PathBuf>) -> Result<Vec<String>, Failure> {
     Ok(ids_of(&library))
 }
 
-/// Returns the ids of all cases, without building them.
-pub(crate) fn all_ids(cases: Option<&PathBuf>) -> Result<Vec<String>, Failure> {
-    Ok(ids_of(&library(cases)?))
-}
-
-fn ids_of(library: &Library) -> Vec<String> {
+/// Returns the ids of a library's cases, without building them.
+pub(crate) fn ids_of(library: &Library) -> Vec<String> {
     library.cases(Profile::Full).map(|case| case.id()).collect()
 }

@@ -39,7 +39,8 @@ pub(crate) fn built_in() -> Result<Expectations, Failure> {
     Ok(counting(findings()?, &[]))
 }
 
-fn findings() -> Result<Expectations, Failure> {
+/// Returns the built-in findings.
+pub(crate) fn findings() -> Result<Expectations, Failure> {
     etalon_findings::findings().map_err(Failure::usage)
 }
 

@@ -20,6 +20,7 @@ mod check;
 mod command_line;
 mod commands;
 mod counted;
+mod dead;
 mod expectations;
 mod failure;
 mod failure_groups;

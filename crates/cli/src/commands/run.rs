@@ -1,11 +1,8 @@
 //! `etalon run`.
 
-use crate::adapters::{
-    Adapters, Query, cache, described_names, discover, hardware_names, refuse_absent,
-    take_unstarted,
-};
+use crate::adapters::{Adapters, Query, cache, discover, refuse_absent, take_unstarted};
 use crate::blessing::{bless, to_bless};
-use crate::cases::{all_ids, chosen, leave_measured, left_out, library, round_trips};
+use crate::cases::{chosen, leave_measured, left_out, library, round_trips};
 use crate::catalogue::catalogue;
 use crate::expectations::{ExpectArguments, counting};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
@@ -18,13 +15,12 @@ use crate::output::{print_json, say, summarize, table_options};
 use crate::processors::processors;
 use crate::progress::progress;
 use crate::worth::sort_by_worth;
-use crate::{provenance, report_files, shard};
+use crate::{dead, provenance, report_files, shard};
 use clap::{Args, ValueEnum};
 use etalon_case::Case;
-use etalon_findings::is_built_in;
 use etalon_history::FrameTimes;
 use etalon_record::{
-    AdapterRecord, Dead, DeadKind, Expectations, FolderKind, Header, Run, Settings, Shard, Verdict,
+    AdapterRecord, Dead, Expectations, FolderKind, Header, Run, Settings, Shard, Verdict,
     selection_digest,
 };
 use etalon_report::{News, OtherFormats};
@@ -407,7 +403,13 @@ impl<'a> Results<'a> {
     ) -> Result<Self, Failure> {
         let folder = &arguments.out;
         let run = Run::read(folder).map_err(Failure::incomplete)?;
-        let dead = dead_expectations(arguments, expectations, &run)?;
+        let adapter_file = arguments.file.adapter_file.as_deref();
+        let dead = dead::of_run(
+            &run,
+            expectations,
+            arguments.selection.cases.as_ref(),
+            adapter_file,
+        )?;
         Dead::write(folder, &dead).map_err(Failure::incomplete)?;
         let library = library(arguments.selection.cases.as_ref())?;
         let catalogue = catalogue(&library, &selected.cases);
@@ -505,29 +507,6 @@ fn incomplete(run: &Run, interrupted: bool) -> Failure {
         run.header.expected_records(),
         how_to_resume()
     ))
-}
-
-/// Returns the dead expectations. With the cases of a folder, built-in findings are never dead, since they
-/// are about the built-in cases.
-fn dead_expectations(
-    arguments: &Arguments,
-    expectations: &Expectations,
-    run: &Run,
-) -> Result<Vec<Dead>, Failure> {
-    let cases = arguments.selection.cases.as_ref();
-    if expectations.all().is_empty() {
-        return Ok(Vec::new());
-    }
-    let ids = all_ids(cases)?;
-    let mut described = described_names(arguments.file.adapter_file.as_deref())?;
-    described.extend(hardware_names());
-    let mut dead = expectations.dead(run, &ids, &described);
-    // A finding that the user's own list covers is not dead.
-    dead.retain(|entry| {
-        let covered = entry.kind == DeadKind::Covered && !is_built_in(&entry.about);
-        !is_built_in(&entry.place) || cases.is_none() && !covered
-    });
-    Ok(dead)
 }
 
 /// Returns a line about the bad verdicts that were checked again; empty without bad verdicts.

@@ -1,0 +1,63 @@
+//! The dead expectations of a run.
+
+use crate::adapters::{described_names, hardware_names};
+use crate::cases::{ids_of, library};
+use crate::failure::Failure;
+use etalon_findings::is_built_in;
+use etalon_record::{Dead, DeadKind, Expectations, Known, Run};
+use std::path::{Path, PathBuf};
+
+/// Returns the dead expectations of a run of the cases of a folder, or of the built-in ones. With a folder,
+/// built-in findings are never dead, since they are about the built-in cases.
+///
+/// # Errors
+/// If the cases or the file of adapters cannot be read.
+pub(crate) fn of_run(
+    run: &Run,
+    expectations: &Expectations,
+    cases: Option<&PathBuf>,
+    adapter_file: Option<&Path>,
+) -> Result<Vec<Dead>, Failure> {
+    if expectations.all().is_empty() {
+        return Ok(Vec::new());
+    }
+    let library = library(cases)?;
+    // A test ensures that built-in globs match something.
+    let sound = |known: &Known| is_built_in(&known.place());
+    let names = names(adapter_file)?;
+    let mut dead = expectations.dead(run, || ids_of(&library), &names, sound);
+    // A finding that the user's own list covers is not dead.
+    dead.retain(|entry| {
+        let covered = entry.kind == DeadKind::Covered && !is_built_in(&entry.about);
+        !is_built_in(&entry.place) || cases.is_none() && !covered
+    });
+    Ok(dead)
+}
+
+/// Returns the names of all adapters that are described.
+fn names(adapter_file: Option<&Path>) -> Result<Vec<String>, Failure> {
+    let mut names = described_names(adapter_file)?;
+    names.extend(hardware_names());
+    Ok(names)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expectations::findings;
+    use etalon_record::Header;
+
+    #[test]
+    fn each_glob_of_a_finding_names_a_case_and_an_adapter() {
+        let run = Run {
+            header: Header::new(Vec::new(), 0),
+            records: Vec::new(),
+            truncated: false,
+        };
+        let library = library(None).expect("the built-in cases");
+        let names = names(None).expect("the built-in adapters");
+        let findings = findings().expect("the findings");
+        let dead = findings.dead(&run, || ids_of(&library), &names, |_| false);
+        assert_eq!(dead, []);
+    }
+}
