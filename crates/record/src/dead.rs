@@ -97,7 +97,7 @@ impl Expectations {
     /// Returns the dead expectations, sorted by kind and then in the order of their files. `ids` returns all
     /// existing cases, and is called if an expectation needs them; `described` are the names of the adapters
     /// that are described, whether or not the run used them. The globs of `sound` expectations are known to
-    /// match something.
+    /// match something, and none of these covers another one.
     pub fn dead(
         &self,
         run: &Run,
@@ -110,6 +110,7 @@ impl Expectations {
         let mut ids = LazyCell::new(|| Names::new(&ids()));
         let mut dead = Vec::new();
         let mut reaches = Vec::new();
+        let all_sound = self.all().iter().all(&sound);
         for (number, known) in self.all().iter().enumerate() {
             let mut part = |kind, glob: String| {
                 dead.push(Dead {
@@ -132,9 +133,10 @@ impl Expectations {
                 let last = known.expires.as_deref().unwrap_or_default();
                 part(DeadKind::Expired, format!("{last}: {}", known.reason));
             }
-            if !self.applies(number) {
+            let mut used = run.header.adapters.iter();
+            if !self.applies(number) || all_sound && !used.any(|a| self.is_about(number, a)) {
                 // An expectation for another machine or run can name cases and adapters that are missing
-                // here.
+                // here. One for other adapters can only cover one.
                 reaches.push(Reach::default());
                 continue;
             }
