@@ -115,13 +115,14 @@ fn keep_started(program: &Program, mut input: impl BufRead + Send + 'static) -> 
         drop(sender);
     })?;
     loop {
+        let is_over = ended.recv_timeout(PAUSE) != Err(RecvTimeoutError::Timeout);
+        // The end of the program can be what ended the worker, so it is looked for once more.
         if let Some(status) = child.try_wait()? {
             eprintln!("{} has ended: {status}", program.name);
             break;
         }
-        match ended.recv_timeout(PAUSE) {
-            Err(RecvTimeoutError::Timeout) => {}
-            _ => break,
+        if is_over {
+            break;
         }
     }
     end(&mut child, &group);

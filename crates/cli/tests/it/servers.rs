@@ -114,7 +114,12 @@ fn a_killed_run_leaves_no_server() {
 #[test]
 fn the_end_of_a_server_is_told() {
     let folder = tempfile::tempdir().unwrap();
-    let file = described(folder.path(), "touch \"$0\"; echo broken >&2; exit 3");
+    // The server ends once a worker has seen its socket.
+    let script = format!(
+        "touch \"$0\"; until [ -e {}.lock ]; do :; done; echo broken >&2; exit 3",
+        folder.path().join("known").display()
+    );
+    let file = described(folder.path(), &script);
     let out = folder.path().join("out");
     etalon(&["run", "stencil/compare", "--adapter", "served:fault=abort"])
         .arg("--adapters")
