@@ -1,35 +1,36 @@
 //! The dead expectations of a run.
 
 use crate::adapters::{described_names, hardware_names};
-use crate::cases::{ids_of, library};
+use crate::cases::ids_of;
 use crate::failure::Failure;
+use etalon_case::Library;
 use etalon_findings::is_built_in;
 use etalon_record::{Dead, DeadKind, Expectations, Known, Run};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-/// Returns the dead expectations of a run of the cases of a folder, or of the built-in ones. With a folder,
-/// built-in findings are never dead, since they are about the built-in cases.
+/// Returns the dead expectations of a run of a library's cases. With the cases of a folder, built-in findings
+/// are never dead, since they are about the built-in cases.
 ///
 /// # Errors
-/// If the cases or the file of adapters cannot be read.
+/// If the file of adapters cannot be read.
 pub(crate) fn of_run(
     run: &Run,
     expectations: &Expectations,
-    cases: Option<&PathBuf>,
+    library: &Library,
+    of_folder: bool,
     adapter_file: Option<&Path>,
 ) -> Result<Vec<Dead>, Failure> {
     if expectations.all().is_empty() {
         return Ok(Vec::new());
     }
-    let library = library(cases)?;
     // A test ensures that built-in globs match something.
     let sound = |known: &Known| is_built_in(&known.place());
     let names = names(adapter_file)?;
-    let mut dead = expectations.dead(run, || ids_of(&library), &names, sound);
+    let mut dead = expectations.dead(run, || ids_of(library), &names, sound);
     // A finding that the user's own list covers is not dead.
     dead.retain(|entry| {
         let covered = entry.kind == DeadKind::Covered && !is_built_in(&entry.about);
-        !is_built_in(&entry.place) || cases.is_none() && !covered
+        !is_built_in(&entry.place) || !of_folder && !covered
     });
     Ok(dead)
 }
@@ -44,6 +45,7 @@ fn names(adapter_file: Option<&Path>) -> Result<Vec<String>, Failure> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cases::library;
     use crate::expectations::findings;
     use etalon_record::Header;
 

@@ -75,15 +75,21 @@ proptest! {
     }
 }
 
+/// Returns a file that draws one colour, with further members.
+fn file(more: &str, axes: &str, size: &str) -> String {
+    format!(
+        r#"{{ "about": "a", "spec": ["s"], {more} "axes": {axes}, "scene": {{
+        "attachments": {{ "color": {{ "format": "rgba8unorm", "size": {size} }} }},
+        "passes": [ {{ "color": ["color"], "draws": [ {{ "mesh": {{ "kind": "full" }},
+            "shader": "uniform_color", "params": {{ "color": [1, 0, 0, 1] }} }} ] }} ],
+        "read": ["color"] }} }}"#
+    )
+}
+
 /// Absurd sizes, counts and nesting are refused with a message, at once.
 #[test]
 fn absurdities_are_refused() {
-    let fine = r#"{ "about": "a", "spec": ["s"], "axes": AXES, "scene": {
-        "attachments": { "color": { "format": "rgba8unorm", "size": SIZE } },
-        "passes": [ { "color": ["color"], "draws": [ { "mesh": { "kind": "full" },
-            "shader": "uniform_color", "params": { "color": [1, 0, 0, 1] } } ] } ],
-        "read": ["color"] } }"#;
-    let with = |axes: &str, size: &str| fine.replace("AXES", axes).replace("SIZE", size);
+    let with = |axes: &str, size: &str| file("", axes, size);
     assert!(build(with("{}", "[4, 4]").as_bytes()));
     for size in [
         "[4294967295, 4294967295]",
@@ -114,26 +120,19 @@ fn absurdities_are_refused() {
 /// A count beyond what the axes hold takes all they hold, and a shift beyond an axis goes round.
 #[test]
 fn counts_beyond_the_axes_end() {
-    let with = |quick: &str, shift: &str, axes: &str| {
-        let text = format!(
-            r#"{{ "about": "a", "spec": ["s"], "quick": {{ {quick} }}, "axes": {{ {axes} }},
-            "derived": {{ "other": {{ "axis": "y", "shift": {shift} }} }},
-            "scene": {{ "attachments": {{ "color": {{ "format": "rgba8unorm", "size": ["$other", 4] }} }},
-            "passes": [ {{ "color": ["color"], "draws": [ {{ "mesh": {{ "kind": "full" }},
-                "shader": "uniform_color", "params": {{ "color": [1, 0, 0, 1] }} }} ] }} ],
-            "read": ["color"] }} }}"#
-        );
-        build(text.as_bytes())
-    };
     let most = usize::MAX.to_string();
     for quick in ["each", "first"] {
-        let quick = format!(r#""{quick}": {most}"#);
+        let more = format!(
+            r#""quick": {{ "{quick}": {most} }},
+            "derived": {{ "other": {{ "axis": "y", "shift": {most} }} }},"#
+        );
         for axes in [
-            r#""y": [1, 2, 4]"#,
-            r#""x": [1], "y": [1, 2, 4]"#,
-            r#""x": [1, 2], "y": [4]"#,
+            r#"{ "y": [1, 2, 4] }"#,
+            r#"{ "x": [1], "y": [1, 2, 4] }"#,
+            r#"{ "x": [1, 2], "y": [4] }"#,
         ] {
-            assert!(with(&quick, &most, axes), "{quick} {axes}");
+            let text = file(&more, axes, r#"["$other", 4]"#);
+            assert!(build(text.as_bytes()), "{quick} {axes}");
         }
     }
 }

@@ -403,15 +403,11 @@ impl<'a> Results<'a> {
     ) -> Result<Self, Failure> {
         let folder = &arguments.out;
         let run = Run::read(folder).map_err(Failure::incomplete)?;
+        let cases = arguments.selection.cases.as_ref();
+        let library = library(cases)?;
         let adapter_file = arguments.file.adapter_file.as_deref();
-        let dead = dead::of_run(
-            &run,
-            expectations,
-            arguments.selection.cases.as_ref(),
-            adapter_file,
-        )?;
+        let dead = dead::of_run(&run, expectations, &library, cases.is_some(), adapter_file)?;
         Dead::write(folder, &dead).map_err(Failure::incomplete)?;
-        let library = library(arguments.selection.cases.as_ref())?;
         let catalogue = catalogue(&library, &selected.cases);
         etalon_report::write_catalogue(folder, &catalogue).map_err(Failure::incomplete)?;
         let news = arguments.news.news(&run)?;
