@@ -3,6 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::etalon;
+use crate::sample;
 use etalon_backend::CallFault;
 use etalon_frame::Api;
 use etalon_record::{Run, Verdict};
@@ -65,7 +66,12 @@ fn every_fault_of_webgpu_lists_fails() {
     let faults = CallFault::ALL.iter().copied();
     let of_lists = faults.filter(|fault| fault.is_in(Api::WebGpu));
     faults_are_found("wgpu:vulkan:lavapipe", of_lists.clone());
-    faults_are_found("webgpu:chromium", of_lists);
+    // Each fault starts a browser, whose executor reads the same lists.
+    let whole = of_lists.clone().count();
+    let few = sample::count("faults in a browser", whole / 4, whole);
+    let taken = |index: usize| (index + 1) * few / whole > index * few / whole;
+    let in_browser = of_lists.enumerate().filter(|(index, _)| taken(*index));
+    faults_are_found("webgpu:chromium", in_browser.map(|(_, fault)| fault));
 }
 
 #[test]
