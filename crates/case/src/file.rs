@@ -184,6 +184,11 @@ impl CaseFile {
         &self.name
     }
 
+    /// Returns the file's path without its ending, with which the ids of its cases begin.
+    pub fn stem(&self) -> &str {
+        &self.stem
+    }
+
     /// Returns the cases of a profile; the last axis (in alphabetical order) varies fastest.
     pub fn cases(&self, profile: Profile) -> impl Iterator<Item = CaseRef<'_>> {
         let indices: Vec<usize> = match (profile, &self.wire.quick) {

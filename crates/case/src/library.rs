@@ -2,6 +2,7 @@
 
 use crate::error::CaseError;
 use crate::file::{CaseFile, CaseRef, Profile};
+use std::collections::BTreeSet;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -66,6 +67,29 @@ impl Library {
     pub fn cases(&self, profile: Profile) -> impl Iterator<Item = CaseRef<'_>> {
         self.files.iter().flat_map(move |file| file.cases(profile))
     }
+
+    /// Returns all cases whose ids begin with a text. The cases of other files are not listed.
+    pub fn cases_that_begin<'l>(&'l self, start: &str) -> impl Iterator<Item = CaseRef<'l>> {
+        let can_begin = move |stem: &str| stem.starts_with(start) || start.starts_with(stem);
+        let files = self.files.iter().filter(move |file| can_begin(file.stem()));
+        let cases = files.flat_map(|file| file.cases(Profile::Full));
+        cases.filter(move |case| case.id().starts_with(start))
+    }
+
+    /// Returns the cases with these ids, each with its id. The cases of other files are not listed.
+    pub fn named<'l>(
+        &'l self,
+        ids: &BTreeSet<&str>,
+    ) -> impl Iterator<Item = (String, CaseRef<'l>)> {
+        let has_some = |stem: &str| {
+            let mut from = ids.range(stem..);
+            from.next().is_some_and(|id| id.starts_with(stem))
+        };
+        let files = self.files.iter().filter(move |file| has_some(file.stem()));
+        let cases = files.flat_map(|file| file.cases(Profile::Full));
+        let named = cases.map(|case| (case.id(), case));
+        named.filter(move |(id, _)| ids.contains(id.as_str()))
+    }
 }
 
 /// Reads a regular file. Reading a pipe would block.
@@ -126,6 +150,33 @@ fn collect(
 mod tests {
     use super::*;
     use std::collections::HashSet;
+
+    #[test]
+    fn cases_are_found_without_listing_all_files() {
+        let library = Library::built_in().expect("built-in files parse");
+        let all: Vec<String> = library.cases(Profile::Full).map(|c| c.id()).collect();
+        for start in [
+            "",
+            "depth/c",
+            "depth/compare/",
+            "capabilities/round-trip/f",
+            "nothing",
+        ] {
+            let found: Vec<String> = library.cases_that_begin(start).map(|c| c.id()).collect();
+            let expected = all.iter().filter(|id| id.starts_with(start));
+            assert!(found.iter().eq(expected), "{start}");
+        }
+        for every in [1, 7, 10_007] {
+            let ids = all.iter().step_by(every).map(String::as_str);
+            let ids: BTreeSet<&str> = ids.chain(["depth", "nothing/a=1"]).collect();
+            let found = library
+                .named(&ids)
+                .inspect(|(id, case)| assert_eq!(*id, case.id()));
+            let found: Vec<String> = found.map(|(id, _)| id).collect();
+            let expected = all.iter().filter(|id| ids.contains(id.as_str()));
+            assert!(found.iter().eq(expected), "{every}");
+        }
+    }
 
     #[test]
     fn the_quick_cases_are_some_of_all_and_have_their_ids() {

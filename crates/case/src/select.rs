@@ -55,6 +55,11 @@ impl Globs {
         Ok(Self(parsed))
     }
 
+    /// Returns false if none of the globs matches a name that begins like this.
+    fn can_begin_with(&self, start: &str) -> bool {
+        self.0.is_empty() || self.0.iter().any(|glob| glob.can_begin_with(start))
+    }
+
     /// Returns true if any of the globs matches.
     pub fn matches(&self, name: &str) -> bool {
         self.0.is_empty() || self.0.iter().any(|glob| glob.is_match(name))
@@ -72,9 +77,11 @@ pub fn select<'a>(
     globs: &[String],
 ) -> Result<Selection<'a>, SelectError> {
     let globs = Globs::new(globs)?;
+    let files = library.files().iter();
+    let files = files.filter(|file| globs.can_begin_with(file.stem()));
     Ok(Selection {
-        cases: library
-            .cases(profile)
+        cases: files
+            .flat_map(|file| file.cases(profile))
             .filter(|c| globs.matches(&c.id()))
             .collect(),
     })

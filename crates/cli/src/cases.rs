@@ -133,7 +133,7 @@ fn proposed(globs: &[String]) -> String {
     };
     let mut known: BTreeSet<String> = BTreeSet::new();
     for file in library.files() {
-        let stem = file.name().trim_end_matches(".json");
+        let stem = file.stem();
         known.insert(stem.to_owned());
         known.extend(stem.split('/').next().map(str::to_owned));
     }
@@ -150,7 +150,7 @@ fn proposed(globs: &[String]) -> String {
 
 /// Returns the case with this id.
 pub(crate) fn find<'l>(library: &'l Library, id: &str) -> Result<CaseRef<'l>, Failure> {
-    let found = library.cases(Profile::Full).find(|case| case.id() == id);
+    let found = library.cases_that_begin(id).find(|case| case.id() == id);
     found.ok_or_else(|| {
         Failure::usage(format!(
             "there is no case `{id}`{}; `etalon list --profile full` lists all cases",
@@ -184,11 +184,8 @@ pub(crate) fn build(
 }
 
 /// Builds the cases of a library with these ids.
-pub(crate) fn build_named(library: &Library, ids: &HashSet<&str>) -> Result<Vec<Case>, Failure> {
-    let cases = library.cases(Profile::Full);
-    let named: Vec<CaseRef<'_>> = cases
-        .filter(|case| ids.contains(case.id().as_str()))
-        .collect();
+pub(crate) fn build_named(library: &Library, ids: &BTreeSet<&str>) -> Result<Vec<Case>, Failure> {
+    let named: Vec<CaseRef<'_>> = library.named(ids).map(|(_, case)| case).collect();
     build_each(&named)
 }
 

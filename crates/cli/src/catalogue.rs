@@ -3,7 +3,7 @@
 use crate::processors::processors;
 use crate::scene_text;
 use etalon_backend::Backend;
-use etalon_case::{Case, CaseRef, Library, Profile};
+use etalon_case::{Case, Library};
 use etalon_cpu::CpuBackend;
 use etalon_frame::Frame;
 use etalon_frame::threads::each;
@@ -19,15 +19,13 @@ pub(crate) fn catalogue(library: &Library, cases: &[Case]) -> Catalogue {
     let mut catalogue = Catalogue::default();
     let ids: BTreeSet<&str> = cases.iter().map(|case| case.id.as_str()).collect();
     let mut files: HashMap<String, String> = HashMap::new();
-    for case in library.cases(Profile::Full) {
-        let id = case.id();
-        if ids.contains(id.as_str()) {
-            let stem = stem(&case);
-            if !catalogue.files.contains_key(&stem) {
-                catalogue.files.insert(stem.clone(), case.file().template());
-            }
-            files.insert(id, stem);
+    for (id, case) in library.named(&ids) {
+        let stem = case.file().stem();
+        if !catalogue.files.contains_key(stem) {
+            let template = case.file().template();
+            catalogue.files.insert(stem.to_owned(), template);
         }
+        files.insert(id, stem.to_owned());
     }
     // Cases with large pictures are neighbours, so each thread takes one case at a time instead of a range.
     let thumbnails = Thumbnails::default();
@@ -40,10 +38,6 @@ pub(crate) fn catalogue(library: &Library, cases: &[Case]) -> Catalogue {
         }
     }
     catalogue
-}
-
-fn stem(case: &CaseRef<'_>) -> String {
-    case.file().name().trim_end_matches(".json").to_owned()
 }
 
 fn entry(case: &Case, files: &HashMap<String, String>, thumbnails: &Thumbnails) -> CatalogueCase {

@@ -13,7 +13,7 @@ use etalon_explore::Candidate;
 use etalon_record::{AdapterRecord, Expectations, Expected, Record, Run};
 use etalon_runner::{Launch, Reducer, confirm};
 use serde_json::Value;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -42,8 +42,9 @@ impl Looks<'_> {
         if unexpected(&run) == 0 {
             return Ok(0);
         }
-        let cases = self.library.cases(Profile::Full);
-        let cases: HashMap<String, CaseRef<'_>> = cases.map(|case| (case.id(), case)).collect();
+        let records = run.records.iter().filter(|r| r.unexpected());
+        let ids: BTreeSet<&str> = records.map(|r| r.case.as_str()).collect();
+        let cases: HashMap<String, CaseRef<'_>> = self.library.named(&ids).collect();
         let built_in = Library::built_in().map_err(Failure::usage)?;
         for adapter in &run.header.adapters {
             let of_adapter = |r: &&mut Record| {

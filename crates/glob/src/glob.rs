@@ -49,6 +49,12 @@ impl Glob {
         })
     }
 
+    /// Returns true if a text that begins like this can match, by the glob's plain beginning: a quick test
+    /// that rejects no match.
+    pub fn can_begin_with(&self, start: &str) -> bool {
+        self.prefix.starts_with(start) || start.starts_with(&self.prefix)
+    }
+
     /// Returns true if the whole text matches.
     pub fn is_match(&self, text: &str) -> bool {
         let rest = text.strip_prefix(&self.prefix);
@@ -89,6 +95,18 @@ mod tests {
     fn the_whole_text_must_match() {
         check("depth", &["depth"], &["", "dept", "depths", "a/depth"]);
         check("", &[""], &["a"]);
+    }
+
+    #[test]
+    fn a_beginning_is_rejected_only_if_nothing_matches() {
+        let can_begin = |glob: &str, start| Glob::new(glob).expect("a glob").can_begin_with(start);
+        for start in ["", "de", "depth", "depth/compare"] {
+            assert!(can_begin("depth/*", start), "{start}");
+        }
+        assert!(!can_begin("depth/*", "depths"));
+        assert!(!can_begin("depth/*", "blend"));
+        assert!(can_begin("{depth,blend}/*", "blend"));
+        assert!(can_begin("[bc]*", "blend"));
     }
 
     #[test]

@@ -5,7 +5,7 @@
 //! Clears and draws block nothing: if one goes wrong, it is a `Fail` of its own, and other cases of the
 //! format still say something about the driver.
 
-use etalon_case::{Case, CaseError, Library, Profile};
+use etalon_case::{Case, CaseError, Library};
 use etalon_frame::{ChannelMismatch, TextureFormat};
 use etalon_record::{LossKind, Record, Verdict};
 use etalon_scene::Contents;
@@ -23,8 +23,7 @@ pub fn round_trips(libraries: &[&Library], cases: &[Case]) -> Result<Vec<Case>, 
     let mut wanted: BTreeSet<TextureFormat> = cases.iter().flat_map(leans_on).collect();
     let mut found = Vec::new();
     for library in libraries {
-        let cases = library.cases(Profile::Full);
-        for case in cases.filter(|case| case.id().starts_with(FAMILY)) {
+        for case in library.cases_that_begin(FAMILY) {
             let case = case.build()?;
             if format_of(&case).is_some_and(|format| wanted.remove(&format)) {
                 found.push(case);
@@ -219,7 +218,8 @@ mod tests {
     fn built(glob: &str) -> Vec<Case> {
         let library = Library::built_in().expect("built-in files parse");
         let globs = [glob.to_owned()];
-        let selection = etalon_case::select(&library, Profile::Full, &globs).expect("a glob");
+        let selection =
+            etalon_case::select(&library, etalon_case::Profile::Full, &globs).expect("a glob");
         let cases = selection.cases.iter();
         cases.map(|c| c.build().expect("a case")).collect()
     }

@@ -13,7 +13,7 @@ use clap::Args;
 use etalon_record::{FolderKind, MISSING_FILE, Merge, Merged, Run};
 use etalon_report::{News, OtherFormats};
 use serde_json::json;
-use std::collections::HashSet;
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -131,7 +131,7 @@ fn print(
 /// Writes the catalogue of the merged cases.
 fn write_catalogue(out: &Path, run: &Run) -> Result<(), Failure> {
     let library = library(None)?;
-    let drawn: HashSet<&str> = run.records.iter().map(|r| r.case.as_str()).collect();
+    let drawn: BTreeSet<&str> = run.records.iter().map(|r| r.case.as_str()).collect();
     let cases = build_named(&library, &drawn)?;
     etalon_report::write_catalogue(out, &catalogue(&library, &cases)).map_err(Failure::incomplete)
 }
