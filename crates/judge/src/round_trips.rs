@@ -213,13 +213,13 @@ fn account(record: &Record) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use etalon_case::Profile;
     use etalon_record::{Expected, ProcessEnd};
 
     fn built(glob: &str) -> Vec<Case> {
         let library = Library::built_in().expect("built-in files parse");
         let globs = [glob.to_owned()];
-        let selection =
-            etalon_case::select(&library, etalon_case::Profile::Full, &globs).expect("a glob");
+        let selection = etalon_case::select(&library, Profile::Full, &globs).expect("a glob");
         let cases = selection.cases.iter();
         cases.map(|c| c.build().expect("a case")).collect()
     }
