@@ -425,7 +425,7 @@ fn mesh(draw: &Draw, keys: &mut Keys) {
         instances,
         first_instance,
     } = draw.fetch;
-    let Mesh { vertices, indices } = &draw.mesh;
+    let Mesh { vertices, indices } = &*draw.mesh;
     let parts = instances.max(1) as usize;
     let count = vertices.len() / parts;
     let first_copy = &vertices[..count];

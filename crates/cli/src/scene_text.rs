@@ -4,8 +4,8 @@
 //! without a change here.
 
 use etalon_scene::{
-    Attachment, ColorTarget, Contents, Draw, Mesh, PassOperations, Path, QueryScope, Scene, Shader,
-    Viewport,
+    Attachment, ColorTarget, Contents, Draw, PassOperations, Path, QueryScope, Scene, Shader,
+    SharedMesh, Viewport,
 };
 use serde::Serialize;
 use serde_json::Value;
@@ -143,7 +143,7 @@ fn of_draw(scene: &Scene, number: usize, draw: &Draw, [width, height]: [u32; 2])
         add(format!("textures {}", names(&draw.textures)));
     }
     let mut changed = draw.clone();
-    changed.mesh = NO_MESH;
+    changed.mesh = SharedMesh::default();
     changed.targets.clear();
     changed.textures.clear();
     let mut state = serde_json::to_value(changed).unwrap_or_default();
@@ -154,18 +154,13 @@ fn of_draw(scene: &Scene, number: usize, draw: &Draw, [width, height]: [u32; 2])
     lines
 }
 
-const NO_MESH: Mesh = Mesh {
-    vertices: Vec::new(),
-    indices: None,
-};
-
 /// A draw of the default state, serialized.
 static PLAIN: LazyLock<Value> = LazyLock::new(|| {
     let rect = Viewport {
         rect: [0.0; 4],
         depth: [0.0, 1.0],
     };
-    let draw = Draw::new(Shader::UniformColor, NO_MESH, rect);
+    let draw = Draw::new(Shader::UniformColor, SharedMesh::default(), rect);
     serde_json::to_value(draw).unwrap_or_default()
 });
 

@@ -150,7 +150,7 @@ impl<D: Driver> KnownBugs<D> {
         cases: impl Iterator<Item = (String, D::Named)>,
         driver: D,
     ) -> Self {
-        let expectations = expectations.clone().about(adapter);
+        let expectations = expectations.about(adapter);
         let mut named: Vec<Named<D::Named>> = Vec::new();
         if !expectations.all().is_empty() {
             for (id, case) in cases {

@@ -1,10 +1,11 @@
 //! The cache of legal sets. Adapters share a set if their limits are equal and their rules agree on every
-//! permission that the judge asked for.
+//! permission that the judge asked for; cases share it if their scenes differ only in what the judge does not
+//! see.
 
 use etalon_case::Case;
 use etalon_frame::{LegalSet, Limits};
 use etalon_reference::{
-    Geometries, Judgement, KnownSets, Rules, Texels, judgements_by, legal_set_of_texels,
+    Geometries, Judgement, KnownSets, Rules, SceneKey, Texels, judgements_by, legal_set_of_texels,
 };
 use etalon_scene::Scene;
 use std::collections::{HashMap, VecDeque};
@@ -24,13 +25,15 @@ pub(crate) fn judged_texels(case: &Case) -> Texels {
     }
 }
 
-/// A case, one of its scenes, and the limits on which its legal sets depend.
-type Key = (usize, usize, Limits);
+/// Everything but the rules that legal sets depend on.
+type Key = (SceneKey, Texels, Limits);
 type Entry = Arc<Mutex<KnownSets>>;
 
-/// Legal sets by case, scene, limits and permissions.
+/// Legal sets by scene, limits and permissions.
 #[derive(Debug, Default)]
 pub(crate) struct JudgementCache {
+    /// The keys of the scenes judged so far, by the number of the case and the index of the scene.
+    scenes: Mutex<HashMap<(usize, usize), SceneKey>>,
     cache: Mutex<Cache>,
     geometries: Geometries,
 }
@@ -65,8 +68,14 @@ impl JudgementCache {
     ) -> impl Fn(&Limits, &Rules) -> Arc<LegalSet> {
         let index = case.judged_index(index);
         let (scene, texels) = (judged_scene(case, index), judged_texels(case));
+        let known = lock(&self.scenes).get(&(number, index)).copied();
+        let scene_key = known.unwrap_or_else(|| {
+            let key = SceneKey::of(scene);
+            lock(&self.scenes).insert((number, index), key);
+            key
+        });
         move |limits, rules| {
-            let key = (number, index, limits.clone());
+            let key = (scene_key, texels, limits.clone());
             self.set(key, rules, |rules| {
                 legal_set_of_texels(scene, limits, rules, texels, &self.geometries)
             })

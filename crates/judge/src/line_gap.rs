@@ -2,7 +2,7 @@
 
 use etalon_frame::{Band, Comparison, Frame, Grade, LegalSet, Limits, WrongTexel};
 use etalon_record::MAX_WRONG_TEXELS;
-use etalon_reference::{LineGap, Rules, line_gap};
+use etalon_reference::{LineGap, Rules, counts_lines, line_gap};
 use etalon_scene::Scene;
 
 /// Returns a line with fewer fragments than the "must" clauses of the specification allow, under every depth
@@ -13,7 +13,7 @@ pub(crate) fn proven_line_gap(
     (frame, worst): (&Frame, Option<Band>),
     legal: &LegalSet,
 ) -> Option<LineGap> {
-    if worst == Some(Band::Fail) {
+    if worst == Some(Band::Fail) || !counts_lines(scene) {
         return None;
     }
     let rules = Rules::of(limits).bound_by(Grade::Proven);

@@ -427,15 +427,16 @@ impl Expectations {
         Ok(())
     }
 
-    /// Keeps the expectations that apply to an adapter.
+    /// Returns the expectations that apply to an adapter.
     #[must_use]
-    pub fn about(self, adapter: &AdapterRecord) -> Self {
-        let both = self.all.into_iter().zip(self.globs);
-        let (entries, globs) = both.filter(|(_, g)| g.match_adapter(adapter)).unzip();
+    pub fn about(&self, adapter: &AdapterRecord) -> Self {
+        let entries = self.all.iter().zip(&self.globs);
+        let about = entries.filter(|(_, globs)| globs.match_adapter(adapter));
+        let (all, globs) = about.map(|(k, g)| (k.clone(), g.clone())).unzip();
         Self {
-            all: entries,
+            all,
             globs,
-            today: self.today,
+            today: self.today.clone(),
         }
     }
 

@@ -42,6 +42,7 @@ mod ruling;
 mod sample;
 mod sample_state;
 mod sampling;
+mod scene_key;
 mod setup;
 mod setups;
 mod sides;
@@ -69,8 +70,9 @@ pub use legal_sets::{
     Judgement, Sets, explain, judgements, judgements_by, judgements_of, legal_set,
     legal_set_of_texels, set_by, shared_sets,
 };
-pub use lines::{LineGap, line_gap};
+pub use lines::{LineGap, counts_lines, line_gap};
 pub use range::Range;
 pub use rules::{Permission, Rules};
 pub use sample::Sample;
+pub use scene_key::SceneKey;
 pub use texels::Texels;

@@ -40,6 +40,24 @@ struct Line<'a> {
     ends: [SnapBox; 2],
 }
 
+/// Returns true if [`line_gap`] counts the fragments of any line of a scene.
+pub fn counts_lines(scene: &Scene) -> bool {
+    drawn_lines(scene).next().is_some()
+}
+
+/// Returns the passes and draws of all lines whose fragments can be counted.
+fn drawn_lines(scene: &Scene) -> impl Iterator<Item = (usize, usize)> {
+    let passes = scene.passes.iter().enumerate();
+    passes
+        .filter(|(_, pass)| scene.pass_samples(pass) == 1)
+        .flat_map(|(p, pass)| {
+            let draws = pass.draws.iter().enumerate();
+            draws
+                .filter(|(_, draw)| has_lines(draw))
+                .map(move |(d, _)| (p, d))
+        })
+}
+
 /// Returns the first line of a scene that has too few fragments in a frame of the legal set's images; `None`
 /// if every line has enough.
 pub fn line_gap(
@@ -49,15 +67,8 @@ pub fn line_gap(
     frame: &Frame,
     legal: &LegalSet,
 ) -> Option<LineGap> {
-    let counts = |pass: usize| scene.pass_samples(&scene.passes[pass]) == 1;
-    let passes = (0..scene.passes.len()).filter(|pass| counts(*pass));
-    let drawn: Vec<(usize, usize)> = passes
-        .flat_map(|p| (0..scene.passes[p].draws.len()).map(move |d| (p, d)))
-        .filter(|(p, d)| has_lines(&scene.passes[*p].draws[*d]))
-        .collect();
-    if drawn.is_empty() {
-        return None;
-    }
+    let mut drawn = drawn_lines(scene).peekable();
+    drawn.peek()?;
     let lack = rules.lines_lack.value()?;
     let walk = Walk::new(scene, limits, rules, Texels::All);
     let mut columns = 0;

@@ -56,7 +56,8 @@ pub(crate) fn draw(
     vertices.enter(&draw.viewport);
     let draw_geometry = draw_geometry(draw);
     let assembled = draw.primitives();
-    if context.keeps_misses {
+    // Otherwise most primitives can be far from all judged texels.
+    if context.keeps_misses || context.lattice == Lattice::ALL {
         primitives.reserve_exact(assembled.len());
     }
     for (index, indices) in assembled.into_iter().enumerate() {

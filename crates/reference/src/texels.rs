@@ -4,7 +4,7 @@
 use etalon_scene::{Attachment, Scene};
 
 /// The texels that are judged. Nothing is computed or asserted for others.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Texels {
     /// All texels.
     All,

@@ -4,7 +4,7 @@ use crate::blend::{ColorTarget, LogicOperation};
 use crate::depth_stencil::{DepthBias, DepthState, StencilState};
 use crate::early_tests::EarlyTests;
 use crate::fetch::Fetch;
-use crate::mesh::{Mesh, PrimitiveVertices};
+use crate::mesh::{PrimitiveVertices, SharedMesh};
 use crate::rasterization::{
     CullMode, FrontFace, Multisample, PolygonMode, PrimitiveTopology, ProvokingVertex, Viewport,
 };
@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Draw {
     /// Vertices.
-    pub mesh: Mesh,
+    pub mesh: SharedMesh,
     /// The route by which the mesh's vertices reach the pipeline.
     pub fetch: Fetch,
     /// The topology.
@@ -125,9 +125,9 @@ impl Draw {
     }
 
     /// Returns a draw of triangles to one colour attachment, with every test off and no blending.
-    pub fn new(shader: Shader, mesh: Mesh, viewport: Viewport) -> Self {
+    pub fn new(shader: Shader, mesh: impl Into<SharedMesh>, viewport: Viewport) -> Self {
         Self {
-            mesh,
+            mesh: mesh.into(),
             fetch: Fetch::default(),
             topology: PrimitiveTopology::TriangleList,
             tessellation: None,

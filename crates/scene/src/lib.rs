@@ -19,6 +19,7 @@ mod on_path;
 mod overlap;
 mod pass;
 mod path;
+mod pod_bytes;
 mod pool;
 mod provoking;
 mod query;
@@ -45,7 +46,7 @@ pub use draw::{Draw, Params};
 pub use early_tests::EarlyTests;
 pub use fetch::{Fetch, IndexFormat, RESTART_16};
 pub use invariance::Invariance;
-pub use mesh::{MAX_VERTICES, Mesh, PrimitiveVertices, RESTART, Vertex};
+pub use mesh::{MAX_VERTICES, Mesh, PrimitiveVertices, RESTART, SharedMesh, Vertex};
 pub use mesh_source::{FieldOf, MeshSource, Position, Splat, StripOf, Units};
 pub use pass::{
     Clear, ClearTarget, DepthStencilResolve, LoadOperation, Operations, Pass, PassOperations,

@@ -2,7 +2,9 @@
 
 use crate::rasterization::PrimitiveTopology;
 use bytemuck::{Pod, Zeroable};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::ops::{Deref, DerefMut};
+use std::sync::Arc;
 
 /// A vertex: 40 bytes, with the attributes in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, Pod, Zeroable)]
@@ -23,11 +25,13 @@ pub const MAX_VERTICES: usize = 4 << 20;
 pub const RESTART: u32 = u32::MAX;
 
 /// Vertices, and indices if the vertices are not drawn in their own order.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Mesh {
     /// The vertices.
+    #[serde(with = "crate::pod_bytes")]
     pub vertices: Vec<Vertex>,
     /// Indices of the drawn vertices, in order; [`RESTART`] restarts a strip.
+    #[serde(with = "crate::pod_bytes::optional")]
     pub indices: Option<Vec<u32>>,
 }
 
@@ -87,6 +91,48 @@ impl Mesh {
             }
         }
         primitives
+    }
+}
+
+/// A mesh that the copies of a scene share until one of them changes it.
+#[derive(Clone, Debug, Default)]
+pub struct SharedMesh(Arc<Mesh>);
+
+impl From<Mesh> for SharedMesh {
+    fn from(mesh: Mesh) -> Self {
+        Self(Arc::new(mesh))
+    }
+}
+
+impl Deref for SharedMesh {
+    type Target = Mesh;
+
+    fn deref(&self) -> &Mesh {
+        &self.0
+    }
+}
+
+impl DerefMut for SharedMesh {
+    fn deref_mut(&mut self) -> &mut Mesh {
+        Arc::make_mut(&mut self.0)
+    }
+}
+
+impl PartialEq for SharedMesh {
+    fn eq(&self, other: &Self) -> bool {
+        *self.0 == *other.0
+    }
+}
+
+impl Serialize for SharedMesh {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.0.serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for SharedMesh {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Mesh::deserialize(deserializer).map(Self::from)
     }
 }
 

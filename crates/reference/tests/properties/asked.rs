@@ -3,7 +3,10 @@
 use crate::common::{APIS, limits};
 use etalon_case::{Library, Profile};
 use etalon_frame::{ApiVersion, Limits, ReadPath};
-use etalon_reference::{Geometries, KnownSets, Rules, Texels, judgements_by, legal_set_of_texels};
+use etalon_reference::{
+    Geometries, KnownSets, Rules, SceneKey, Texels, judgements_by, legal_set_of_texels,
+};
+use etalon_scene::{Fetch, Path, Scene, SharedMesh, Vertex};
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 
@@ -98,4 +101,87 @@ fn a_clone_was_asked_for_nothing() {
     assert_eq!(rules.asked(), ["store"]);
     assert_eq!(rules.clone().asked().len(), 0);
     assert_eq!(rules.clone(), rules);
+}
+
+/// The built-in files whose cases differ in their paths or in the route of their vertices.
+const ROUTES: [&str; 4] = ["paths/", "size/indices/", "sequence/state/", "cull/"];
+
+#[test]
+fn scenes_with_equal_keys_have_equal_sets() {
+    let library = Library::built_in().expect("built-in cases parse");
+    let mut first: HashMap<SceneKey, Scene> = HashMap::new();
+    let geometries = Geometries::default();
+    let mut compared = 0;
+    for start in ROUTES {
+        let cases = library.cases_that_begin(start);
+        for case in cases.filter(|case| case.id().starts_with(start)).step_by(7) {
+            let scene = case.build().expect("it builds").judged_scene().clone();
+            let texels = scene.attachments.iter().map(|a| a.size[0] * a.size[1]);
+            if texels.sum::<u32>() > 20_000 {
+                continue;
+            }
+            let Some(other) = first.get(&SceneKey::of(&scene)) else {
+                first.insert(SceneKey::of(&scene), scene);
+                continue;
+            };
+            if *other == scene {
+                continue;
+            }
+            let limits = &all_limits()[compared % all_limits().len()];
+            let rules = Rules::of(limits);
+            let [a, b] = [other, &scene]
+                .map(|scene| legal_set_of_texels(scene, limits, &rules, Texels::All, &geometries));
+            assert_eq!(a, b, "{}", case.id());
+            compared += 1;
+        }
+    }
+    assert!(compared > 100, "{compared}");
+}
+
+#[test]
+fn a_key_tells_what_is_drawn_and_not_how() {
+    let library = Library::built_in().expect("built-in cases parse");
+    let named = library
+        .cases(Profile::Quick)
+        .find(|case| case.id().starts_with("depth/"));
+    let case = named.and_then(|case| case.build().ok()).expect("it builds");
+    let changed = |change: &dyn Fn(&mut Scene)| {
+        let mut scene = case.scene.clone();
+        change(&mut scene);
+        assert_ne!(scene, case.scene);
+        SceneKey::of(&scene) == SceneKey::of(&case.scene)
+    };
+    fn mesh(scene: &mut Scene) -> &mut SharedMesh {
+        &mut scene.passes[0].draws[0].mesh
+    }
+    assert!(changed(&|scene| {
+        let vertices = &mut mesh(scene).vertices;
+        vertices.reverse();
+        let indices = (0..vertices.len() as u32).rev().collect();
+        vertices.extend([Vertex {
+            position: [9.0; 4],
+            color: [9.0; 4],
+            uv: [9.0; 2],
+        }]);
+        mesh(scene).indices = Some(indices);
+    }));
+    assert!(changed(&|scene| scene.passes[0].draws[0].fetch = Fetch {
+        first_vertex: 5,
+        ..Fetch::default()
+    }));
+    assert!(!changed(&|scene| mesh(scene).vertices.reverse()));
+    assert!(!changed(&|scene| mesh(scene).vertices[0].uv[0] += 1.0));
+    assert!(!changed(&|scene| {
+        mesh(scene).vertices.pop();
+    }));
+    assert!(!changed(
+        &|scene| scene.passes[0].draws[0].blend_constant[3] += 1.0
+    ));
+    assert!(!changed(&|scene| scene.read.clear()));
+    let paths = library.cases_that_begin("paths/");
+    let other = paths
+        .map(|case| case.build().expect("it builds").scene.path)
+        .find(|path| *path != Path::default());
+    let other = other.expect("a path that is not the default");
+    assert!(changed(&|scene| scene.path = other));
 }

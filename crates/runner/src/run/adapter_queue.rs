@@ -8,7 +8,7 @@ use crate::sync::lock;
 use crate::worker::Worker;
 use etalon_diagnose::Symptom;
 use etalon_judge::RoundTrips;
-use etalon_record::AdapterRecord;
+use etalon_record::{AdapterRecord, Expectations};
 use std::collections::{BTreeSet, HashMap, VecDeque};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
@@ -27,6 +27,8 @@ const MAX_SEARCHES: u32 = 8;
 pub(super) struct AdapterQueue {
     pub(super) launch: Launch,
     pub(super) adapter: AdapterRecord,
+    /// The expectations about the adapter.
+    pub(super) expectations: Expectations,
     /// The reason why the driver does not start; if set, nothing is drawn.
     pub(super) start_error: Option<String>,
     pub(super) failed_starts: FailedStarts,
@@ -78,6 +80,7 @@ impl AdapterQueue {
         mut first: First,
         launch: Launch,
         worker: Worker,
+        expectations: &Expectations,
     ) -> Self {
         if numbers.is_empty() {
             first.numbers.clear();
@@ -87,7 +90,7 @@ impl AdapterQueue {
         Self {
             running: Mutex::new(Some(worker)),
             first,
-            ..Self::with(numbers, adapter, launch)
+            ..Self::with(numbers, adapter, launch, expectations)
         }
     }
 
@@ -98,7 +101,12 @@ impl AdapterQueue {
     }
 
     /// Returns the queue of an adapter whose driver does not start.
-    pub(super) fn not_started(numbers: Vec<usize>, adapter: AdapterRecord, error: String) -> Self {
+    pub(super) fn not_started(
+        numbers: Vec<usize>,
+        adapter: AdapterRecord,
+        error: String,
+        expectations: &Expectations,
+    ) -> Self {
         let launch = Launch {
             adapter: adapter.name.clone(),
             program: PathBuf::new(),
@@ -111,13 +119,19 @@ impl AdapterQueue {
         };
         Self {
             start_error: Some(error),
-            ..Self::with(numbers, adapter, launch)
+            ..Self::with(numbers, adapter, launch, expectations)
         }
     }
 
-    fn with(numbers: Vec<usize>, adapter: AdapterRecord, launch: Launch) -> Self {
+    fn with(
+        numbers: Vec<usize>,
+        adapter: AdapterRecord,
+        launch: Launch,
+        expectations: &Expectations,
+    ) -> Self {
         Self {
             launch,
+            expectations: expectations.about(&adapter),
             adapter,
             start_error: None,
             failed_starts: FailedStarts::default(),

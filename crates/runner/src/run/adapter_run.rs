@@ -78,10 +78,9 @@ impl<'s> AdapterRun<'s, '_> {
 
     /// Returns the record of a case that is not drawn on this adapter; `None` if it must be drawn.
     pub(super) fn undrawn(&self, number: usize) -> Option<Record> {
-        let Shared { expectations, .. } = self.shared;
         let trips = self.queue.round_trips();
         let (case, adapter) = (self.case(number), &self.queue.adapter);
-        let undrawn = undrawn(case, adapter, expectations, trips);
+        let undrawn = undrawn(case, adapter, &self.queue.expectations, trips);
         undrawn.or_else(|| {
             let budget = self.shared.budget.as_ref();
             let budget = budget.filter(|_| self.queue.is_late())?;
@@ -94,7 +93,7 @@ impl<'s> AdapterRun<'s, '_> {
 
     /// Returns a record with what the expectations say about it.
     pub(super) fn settled(&self, record: Record) -> Record {
-        settled(record, self.shared.expectations, &self.queue.adapter)
+        settled(record, &self.queue.expectations, &self.queue.adapter)
     }
 
     /// Judges a drawing. `report` makes the report if drawing failed.

@@ -68,7 +68,6 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
             .options
             .within
             .map(|limit| Budget::new(limit, plan.adapters.len(), plan.options.jobs)),
-        expectations: plan.expectations,
         judge: Judge::default(),
         frames: writer.frames(),
         writer: Mutex::new(writer),
@@ -96,11 +95,12 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
         let drawn = drawn.get(name).map_or(&[][..], Vec::as_slice);
         let first = to_draw_first(&first, &shared.cases, plan.cases.len(), drawn);
         let examples = examples.remove(name).unwrap_or_default();
-        AdapterQueue::new(numbers, first, launch, worker).with_examples(examples)
+        AdapterQueue::new(numbers, first, launch, worker, plan.expectations).with_examples(examples)
     });
     let dead = plan.dead.into_iter();
-    let dead = dead
-        .map(|(adapter, error)| AdapterQueue::not_started(missing(&adapter.name), adapter, error));
+    let dead = dead.map(|(adapter, error)| {
+        AdapterQueue::not_started(missing(&adapter.name), adapter, error, plan.expectations)
+    });
     let queues: Vec<AdapterQueue> = running.chain(dead).collect();
     share(plan.options.jobs, || {
         while !shared.stopped()

@@ -101,7 +101,7 @@ fn needs_confirmation(run: &AdapterRun<'_, '_>, observed: &Observation, most: u3
         .as_ref()
         .is_none_or(|p| p.kind != LossKind::NotStarted);
     started
-        && is_unexpectedly_bad(record, run.shared.expectations, &run.queue.adapter)
+        && is_unexpectedly_bad(record, &run.queue.expectations, &run.queue.adapter)
         && run.queue.may_recheck(&Symptom::of(record).broad(), most)
 }
 

@@ -6,7 +6,7 @@ use crate::event::Event;
 use crate::sync::lock;
 use etalon_case::Case;
 use etalon_judge::{Judge, Truths};
-use etalon_record::{Expectations, FrameWriter, RecordError, RunWriter};
+use etalon_record::{FrameWriter, RecordError, RunWriter};
 use std::collections::HashSet;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, RwLock};
@@ -18,7 +18,6 @@ pub(super) struct Shared<'a> {
     pub(super) options: Options,
     /// The time left, if the run has a time limit.
     pub(super) budget: Option<Budget>,
-    pub(super) expectations: &'a Expectations,
     pub(super) judge: Judge,
     pub(super) writer: Mutex<RunWriter>,
     pub(super) frames: FrameWriter,

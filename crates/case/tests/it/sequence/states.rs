@@ -14,10 +14,7 @@ use std::fmt::Debug;
 pub(super) fn states(draw: &Draw) -> BTreeMap<String, String> {
     let mut states = States::default();
     let Draw {
-        mesh: Mesh {
-            vertices: _,
-            indices,
-        },
+        mesh,
         topology,
         tessellation,
         provoking,
@@ -57,7 +54,7 @@ pub(super) fn states(draw: &Draw) -> BTreeMap<String, String> {
         blend_constant,
         fetch,
     } = draw;
-    states.put("indices", indices);
+    states.put("indices", &mesh.indices);
     states.put("topology", topology);
     states.put("tessellation", tessellation);
     states.put("provoking", provoking);

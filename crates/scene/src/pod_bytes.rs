@@ -1,0 +1,91 @@
+//! Serialization of vertices and indices between processes of one machine: in a binary format, as their bytes;
+//! in a human-readable one, as lists. A large mesh takes longer to write number by number than to draw.
+
+use bytemuck::{AnyBitPattern, NoUninit};
+use serde::de::{Error, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::fmt;
+use std::marker::PhantomData;
+
+/// Items that are written and read as bytes.
+struct Bytes<T>(T);
+
+impl<T: NoUninit + Serialize> Serialize for Bytes<&[T]> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        if to.is_human_readable() {
+            self.0.serialize(to)
+        } else {
+            to.serialize_bytes(bytemuck::cast_slice(self.0))
+        }
+    }
+}
+
+impl<'de, T: AnyBitPattern + Deserialize<'de>> Deserialize<'de> for Bytes<Vec<T>> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        if from.is_human_readable() {
+            Vec::deserialize(from).map(Self)
+        } else {
+            from.deserialize_bytes(Items(PhantomData))
+        }
+    }
+}
+
+struct Items<T>(PhantomData<T>);
+
+impl<T: AnyBitPattern> Visitor<'_> for Items<T> {
+    type Value = Bytes<Vec<T>>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "items of {} bytes", size_of::<T>())
+    }
+
+    fn visit_bytes<E: Error>(self, bytes: &[u8]) -> Result<Self::Value, E> {
+        let items = bytes.chunks_exact(size_of::<T>());
+        if !items.remainder().is_empty() {
+            return Err(E::custom("a part of an item is left over"));
+        }
+        Ok(Bytes(items.map(bytemuck::pod_read_unaligned).collect()))
+    }
+}
+
+/// Writes items.
+pub(crate) fn serialize<T, S>(items: &[T], to: S) -> Result<S::Ok, S::Error>
+where
+    T: NoUninit + Serialize,
+    S: Serializer,
+{
+    Bytes(items).serialize(to)
+}
+
+/// Reads items.
+pub(crate) fn deserialize<'de, T, D>(from: D) -> Result<Vec<T>, D::Error>
+where
+    T: AnyBitPattern + Deserialize<'de>,
+    D: Deserializer<'de>,
+{
+    Bytes::deserialize(from).map(|items| items.0)
+}
+
+/// The same for items that can be absent.
+pub(crate) mod optional {
+    use super::{AnyBitPattern, Bytes, Deserialize, Deserializer, NoUninit, Serialize, Serializer};
+
+    /// Writes items, if there are any.
+    pub(crate) fn serialize<T, S>(items: &Option<Vec<T>>, to: S) -> Result<S::Ok, S::Error>
+    where
+        T: NoUninit + Serialize,
+        S: Serializer,
+    {
+        items.as_deref().map(Bytes).serialize(to)
+    }
+
+    /// Reads items, if there are any.
+    pub(crate) fn deserialize<'de, T, D>(from: D) -> Result<Option<Vec<T>>, D::Error>
+    where
+        T: AnyBitPattern + Deserialize<'de>,
+        D: Deserializer<'de>,
+    {
+        let items = Option::<Bytes<Vec<T>>>::deserialize(from)?;
+        Ok(items.map(|items| items.0))
+    }
+}
