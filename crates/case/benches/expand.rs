@@ -4,7 +4,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use etalon_case::{Library, Profile};
 
 fn expand(c: &mut Criterion) {
-    let library = Library::built_in().expect("built-in cases parse");
+    let library = Library::built_in();
     let count = library.cases(Profile::Full).count();
     let mut group = c.benchmark_group("library");
     group.sample_size(10);

@@ -122,7 +122,7 @@ mod tests {
 
     #[test]
     fn every_built_in_case_is_written_and_read_without_loss() {
-        let library = Library::built_in().expect("built-in files parse");
+        let library = Library::built_in();
         let (mut scenes, mut left_out) = (0, 0);
         for reference in library.cases(Profile::Full) {
             let case = reference.build().expect("built-in cases build");

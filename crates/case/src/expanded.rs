@@ -70,7 +70,7 @@ mod tests {
 
     #[test]
     fn an_expanded_scene_names_no_axis() {
-        let library = Library::built_in().expect("built-in files parse");
+        let library = Library::built_in();
         for file in library.files() {
             for case in file.cases(Profile::Full).take(3) {
                 let text = case.expanded().expect("expands").to_string();

@@ -6,31 +6,60 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, LazyLock, OnceLock};
 
 const BUILT_IN: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/case_files.rs"));
+
+/// A file of a library.
+#[derive(Debug)]
+enum Entry {
+    /// A file that was compiled in. It is parsed when its cases are first asked for.
+    BuiltIn {
+        name: &'static str,
+        text: &'static str,
+        parsed: OnceLock<CaseFile>,
+    },
+    Read(CaseFile),
+}
+
+impl Entry {
+    fn stem(&self) -> &str {
+        match self {
+            Self::BuiltIn { name, .. } => name.strip_suffix(".json").unwrap_or(name),
+            Self::Read(file) => file.stem(),
+        }
+    }
+
+    fn file(&self) -> &CaseFile {
+        match self {
+            Self::BuiltIn { name, text, parsed } => parsed.get_or_init(|| {
+                CaseFile::parse(name, text).expect("tests parse all built-in files")
+            }),
+            Self::Read(file) => file,
+        }
+    }
+}
 
 /// Case files, in ascending order of their paths. A clone is cheap.
 #[derive(Clone, Debug)]
 pub struct Library {
-    files: Arc<[CaseFile]>,
+    entries: Arc<[Entry]>,
 }
 
 impl Library {
-    /// Returns the case files that were compiled in. They are parsed once per process.
-    ///
-    /// # Errors
-    /// If one of them is broken; a test ensures that all parse.
-    pub fn built_in() -> Result<Self, CaseError> {
-        static PARSED: OnceLock<Library> = OnceLock::new();
-        if let Some(library) = PARSED.get() {
-            return Ok(library.clone());
-        }
-        let files = BUILT_IN
-            .iter()
-            .map(|(name, text)| CaseFile::parse(name, text))
-            .collect::<Result<_, _>>()?;
-        Ok(PARSED.get_or_init(|| Self { files }).clone())
+    /// Returns the case files that were compiled in. Each is parsed at most once per process.
+    pub fn built_in() -> Self {
+        static LIBRARY: LazyLock<Library> = LazyLock::new(|| {
+            let entries = BUILT_IN.iter().map(|(name, text)| Entry::BuiltIn {
+                name,
+                text,
+                parsed: OnceLock::new(),
+            });
+            Library {
+                entries: entries.collect(),
+            }
+        });
+        LIBRARY.clone()
     }
 
     /// Returns all files ending in `.json` below a folder.
@@ -38,10 +67,11 @@ impl Library {
     /// # Errors
     /// If a folder or file cannot be read or a file is broken.
     pub fn from_folder(folder: &Path) -> Result<Self, CaseError> {
-        let files = Self::read_each(folder)
-            .into_iter()
+        let files = Self::read_each(folder).into_iter();
+        let entries = files
+            .map(|file| file.map(Entry::Read))
             .collect::<Result<_, _>>()?;
-        Ok(Self { files })
+        Ok(Self { entries })
     }
 
     /// Returns all files ending in `.json` below a folder, each with its own result.
@@ -58,21 +88,32 @@ impl Library {
         names.into_iter().map(read).collect()
     }
 
+    /// Returns the paths of the files, without `.json`. No file is parsed for it.
+    pub fn stems(&self) -> impl Iterator<Item = &str> {
+        self.entries.iter().map(Entry::stem)
+    }
+
     /// Returns the files.
-    pub fn files(&self) -> &[CaseFile] {
-        &self.files
+    pub fn files(&self) -> impl Iterator<Item = &CaseFile> {
+        self.files_where(|_| true)
+    }
+
+    /// Returns the files with such a path, which is given without `.json`. Other files are not parsed.
+    pub fn files_where(&self, is_wanted: impl Fn(&str) -> bool) -> impl Iterator<Item = &CaseFile> {
+        let wanted = self.entries.iter().filter(move |e| is_wanted(e.stem()));
+        wanted.map(Entry::file)
     }
 
     /// Returns the cases of a profile, file by file.
     pub fn cases(&self, profile: Profile) -> impl Iterator<Item = CaseRef<'_>> {
-        self.files.iter().flat_map(move |file| file.cases(profile))
+        self.files().flat_map(move |file| file.cases(profile))
     }
 
     /// Returns all cases whose ids begin with a text. The cases of other files are not listed.
     pub fn cases_that_begin<'l>(&'l self, start: &str) -> impl Iterator<Item = CaseRef<'l>> {
         let can_begin = move |stem: &str| stem.starts_with(start) || start.starts_with(stem);
-        let files = self.files.iter().filter(move |file| can_begin(file.stem()));
-        let cases = files.flat_map(|file| file.cases(Profile::Full));
+        let cases = self.files_where(can_begin);
+        let cases = cases.flat_map(|file| file.cases(Profile::Full));
         cases.filter(move |case| case.id().starts_with(start))
     }
 
@@ -85,8 +126,8 @@ impl Library {
             let mut from = ids.range(stem..);
             from.next().is_some_and(|id| id.starts_with(stem))
         };
-        let files = self.files.iter().filter(move |file| has_some(file.stem()));
-        let cases = files.flat_map(|file| file.cases(Profile::Full));
+        let cases = self.files_where(has_some);
+        let cases = cases.flat_map(|file| file.cases(Profile::Full));
         let named = cases.map(|case| (case.id(), case));
         named.filter(move |(id, _)| ids.contains(id.as_str()))
     }
@@ -153,7 +194,7 @@ mod tests {
 
     #[test]
     fn cases_are_found_without_listing_all_files() {
-        let library = Library::built_in().expect("built-in files parse");
+        let library = Library::built_in();
         let all: Vec<String> = library.cases(Profile::Full).map(|c| c.id()).collect();
         for start in [
             "",
@@ -268,7 +309,7 @@ mod tests {
 
     #[test]
     fn every_built_in_case_builds_and_no_id_repeats() {
-        let library = Library::built_in().expect("built-in files parse");
+        let library = Library::built_in();
         let mut ids = HashSet::new();
         for case in library.cases(Profile::Full) {
             let built = case.build().expect("built-in cases build");

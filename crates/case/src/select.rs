@@ -77,8 +77,7 @@ pub fn select<'a>(
     globs: &[String],
 ) -> Result<Selection<'a>, SelectError> {
     let globs = Globs::new(globs)?;
-    let files = library.files().iter();
-    let files = files.filter(|file| globs.can_begin_with(file.stem()));
+    let files = library.files_where(|stem| globs.can_begin_with(stem));
     Ok(Selection {
         cases: files
             .flat_map(|file| file.cases(profile))

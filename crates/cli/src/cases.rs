@@ -31,7 +31,7 @@ const JUDGED_DRAWS: usize = 4096;
 /// otherwise only warnings that need no judge.
 fn warn(library: &Library, cases: &[Case]) {
     let ids: HashSet<&str> = cases.iter().map(|case| case.id.as_str()).collect();
-    let files = library.files().iter();
+    let files = library.files();
     let of_these = |file: &&CaseFile| {
         file.cases(Profile::Full)
             .any(|c| ids.contains(c.id().as_str()))
@@ -132,8 +132,7 @@ fn proposed(globs: &[String]) -> String {
         return String::new();
     };
     let mut known: BTreeSet<String> = BTreeSet::new();
-    for file in library.files() {
-        let stem = file.stem();
+    for stem in library.stems() {
         known.insert(stem.to_owned());
         known.extend(stem.split('/').next().map(str::to_owned));
     }
@@ -167,10 +166,9 @@ pub(crate) fn nearest_cases(library: &Library, word: &str) -> String {
 /// Returns the cases of a folder, or the built-in ones.
 pub(crate) fn library(folder: Option<&PathBuf>) -> Result<Library, Failure> {
     match folder {
-        Some(folder) => Library::from_folder(folder),
-        None => Library::built_in(),
+        Some(folder) => Library::from_folder(folder).map_err(Failure::usage),
+        None => Ok(Library::built_in()),
     }
-    .map_err(Failure::usage)
 }
 
 /// Builds the cases of a library whose ids match.

@@ -45,7 +45,7 @@ impl Looks<'_> {
         let records = run.records.iter().filter(|r| r.unexpected());
         let ids: BTreeSet<&str> = records.map(|r| r.case.as_str()).collect();
         let cases: HashMap<String, CaseRef<'_>> = self.library.named(&ids).collect();
-        let built_in = Library::built_in().map_err(Failure::usage)?;
+        let built_in = Library::built_in();
         for adapter in &run.header.adapters {
             let of_adapter = |r: &&mut Record| {
                 r.adapter == adapter.name && r.unexpected() && r.verdict.is_violation()

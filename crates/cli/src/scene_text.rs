@@ -225,7 +225,7 @@ mod tests {
 
     #[test]
     fn what_is_not_the_default_is_listed() {
-        let library = Library::built_in().unwrap();
+        let library = Library::built_in();
         let text_of = |id: &str| {
             let mut cases = library.cases(Profile::Full);
             let case = cases.find(|c| c.id() == id).unwrap().build().unwrap();
@@ -241,7 +241,7 @@ mod tests {
 
     #[test]
     fn every_scene_has_a_short_list() {
-        let library = Library::built_in().unwrap();
+        let library = Library::built_in();
         for file in library.files() {
             let case = file.cases(Profile::Full).next().unwrap().build().unwrap();
             let text = lines(&case.scene);

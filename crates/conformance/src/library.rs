@@ -45,14 +45,10 @@ pub fn draw_library(subject: &Subject<'_>, profile: Profile, share: Share) {
 /// # Panics
 /// If anything fails, or if nothing was drawn.
 pub fn draw_area(subject: &Subject<'_>, area: &str, profile: Profile, share: Share) {
-    let library = Library::built_in().unwrap();
+    let library = Library::built_in();
     let (mut denied, mut total) = (0, 0);
     let mut chosen = Vec::new();
-    for file in library
-        .files()
-        .iter()
-        .filter(|f| f.name().starts_with(area))
-    {
+    for file in library.files_where(|stem| stem.starts_with(area)) {
         let cases: Vec<_> = file.cases(profile).collect();
         total += cases.len();
         let step = match share {

@@ -69,7 +69,7 @@ fn overdraw([width, height]: [u32; 2]) -> Scene {
 }
 
 fn raster(c: &mut Criterion) {
-    let library = Library::built_in().expect("built-in cases parse");
+    let library = Library::built_in();
     let backend = CpuBackend::new("cpu");
     let mut bench = |name: &str, scene: &Scene, samples: usize| {
         let mut prepared = backend.prepare(scene).expect("the rasterizer prepares");

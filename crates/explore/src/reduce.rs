@@ -245,7 +245,7 @@ mod tests {
 
     /// Returns the random scene of a seed.
     fn random(flavor: &str, seed: u64) -> Candidate {
-        let library = etalon_case::Library::built_in().unwrap();
+        let library = etalon_case::Library::built_in();
         let id = format!("combined/{flavor}/seed={seed}");
         let profile = etalon_case::Profile::Full;
         let case = library.cases(profile).find(|c| c.id() == id).unwrap();

@@ -78,7 +78,7 @@ mod tests {
     /// Returns the record of a case of slanted lines without the pixels of some columns.
     fn lacking(api: Api, columns: std::ops::Range<usize>) -> Record {
         let id = "cull/slanted-lines/blend=opaque/topology=line-list";
-        let library = Library::built_in().expect("built-in files parse");
+        let library = Library::built_in();
         let found = library.cases(Profile::Full).find(|case| case.id() == id);
         let case = found.and_then(|case| case.build().ok()).expect("it builds");
         let backend = CpuBackend::new("cpu");

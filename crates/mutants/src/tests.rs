@@ -43,7 +43,7 @@ fn every_mutant_is_named_explained_and_sourced() {
 /// A coarse depth buffer without a bug rejects only fragments that fail the depth test.
 #[test]
 fn a_right_coarse_depth_changes_no_frame() {
-    let library = etalon_case::Library::built_in().unwrap();
+    let library = etalon_case::Library::built_in();
     let areas = ["depth/", "stencil/", "multisample/depth", "size/hierarchy"];
     let cases: Vec<_> = library
         .cases(etalon_case::Profile::Quick)

@@ -9,7 +9,7 @@ use etalon_judge::{pictured, round_trips};
 use etalon_record::{AdapterRecord, Header, Settings, header_line, selection_digest};
 use etalon_webgpu::adapter;
 use std::collections::{BTreeSet, HashMap, HashSet};
-use std::sync::OnceLock;
+use std::sync::LazyLock;
 
 /// The time limit of a case, in seconds.
 const TIMEOUT: f64 = 60.0;
@@ -24,7 +24,7 @@ const ROUND_TRIPS: &str = "capabilities/round-trip/format=";
 /// # Errors
 /// If the selection is empty, a glob does not parse, or the device lacks a limit.
 pub(crate) fn open(opening: Opening) -> Result<(Session, Opened), String> {
-    let library = library()?;
+    let library = &*LIBRARY;
     let profile = match opening.profile.as_str() {
         "quick" => Profile::Quick,
         "full" => Profile::Full,
@@ -117,15 +117,8 @@ pub(crate) fn open(opening: Opening) -> Result<(Session, Opened), String> {
     ))
 }
 
-/// Returns the library, which lives as long as the page.
-fn library() -> Result<&'static Library, String> {
-    static LIBRARY: OnceLock<Library> = OnceLock::new();
-    if let Some(library) = LIBRARY.get() {
-        return Ok(library);
-    }
-    let built_in = Library::built_in().map_err(|error| error.to_string())?;
-    Ok(LIBRARY.get_or_init(|| built_in))
-}
+/// The library, which lives as long as the page.
+static LIBRARY: LazyLock<Library> = LazyLock::new(Library::built_in);
 
 /// Returns the ids of the round trips that cases depend on. For many cases it returns all of them: building
 /// the cases to find out takes longer than drawing round trips that no case needs.

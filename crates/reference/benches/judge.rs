@@ -26,7 +26,7 @@ fn case(library: &Library, id: &str) -> Case {
 }
 
 fn judge(c: &mut Criterion) {
-    let library = Library::built_in().expect("built-in cases parse");
+    let library = Library::built_in();
     let backend = CpuBackend::new("cpu");
     for id in IDS {
         let scene = case(&library, id).scene;
@@ -67,7 +67,7 @@ fn small(library: &Library) -> Vec<Scene> {
 }
 
 fn all_cases(c: &mut Criterion) {
-    let library = Library::built_in().expect("built-in cases parse");
+    let library = Library::built_in();
     let limits = CpuBackend::new("cpu").limits().clone();
     let scenes = small(&library);
     let mut group = c.benchmark_group("cases of 16 by 16 texels");

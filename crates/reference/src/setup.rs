@@ -56,7 +56,7 @@ pub(crate) fn draw(
     vertices.enter(&draw.viewport);
     let draw_geometry = draw_geometry(draw);
     let assembled = draw.primitives();
-    // Otherwise most primitives can be far from all judged texels.
+    // On a lattice, most primitives can be far from all judged texels.
     if context.keeps_misses || context.lattice == Lattice::ALL {
         primitives.reserve_exact(assembled.len());
     }

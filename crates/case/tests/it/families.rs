@@ -23,7 +23,7 @@ use simulation::{
 /// The built-in cases below a path that the simulation can draw, without measured cases, whose meshes and
 /// pictures are too large for it.
 fn cases(prefix: &str) -> Vec<Case> {
-    let library = Library::built_in().expect("built-in files parse");
+    let library = Library::built_in();
     library
         .cases(Profile::Full)
         .filter(|c| c.id().starts_with(prefix))
@@ -39,7 +39,7 @@ fn cases(prefix: &str) -> Vec<Case> {
 
 #[test]
 fn every_area_holds_its_cases() {
-    let library = Library::built_in().expect("built-in files parse");
+    let library = Library::built_in();
     let mut counts = BTreeMap::new();
     for case in library.cases(Profile::Full) {
         let id = case.id();
@@ -72,7 +72,7 @@ fn every_area_holds_its_cases() {
 /// For every file except one, whose cases hang on SwiftShader until the time limit of a minute.
 #[test]
 fn the_quick_profile_takes_some_of_every_file() {
-    let library = Library::built_in().expect("built-in files parse");
+    let library = Library::built_in();
     let mut total = 0;
     for file in library.files() {
         let full: BTreeSet<String> = file.cases(Profile::Full).map(|c| c.id()).collect();
@@ -105,7 +105,7 @@ fn the_quick_profile_takes_some_of_every_file() {
 
 #[test]
 fn every_file_says_what_it_proves_and_by_which_clauses() {
-    let library = Library::built_in().expect("built-in files parse");
+    let library = Library::built_in();
     let apis = [
         "Vulkan",
         "OpenGL 3.3",

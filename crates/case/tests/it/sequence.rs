@@ -32,7 +32,7 @@ fn differing(a: &Draw, b: &Draw) -> Option<String> {
 
 #[test]
 fn every_state_of_a_draw_has_its_file() {
-    let library = Library::built_in().expect("built-in files parse");
+    let library = Library::built_in();
     let mut changed = BTreeSet::new();
     for file in library.files() {
         if !file.name().starts_with("sequence/state/") {
@@ -73,7 +73,7 @@ fn every_state_of_a_draw_has_its_file() {
 
 #[test]
 fn draws_take_turns_in_a_pass_over_passes_and_over_framebuffers() {
-    let library = Library::built_in().expect("built-in files parse");
+    let library = Library::built_in();
     let cases = library.cases(Profile::Full);
     for case in cases.filter(|c| c.id().starts_with("sequence/state/")) {
         let case = case.build().expect("built-in cases build");

@@ -42,7 +42,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         }
     }
     if arguments.paths.is_empty() {
-        files = library(None)?.files().to_vec();
+        files = library(None)?.files().cloned().collect();
     }
     if files.is_empty() && broken.is_empty() {
         return Err(Failure::nothing("there are no case files"));

@@ -254,7 +254,7 @@ fn scene_of(case: &CaseRef<'_>, turn: usize) -> Scenes {
 
 #[test]
 fn kernels_draw_built_in_cases_as_spans_do() {
-    let library = Library::built_in().expect("built-in files parse");
+    let library = Library::built_in();
     let quick: Vec<_> = library.cases(Profile::Quick).collect();
     let scenes = |i: usize| scene_of(&quick[i], i);
     let equal = compare_all(quick.len(), scenes, machines);

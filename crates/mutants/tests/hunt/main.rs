@@ -113,7 +113,7 @@ struct Cases {
 impl Cases {
     /// The cases of some areas in the library's order.
     fn new(profile: Profile, area: impl Fn(&str) -> bool) -> Self {
-        let library = Library::built_in().unwrap();
+        let library = Library::built_in();
         let chosen = library
             .cases(profile)
             .filter(|c| area(c.id().split('/').next().unwrap()))

@@ -55,7 +55,7 @@ fn check(id: &str, scene: &Scene, limits: &Limits, rules: &Rules) {
 #[test]
 fn samples_of_a_picture_are_what_each_of_them_is_alone() {
     let everything = std::env::var_os("ETALON_TESTS").is_some_and(|v| v == "all");
-    let library = Library::built_in().expect("built-in files parse");
+    let library = Library::built_in();
     let apis = [Api::Vulkan, Api::OpenGl, Api::OpenGlEs, Api::WebGpu];
     let mut checked = 0;
     for file in library.files() {

@@ -139,7 +139,7 @@ fn a_shared_diagonal_is_counted_exactly_once_where_the_rules_say_so() {
 
 #[test]
 fn a_scene_without_decisions_costs_no_second_world() {
-    let library = etalon_case::Library::built_in().expect("built in");
+    let library = etalon_case::Library::built_in();
     let reference = library.cases(Profile::Full).next().expect("a case");
     let case = reference.build().expect("builds");
     let limits = limits(Api::Vulkan);

@@ -34,7 +34,7 @@ fn all_limits() -> Vec<Limits> {
 
 #[test]
 fn rules_that_agree_on_what_was_asked_give_the_same_sets() {
-    let library = Library::built_in().expect("built-in cases parse");
+    let library = Library::built_in();
     let quick = library.cases(Profile::Quick);
     let is_small = |id: &str| {
         !["methods/", "perf/", "size/"]
@@ -108,7 +108,7 @@ const ROUTES: [&str; 4] = ["paths/", "size/indices/", "sequence/state/", "cull/"
 
 #[test]
 fn scenes_with_equal_keys_have_equal_sets() {
-    let library = Library::built_in().expect("built-in cases parse");
+    let library = Library::built_in();
     let mut first: HashMap<SceneKey, Scene> = HashMap::new();
     let geometries = Geometries::default();
     let mut compared = 0;
@@ -140,7 +140,7 @@ fn scenes_with_equal_keys_have_equal_sets() {
 
 #[test]
 fn a_key_tells_what_is_drawn_and_not_how() {
-    let library = Library::built_in().expect("built-in cases parse");
+    let library = Library::built_in();
     let named = library
         .cases(Profile::Quick)
         .find(|case| case.id().starts_with("depth/"));

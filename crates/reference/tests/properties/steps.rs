@@ -14,7 +14,7 @@ const CONSTANTS: [u32; 8] = [1, 3, 10, 100, 1000, 4000, 12000, 30000];
 const UNBIASED: u32 = 98;
 
 fn linear() -> Scene {
-    let library = Library::built_in().expect("the library reads");
+    let library = Library::built_in();
     let id = "depth/bias-linear/format=depth16unorm";
     let case = library.cases(Profile::Full).find(|c| c.id() == id);
     case.expect("the case").build().expect("it builds").scene

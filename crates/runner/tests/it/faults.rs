@@ -436,7 +436,7 @@ fn a_worker_that_never_comes_back_leaves_a_record_for_every_case() {
 
 #[test]
 fn cases_whose_round_trip_fails_are_not_drawn_however_it_fails() {
-    let library = Library::built_in().unwrap();
+    let library = Library::built_in();
     for (fault, cause) in [
         (
             "wrong@read",
@@ -467,7 +467,7 @@ fn cases_whose_round_trip_fails_are_not_drawn_however_it_fails() {
 
 #[test]
 fn a_round_trip_that_succeeds_or_is_not_supported_blocks_nothing() {
-    let library = Library::built_in().unwrap();
+    let library = Library::built_in();
     for fault in ["none", "not-supported@prepare"] {
         for jobs in [1, 4] {
             let (records, summary) = run_with(launch(&format!("{TRIP}{fault}")), jobs, &[&library]);
@@ -480,7 +480,7 @@ fn a_round_trip_that_succeeds_or_is_not_supported_blocks_nothing() {
 
 #[test]
 fn a_driver_that_dies_in_its_round_trip_and_never_comes_back_leaves_every_record() {
-    let library = Library::built_in().unwrap();
+    let library = Library::built_in();
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("starts");
     let mut launch = launch(&format!("{TRIP}abort@submit"));

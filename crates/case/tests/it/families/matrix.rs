@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// The cases of the matrix by their cell and size.
 fn cells(profile: Profile) -> BTreeMap<String, Vec<Case>> {
-    let library = Library::built_in().expect("built-in files parse");
+    let library = Library::built_in();
     let mut cells: BTreeMap<String, Vec<Case>> = BTreeMap::new();
     for case in library.cases(profile) {
         let id = case.id();
