@@ -48,7 +48,7 @@ pub struct Library {
 
 impl Library {
     /// Returns the case files that were compiled in. Each is parsed at most once per process.
-    pub fn built_in() -> Self {
+    pub fn built_in() -> &'static Self {
         static LIBRARY: LazyLock<Library> = LazyLock::new(|| {
             let entries = BUILT_IN.iter().map(|(name, text)| Entry::BuiltIn {
                 name,
@@ -59,7 +59,7 @@ impl Library {
                 entries: entries.collect(),
             }
         });
-        LIBRARY.clone()
+        &LIBRARY
     }
 
     /// Returns all files ending in `.json` below a folder.

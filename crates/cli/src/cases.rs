@@ -167,7 +167,7 @@ pub(crate) fn nearest_cases(library: &Library, word: &str) -> String {
 pub(crate) fn library(folder: Option<&PathBuf>) -> Result<Library, Failure> {
     match folder {
         Some(folder) => Library::from_folder(folder).map_err(Failure::usage),
-        None => Ok(Library::built_in()),
+        None => Ok(Library::built_in().clone()),
     }
 }
 

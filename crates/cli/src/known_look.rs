@@ -60,7 +60,7 @@ impl Looks<'_> {
                     "{}: failures to compare with findings: {count}",
                     adapter.name
                 );
-                self.mark_all(failing, &cases, adapter, launch, &built_in)?;
+                self.mark_all(failing, &cases, adapter, launch, built_in)?;
             }
         }
         run.replace_in(folder).map_err(Failure::incomplete)?;

@@ -219,7 +219,7 @@ mod tests {
     fn built(glob: &str) -> Vec<Case> {
         let library = Library::built_in();
         let globs = [glob.to_owned()];
-        let selection = etalon_case::select(&library, Profile::Full, &globs).expect("a glob");
+        let selection = etalon_case::select(library, Profile::Full, &globs).expect("a glob");
         let cases = selection.cases.iter();
         cases.map(|c| c.build().expect("a case")).collect()
     }
@@ -258,7 +258,7 @@ mod tests {
         );
         assert_eq!(leaned("capabilities/round-trip"), BTreeSet::new());
         let library = Library::built_in();
-        let trips = round_trips(&[&library, &library], &built("blend/factors")).expect("trips");
+        let trips = round_trips(&[library, library], &built("blend/factors")).expect("trips");
         let ids: BTreeSet<&str> = trips.iter().map(|c| c.id.as_str()).collect();
         assert_eq!(trips.len(), 2, "each once: {ids:?}");
     }

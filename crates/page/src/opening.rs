@@ -9,7 +9,6 @@ use etalon_judge::{pictured, round_trips};
 use etalon_record::{AdapterRecord, Header, Settings, header_line, selection_digest};
 use etalon_webgpu::adapter;
 use std::collections::{BTreeSet, HashMap, HashSet};
-use std::sync::LazyLock;
 
 /// The time limit of a case, in seconds.
 const TIMEOUT: f64 = 60.0;
@@ -24,7 +23,7 @@ const ROUND_TRIPS: &str = "capabilities/round-trip/format=";
 /// # Errors
 /// If the selection is empty, a glob does not parse, or the device lacks a limit.
 pub(crate) fn open(opening: Opening) -> Result<(Session, Opened), String> {
-    let library = &*LIBRARY;
+    let library = Library::built_in();
     let profile = match opening.profile.as_str() {
         "quick" => Profile::Quick,
         "full" => Profile::Full,
@@ -116,9 +115,6 @@ pub(crate) fn open(opening: Opening) -> Result<(Session, Opened), String> {
         opened,
     ))
 }
-
-/// The library, which lives as long as the page.
-static LIBRARY: LazyLock<Library> = LazyLock::new(Library::built_in);
 
 /// Returns the ids of the round trips that cases depend on. For many cases it returns all of them: building
 /// the cases to find out takes longer than drawing round trips that no case needs.

@@ -29,7 +29,7 @@ fn judge(c: &mut Criterion) {
     let library = Library::built_in();
     let backend = CpuBackend::new("cpu");
     for id in IDS {
-        let scene = case(&library, id).scene;
+        let scene = case(library, id).scene;
         let mut group = c.benchmark_group(id.split('=').next().unwrap_or(id));
         for api in [Api::Vulkan, Api::WebGpu] {
             let mut limits = backend.limits().clone();
@@ -69,7 +69,7 @@ fn small(library: &Library) -> Vec<Scene> {
 fn all_cases(c: &mut Criterion) {
     let library = Library::built_in();
     let limits = CpuBackend::new("cpu").limits().clone();
-    let scenes = small(&library);
+    let scenes = small(library);
     let mut group = c.benchmark_group("cases of 16 by 16 texels");
     group.throughput(Throughput::Elements(scenes.len() as u64));
     group.bench_function("judgements", |b| {

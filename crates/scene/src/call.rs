@@ -314,7 +314,7 @@ mod tests {
                 },
             );
             let mesh = draw.mesh.clone();
-            *draw.mesh = mesh.instanced(&colors);
+            draw.mesh = mesh.instanced(&colors).into();
             let call = draw.call();
             let first: Vec<_> = call.vertices.iter().map(|v| v.position).collect();
             let expected: Vec<_> = mesh.vertices.iter().map(|v| v.position).collect();

@@ -95,7 +95,7 @@ impl Mesh {
 }
 
 /// A mesh that the copies of a scene share until one of them changes it.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct SharedMesh(Arc<Mesh>);
 
 impl From<Mesh> for SharedMesh {
@@ -115,12 +115,6 @@ impl Deref for SharedMesh {
 impl DerefMut for SharedMesh {
     fn deref_mut(&mut self) -> &mut Mesh {
         Arc::make_mut(&mut self.0)
-    }
-}
-
-impl PartialEq for SharedMesh {
-    fn eq(&self, other: &Self) -> bool {
-        *self.0 == *other.0
     }
 }
 

@@ -16,7 +16,7 @@ fn called(bug: impl Fn(&mut Call<'_>, &Draw) + Send + Sync + 'static) -> Plant {
         let asked = draw.clone();
         let mut call = asked.call();
         bug(&mut call, &asked);
-        *draw.mesh = fetched(&call);
+        draw.mesh = fetched(&call).into();
         // A backend would otherwise apply the numbers to the fetched mesh again.
         draw.fetch = Fetch::default();
     })

@@ -9,6 +9,7 @@ use etalon_reference::{
 use etalon_scene::{Fetch, Path, Scene, SharedMesh, Vertex};
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 /// Limits of every API, with two grids of sub-pixels and both ways of reading.
 fn all_limits() -> Vec<Limits> {
@@ -111,25 +112,28 @@ fn scenes_with_equal_keys_have_equal_sets() {
     let library = Library::built_in();
     let mut first: HashMap<SceneKey, Scene> = HashMap::new();
     let geometries = Geometries::default();
+    let all_limits = all_limits();
     let mut compared = 0;
     for start in ROUTES {
-        let cases = library.cases_that_begin(start);
-        for case in cases.filter(|case| case.id().starts_with(start)).step_by(7) {
+        for case in library.cases_that_begin(start).step_by(7) {
             let scene = case.build().expect("it builds").judged_scene().clone();
             let texels = scene.attachments.iter().map(|a| a.size[0] * a.size[1]);
             if texels.sum::<u32>() > 20_000 {
                 continue;
             }
-            let Some(other) = first.get(&SceneKey::of(&scene)) else {
-                first.insert(SceneKey::of(&scene), scene);
-                continue;
+            let other = match first.entry(SceneKey::of(&scene)) {
+                Entry::Vacant(free) => {
+                    free.insert(scene);
+                    continue;
+                }
+                Entry::Occupied(other) => other.into_mut(),
             };
             if *other == scene {
                 continue;
             }
-            let limits = &all_limits()[compared % all_limits().len()];
+            let limits = &all_limits[compared % all_limits.len()];
             let rules = Rules::of(limits);
-            let [a, b] = [other, &scene]
+            let [a, b] = [&*other, &scene]
                 .map(|scene| legal_set_of_texels(scene, limits, &rules, Texels::All, &geometries));
             assert_eq!(a, b, "{}", case.id());
             compared += 1;

@@ -450,7 +450,7 @@ fn cases_whose_round_trip_fails_are_not_drawn_however_it_fails() {
         ("resource@prepare", "is resource-error: "),
     ] {
         for jobs in [1, 4] {
-            let (records, summary) = run_with(launch(&format!("{TRIP}{fault}")), jobs, &[&library]);
+            let (records, summary) = run_with(launch(&format!("{TRIP}{fault}")), jobs, &[library]);
             for record in &records {
                 assert_eq!(record.verdict, Verdict::Blocked, "{fault}: {record:?}");
                 let trip = "capabilities/round-trip/format=rgba8unorm";
@@ -470,7 +470,7 @@ fn a_round_trip_that_succeeds_or_is_not_supported_blocks_nothing() {
     let library = Library::built_in();
     for fault in ["none", "not-supported@prepare"] {
         for jobs in [1, 4] {
-            let (records, summary) = run_with(launch(&format!("{TRIP}{fault}")), jobs, &[&library]);
+            let (records, summary) = run_with(launch(&format!("{TRIP}{fault}")), jobs, &[library]);
             let drawn = |r: &Record| r.verdict == Verdict::Pass;
             assert!(records.iter().all(drawn), "{fault}: {records:?}");
             assert_eq!(summary.unexpected, 0);
@@ -485,7 +485,7 @@ fn a_driver_that_dies_in_its_round_trip_and_never_comes_back_leaves_every_record
     let file = folder.path().join("starts");
     let mut launch = launch(&format!("{TRIP}abort@submit"));
     fail_starts(&mut launch, &file, "2 3 4 5 6 7 8 9");
-    let (records, summary) = run_with(launch, 4, &[&library]);
+    let (records, summary) = run_with(launch, 4, &[library]);
     let blocked = |r: &Record| r.verdict == Verdict::Blocked;
     assert!(records.iter().all(blocked), "{records:?}");
     assert_eq!(summary.unexpected, u64::from(CASES));
