@@ -258,13 +258,16 @@ impl WorkerProcess {
     }
 
     fn wait(&mut self, limit: Duration) -> Option<ExitStatus> {
-        let step = Duration::from_millis(10);
+        let mut step = Duration::from_millis(1);
         let start = Instant::now();
         loop {
             let status = lock(&self.child).try_wait();
             match status {
                 Ok(Some(status)) => return Some(status),
-                Ok(None) if start.elapsed() < limit => thread::sleep(step),
+                Ok(None) if start.elapsed() < limit => {
+                    thread::sleep(step);
+                    step = (2 * step).min(POLL_INTERVAL / 10);
+                }
                 _ => return None,
             }
         }

@@ -20,6 +20,8 @@ pub struct Worker {
     pub hello: Hello,
     /// The release of its driver, if the adapter's description states it.
     pub release: Option<Release>,
+    /// The time from its start until its adapter was open.
+    pub(crate) opening: Duration,
     pub(crate) process: WorkerProcess,
 }
 
@@ -29,11 +31,13 @@ impl Worker {
     /// # Errors
     /// If the program cannot be started, reports that its adapter is unavailable, or does not answer.
     pub fn start(launch: &Launch) -> Result<Self, StartError> {
+        let begun = Instant::now();
         let mut process = WorkerProcess::spawn(launch)?;
         match process.response(launch.patience) {
             Ok(Response::Hello(Ok(hello))) => Ok(Self {
                 hello: *hello,
                 release: launch.release.clone(),
+                opening: begun.elapsed(),
                 process,
             }),
             Ok(Response::Hello(Err(unavailable))) => Err(StartError::Unavailable(unavailable)),

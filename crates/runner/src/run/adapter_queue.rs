@@ -42,6 +42,8 @@ pub(super) struct AdapterQueue {
     threads: AtomicUsize,
     /// The worker that was started to discover the adapter, and is still running.
     running: Mutex<Option<Worker>>,
+    /// The time that this worker took to open the adapter.
+    opening: Duration,
     state: Mutex<State>,
     written: AtomicU64,
 }
@@ -88,6 +90,7 @@ impl AdapterQueue {
         numbers.retain(|number| !first.numbers.contains(number));
         let adapter = AdapterRecord::from(&worker);
         Self {
+            opening: worker.opening,
             running: Mutex::new(Some(worker)),
             first,
             ..Self::with(numbers, adapter, launch, expectations)
@@ -141,6 +144,7 @@ impl AdapterQueue {
             taken: Mutex::default(),
             threads: AtomicUsize::new(0),
             running: Mutex::default(),
+            opening: Duration::ZERO,
             state: Mutex::default(),
             written: AtomicU64::new(0),
         }
@@ -184,10 +188,24 @@ impl AdapterQueue {
         self.round_trips.get()
     }
 
-    /// Returns true if there is work for a free thread.
-    fn has_more(&self) -> bool {
-        let before = !self.first.numbers.is_empty() && self.round_trips.get().is_none();
-        before || *lock(&self.taken) < self.numbers.len()
+    /// Returns the number of cases that no thread has taken.
+    fn left(&self) -> usize {
+        let before = match self.round_trips.get() {
+            Some(_) => 0,
+            None => self.first.numbers.len(),
+        };
+        before + self.numbers.len() - *lock(&self.taken)
+    }
+
+    /// Returns true if one more thread saves more time than its worker takes to open the adapter. The time
+    /// left is estimated from the records so far.
+    fn pays_another(&self, threads: usize) -> bool {
+        let Some(begun) = self.state().begun else {
+            return false;
+        };
+        let done = self.written.load(Ordering::Relaxed) + 1;
+        let left = begun.elapsed().as_secs_f64() * self.left() as f64 / done as f64;
+        left > self.opening.as_secs_f64() * (threads + 1) as f64
     }
 
     /// Takes the worker that was started to discover the adapter.
@@ -280,14 +298,36 @@ impl AdapterQueue {
     }
 }
 
-/// Returns the queue that a free thread takes from: of those with cases left, the one with the fewest
+/// What a free thread does.
+pub(super) enum Next<'q> {
+    Draw(&'q AdapterQueue),
+    /// It waits, since the threads of the queues will be done before another worker could help them.
+    Wait,
+    End,
+}
+
+/// Returns what a free thread does: of the queues with cases left, it takes from the one with the fewest
 /// threads.
-pub(super) fn next(queues: &[AdapterQueue]) -> Option<&AdapterQueue> {
-    // Two threads can choose the same queue at the same time; then both take from it.
-    let threads = |queue: &AdapterQueue| queue.threads.load(Ordering::Relaxed);
-    let open = queues.iter().filter(|q| q.has_more());
-    let open = open.filter(|q| !q.launch.alone || threads(q) == 0);
-    let queue = open.min_by_key(|q| threads(q))?;
-    queue.threads.fetch_add(1, Ordering::Relaxed);
-    Some(queue)
+pub(super) fn next(queues: &[AdapterQueue]) -> Next<'_> {
+    let open = queues.iter().filter(|queue| queue.left() > 0);
+    let open = open.map(|queue| (queue, queue.threads.load(Ordering::Relaxed)));
+    let mut open = open
+        .filter(|(queue, threads)| !queue.launch.alone || *threads == 0)
+        .peekable();
+    if open.peek().is_none() {
+        return Next::End;
+    }
+    let useful = open.filter(|(queue, threads)| *threads == 0 || queue.pays_another(*threads));
+    let Some((queue, threads)) = useful.min_by_key(|(_, threads)| *threads) else {
+        return Next::Wait;
+    };
+    let entered =
+        queue
+            .threads
+            .compare_exchange(threads, threads + 1, Ordering::Relaxed, Ordering::Relaxed);
+    match entered {
+        Ok(_) => Next::Draw(queue),
+        // Another thread was faster, and may be enough.
+        Err(_) => Next::Wait,
+    }
 }

@@ -1,6 +1,6 @@
 //! Executing a plan: the folder, the shared state and the threads.
 
-use super::adapter_queue::{self, AdapterQueue, First};
+use super::adapter_queue::{self, AdapterQueue, First, Next};
 use super::budget::Budget;
 use super::plan::{Plan, Rechecks, RunError, RunSummary};
 use super::shared::Shared;
@@ -13,6 +13,10 @@ use etalon_judge::{Judge, Truths, pictured};
 use etalon_record::{LossKind, Record, RunWriter, selection_digest};
 use std::collections::{HashMap, HashSet};
 use std::sync::{Mutex, RwLock};
+use std::time::Duration;
+
+/// The time that a thread without work waits before it looks again.
+const WAITING: Duration = Duration::from_millis(5);
 
 /// Runs every case on every adapter. Several threads report events.
 ///
@@ -103,11 +107,15 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
     });
     let queues: Vec<AdapterQueue> = running.chain(dead).collect();
     share(plan.options.jobs, || {
-        while !shared.stopped()
-            && let Some(queue) = adapter_queue::next(&queues)
-        {
-            WorkerLoop::new(&shared, queue).run();
-            queue.leave();
+        while !shared.stopped() {
+            match adapter_queue::next(&queues) {
+                Next::Draw(queue) => {
+                    WorkerLoop::new(&shared, queue).run();
+                    queue.leave();
+                }
+                Next::Wait => std::thread::sleep(WAITING),
+                Next::End => break,
+            }
         }
     });
     if let Some(error) = lock(&shared.error).take() {
