@@ -97,6 +97,15 @@ pub fn kernels(scene: &Scene) -> Vec<String> {
     lines(scene, LEAST_TEXELS)
 }
 
+/// Prepares a scene of any size for its kernels.
+///
+/// # Errors
+/// The reason why the span code draws the scene.
+pub fn in_tiles(scene: &Scene, machine: Machine) -> Result<impl Prepared + use<>, &'static str> {
+    let plan = Plan::new(scene, 0)?;
+    Ok(TiledScene::new(scene.clone(), plan, machine))
+}
+
 impl Backend for CpuBackend {
     fn adapter(&self) -> &AdapterInfo {
         &self.info

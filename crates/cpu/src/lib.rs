@@ -20,10 +20,8 @@ pub mod steps;
 mod surface;
 mod tiles;
 
-pub use backend::{CpuBackend, kernels};
+pub use backend::{CpuBackend, in_tiles, kernels};
 pub use limits::{Limits, limits};
 pub use prepared::PreparedScene;
 pub use surface::Surface;
-
-#[cfg(test)]
-mod tests;
+pub use tiles::Machine;

@@ -7,11 +7,12 @@
 use crate::aspects::reaches;
 use crate::hooks::code;
 use crate::list::bugs;
-use crate::memory::{Area, copy, texel_rows};
+use crate::memory::{Area, Memory, copy, texel_rows};
 use crate::plant::{Plant, memory};
 use CompareFunction::{Always, Equal, Greater, GreaterEqual, Less, LessEqual};
-use etalon_cpu::Surface;
+use etalon_backend::Prepared;
 use etalon_cpu::steps::{Moment, Stored};
+use etalon_cpu::{PreparedScene, Surface};
 use etalon_frame::{Aspect, ChannelEncoding};
 use etalon_pipeline::{Plain, window_position};
 use etalon_scene::{
@@ -305,6 +306,14 @@ impl Coarse {
     }
 }
 
+/// Prepares a scene with a coarse depth buffer that has no bug, which changes no frame.
+pub fn with_faithful_hierarchy(scene: Scene) -> impl Prepared {
+    let mut coarse = Coarse::default();
+    let memory =
+        move |moment, scene: &Scene, stored: Stored<'_>| coarse.reached(moment, scene, stored);
+    PreparedScene::new(scene, Memory::new(memory))
+}
+
 fn coarse(unit: Unit) -> Plant {
     memory(move |coarse: &mut Coarse, moment, scene, stored| {
         coarse.unit = unit;
@@ -392,9 +401,4 @@ bugs! {
         coarse(Unit { misses_edges: true, ..Unit::default() });
     "stencil-lost: Where tiles are rejected, fragments that fail the depth test leave stencil." =>
         coarse(Unit { loses_stencil: true, ..Unit::default() });
-}
-
-#[cfg(test)]
-pub(super) fn faithful() -> Plant {
-    coarse(Unit::default())
 }

@@ -67,6 +67,7 @@ mod upload;
 mod viewport;
 
 pub use backend::MutantBackend;
+pub use hierarchy::with_faithful_hierarchy;
 pub use mutant::Mutant;
 
 use list::List;
@@ -97,6 +98,3 @@ pub fn mutants() -> &'static [Mutant] {
     });
     &ALL
 }
-
-#[cfg(test)]
-mod tests;

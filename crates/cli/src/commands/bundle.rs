@@ -8,6 +8,7 @@ use crate::flags::Format;
 use crate::interruption::listen;
 use crate::out_folder::apart;
 use crate::output::{print_json, say, summarize};
+use crate::processors::processors;
 use crate::provenance;
 use crate::recorded_frame::recorded_frame;
 use crate::reducing::{Failing, FailingArguments, started};
@@ -21,11 +22,12 @@ use etalon_bundle::{
 use etalon_case::Case;
 use etalon_diagnose::{Subject, Symptom};
 use etalon_explore::{Candidate, states};
+use etalon_frame::threads::each;
 use etalon_frame::{ChannelMismatch, Frame, WrongTexel};
 use etalon_judge::{Judge, Judged, judge_texel};
 use etalon_record::{AdapterRecord, Finding, Machine, Record, Source};
 use etalon_report::{ReducedCase, story_text};
-use etalon_runner::{Launch, Recorded, Worker, smallest};
+use etalon_runner::{Launch, Recorded, StartError, Worker, smallest};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -36,6 +38,10 @@ const CHECKED: usize = 8;
 const BUG: i32 = 1;
 /// The number of processes that draw the case to count how often it fails.
 const RUNS: u32 = 20;
+/// The same number for adapters that have one worker at a time: each is the start of a browser.
+const RUNS_ALONE: u32 = 5;
+/// The number of these processes that run at the same time.
+const AT_ONCE: usize = 4;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -539,13 +545,21 @@ impl Bundled<'_> {
     /// Returns the number of processes in which the case fails with its symptom, and the number of all
     /// processes.
     fn frequency(&self, driver: Driver<'_>) -> Result<[u32; 2], Failure> {
-        let mut failed = 0;
-        for _ in 0..RUNS {
-            let mut worker = Worker::start(driver.launch).map_err(Failure::incomplete)?;
+        let (runs, at_once) = match driver.launch.alone {
+            true => (RUNS_ALONE, 1),
+            false => (RUNS, processors().min(AT_ONCE)),
+        };
+        let fails = |_: &u32| {
+            let mut worker = Worker::start(driver.launch)?;
             let (record, _) = worker.record(self.case, driver.timeout);
-            failed += u32::from(self.symptom.covers(&Symptom::of(&record)));
+            Ok(self.symptom.covers(&Symptom::of(&record)))
+        };
+        let numbers: Vec<u32> = (0..runs).collect();
+        let mut failed = 0;
+        for fails in each(at_once, &numbers, fails) {
+            failed += u32::from(fails.map_err(|e: StartError| Failure::incomplete(e))?);
         }
-        Ok([failed, RUNS])
+        Ok([failed, runs])
     }
 
     /// Returns the newest release of a line, and whether it draws the case wrong.

@@ -38,7 +38,8 @@ mod work;
 
 pub(crate) use listing::lines;
 pub(crate) use plan::Plan;
-pub(crate) use scene::{Machine, TiledScene};
+pub use scene::Machine;
+pub(crate) use scene::TiledScene;
 pub(crate) use threads::on_threads;
 
 /// The width and height of a tile in texels.
@@ -46,6 +47,3 @@ const TILE: usize = 64;
 
 /// The texels of a tile.
 const AREA: usize = TILE * TILE;
-
-#[cfg(test)]
-mod tests;

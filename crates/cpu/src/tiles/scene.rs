@@ -30,14 +30,16 @@ const CLEARED: usize = 1 << 22;
 
 /// The vector instructions and the threads that kernels use.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Machine {
-    pub(crate) level: Level,
-    pub(crate) threads: usize,
+pub struct Machine {
+    /// The vector instructions.
+    pub level: Level,
+    /// The number of threads, at least 1.
+    pub threads: usize,
 }
 
 impl Machine {
     /// Returns all vector instructions and threads of this machine.
-    pub(crate) fn whole() -> Self {
+    pub fn whole() -> Self {
         Self {
             level: Level::new(),
             threads: available(),

@@ -10,7 +10,7 @@ pub(crate) fn sample(backend: &dyn Backend) {
     let (profile, per_file) = if is(backend, "softpipe") {
         (Profile::Full, 2)
     } else {
-        (Profile::Quick, 3)
+        (Profile::Quick, 2)
     };
     draw_library(
         &Subject::new(backend, &[]),

@@ -5,6 +5,9 @@
 //! all cases of its area, with `ETALON_TESTS=all` those of all areas, and none may fail.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
+mod coarse;
+mod names;
+
 use etalon_backend::Backend;
 use etalon_case::{Case, Library, Profile};
 use etalon_cpu::CpuBackend;

@@ -7,7 +7,7 @@ use etalon_conformance::{Share, Subject, draw_area, draw_library, run_all};
 
 pub(crate) fn sample(backend: &dyn Backend) {
     let subject = Subject::new(backend, &[]);
-    draw_library(&subject, Profile::Quick, Share::sample(6));
+    draw_library(&subject, Profile::Quick, Share::sample(4));
 }
 
 /// One pass with the layer: every check, then cases of every file.
@@ -20,7 +20,7 @@ fn the_validation_layer_is_silent() {
     draw_library(
         &Subject::new(&backend, &[]),
         Profile::Full,
-        Share::sample(4),
+        Share::sample(3),
     );
 }
 

@@ -1,10 +1,9 @@
 //! Comparisons of the kernels with the span code.
 
-use super::{Machine, Plan, TiledScene};
-use crate::PreparedScene;
-use crate::steps::Faithful;
 use etalon_backend::Prepared;
 use etalon_case::{CaseFile, CaseRef, Library, Profile};
+use etalon_cpu::steps::Faithful;
+use etalon_cpu::{Machine, PreparedScene, in_tiles};
 use etalon_frame::Frame;
 use etalon_scene::{Contents, Scene, Shader};
 use fearless_simd::{Level, Simd};
@@ -47,16 +46,16 @@ fn compare(
 ) -> Result<Option<String>, &'static str> {
     let mut scene = scene.clone();
     scene.read = (0..scene.attachments.len()).collect();
-    Plan::new(&scene, 0)?;
-    let expected = drawn(PreparedScene::new(scene.clone(), Faithful));
+    let mut expected = None;
     for (name, machine) in machines {
-        let plan = Plan::new(&scene, 0)?;
-        let frame = drawn(TiledScene::new(scene.clone(), plan, *machine));
-        if frame != expected {
+        let frame = drawn(in_tiles(&scene, *machine)?);
+        let expected =
+            expected.get_or_insert_with(|| drawn(PreparedScene::new(scene.clone(), Faithful)));
+        if frame != *expected {
             return Ok(Some(format!(
                 "{name}, {}: {}",
                 machine.threads,
-                difference(&frame, &expected)
+                difference(&frame, expected)
             )));
         }
     }
@@ -257,6 +256,7 @@ fn kernels_draw_built_in_cases_as_spans_do() {
     let library = Library::built_in();
     let quick: Vec<_> = library.cases(Profile::Quick).collect();
     let scenes = |i: usize| scene_of(&quick[i], i);
+    let machines = if compares_all() { machines } else { machine };
     let equal = compare_all(quick.len(), scenes, machines);
     assert!(equal > 1200, "{equal} quick cases have kernels");
     let step = if compares_all() { 1 } else { 8 };

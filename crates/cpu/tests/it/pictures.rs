@@ -1,6 +1,8 @@
-use crate::CpuBackend;
+//! Pictures of the rasterizer.
+
 use etalon_backend::Backend;
 use etalon_case::{CaseFile, Library, Profile};
+use etalon_cpu::CpuBackend;
 use etalon_frame::Frame;
 use etalon_scene::Scene;
 
