@@ -415,6 +415,12 @@ impl Strokes for Brush<'_, '_> {
     }
 
     fn stroke(&mut self, first: Sample, end: u32, signature: &SampleKey) {
+        if signature.varies {
+            for x in first.x..end {
+                self.texel(Sample { x, ..first }, signature);
+            }
+            return;
+        }
         let step = first.samples as usize;
         let mut x = first.x;
         while x < end {

@@ -65,6 +65,8 @@ pub(crate) struct SampleKey {
     /// True if all samples in the row between this sample and another with equal signature and sides also
     /// have that signature.
     constant: bool,
+    /// True if the signature leaves out inputs that vary, so that each sample must be drawn by itself.
+    pub(crate) varies: bool,
 }
 
 impl SampleKey {
@@ -200,6 +202,7 @@ impl Walk<'_> {
         signature.hits.clear();
         signature.sides.clear();
         signature.constant = true;
+        signature.varies = false;
         let point = self.sample_point(at);
         let setup = &self.setups[pass];
         for (d, i) in members {
@@ -241,9 +244,11 @@ impl Walk<'_> {
             };
             self.sign_primitive(&place, hit, inputs.kinds[i as usize], inputs, signature);
             if inputs.vary(primitive) {
-                signature.constant = false;
                 if names_inputs(d) {
+                    signature.constant = false;
                     self.sign_inputs(&place, inputs, signature);
+                } else {
+                    signature.varies = true;
                 }
             }
         }

@@ -5,6 +5,7 @@ use crate::recording;
 use ash::{ext, vk};
 use etalon_backend::Unavailable;
 use std::ffi::{CStr, c_void};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// The version that instances request.
@@ -29,7 +30,12 @@ struct Messenger {
     messages: *mut Messages,
 }
 
-type Messages = Mutex<Vec<String>>;
+#[derive(Default)]
+struct Messages {
+    kept: Mutex<Vec<String>>,
+    /// True while the commands of a scene with a dynamic number of samples are made.
+    dynamic_samples: AtomicBool,
+}
 
 /// Returns the loader, which is never unloaded: some drivers do not survive `dlclose`.
 fn entry() -> Result<&'static ash::Entry, Unavailable> {
@@ -130,7 +136,16 @@ impl Instance {
         // SAFETY: the pointer came from a box that lives until the messenger is dropped, and the
         // mutex makes sharing it with the callback sound.
         let messages = unsafe { &*messenger.messages };
-        std::mem::take(&mut *messages.lock().unwrap_or_else(PoisonError::into_inner))
+        std::mem::take(&mut *messages.kept.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Tells whether the commands from now on belong to a scene with a dynamic number of samples.
+    pub(crate) fn samples_are_dynamic(&self, dynamic: bool) {
+        if let Some(messenger) = &self.messenger {
+            // SAFETY: as above; the field is atomic.
+            let messages = unsafe { &*messenger.messages };
+            messages.dynamic_samples.store(dynamic, Ordering::Relaxed);
+        }
     }
 }
 
@@ -227,6 +242,19 @@ fn is_intended(id: &CStr, text: &CStr) -> bool {
     .any(|known| id.starts_with(known))
 }
 
+/// Returns true for a message about the number of samples in a pipeline, which is not used if the number is
+/// dynamic (Vulkan, VkDynamicState). Layer version 1.3.239 does not know that.
+fn is_about_samples(id: &CStr) -> bool {
+    let id = id.to_bytes();
+    [
+        &b"-colorAttachmentCount-06188"[..],
+        b"-rasterizationSamples-04740",
+        b"-multisampledRenderToSingleSampled-06853",
+    ]
+    .iter()
+    .any(|known| id.ends_with(known))
+}
+
 unsafe extern "system" fn on_message(
     _severity: vk::DebugUtilsMessageSeverityFlagsEXT,
     _kind: vk::DebugUtilsMessageTypeFlagsEXT,
@@ -239,10 +267,12 @@ unsafe extern "system" fn on_message(
         // SAFETY: the layer's strings are null or zero-terminated, and live during the call.
         let (id, text) = unsafe { (data.message_id_name_as_c_str(), data.message_as_c_str()) };
         let text = text.unwrap_or_default();
-        if !id.is_some_and(|id| is_intended(id, text)) {
-            let mut messages = messages.lock().unwrap_or_else(PoisonError::into_inner);
-            if messages.len() < MAX_MESSAGES {
-                messages.push(text.to_string_lossy().into_owned());
+        let dynamic = messages.dynamic_samples.load(Ordering::Relaxed);
+        let is_none = |id| is_intended(id, text) || dynamic && is_about_samples(id);
+        if !id.is_some_and(is_none) {
+            let mut kept = messages.kept.lock().unwrap_or_else(PoisonError::into_inner);
+            if kept.len() < MAX_MESSAGES {
+                kept.push(text.to_string_lossy().into_owned());
             }
         }
     }

@@ -53,6 +53,8 @@ pub(crate) struct PreparedScene<'a> {
     kind: PathCommands,
     /// True if state that does not change between draws is set only once.
     keeps_state: bool,
+    /// True if the number of samples is dynamic.
+    dynamic_samples: bool,
     progress: Progress,
 }
 
@@ -84,6 +86,7 @@ impl<'a> PreparedScene<'a> {
             plan: Plan::default(),
             kind: PathCommands::One,
             keeps_state: scene.path.state == PathState::Kept,
+            dynamic_samples: scene.path.state == PathState::DynamicSamples,
             progress: Progress::NotDrawn,
         };
         prepared.kind = scene.path.commands;
@@ -91,6 +94,8 @@ impl<'a> PreparedScene<'a> {
             let native = |format| gpu.natives.get(&format).map(|native| native.raw);
             recording::needs(Needed::of(scene, native));
         }
+        let instance = &gpu.device.instance;
+        instance.samples_are_dynamic(prepared.dynamic_samples);
         prepared.fill(&scene.on_path())?;
         Ok(prepared)
     }
@@ -433,6 +438,8 @@ impl Prepared for PreparedScene<'_> {
             return Err(internal("the scene is not prepared"));
         };
         self.progress = Progress::NotDrawn;
+        let instance = &device.instance;
+        instance.samples_are_dynamic(self.dynamic_samples);
         recording::phase(Phase::Submit);
         let start = Instant::now();
         let commands = slot.begin(device)?;

@@ -197,14 +197,14 @@ impl AdapterQueue {
         before + self.numbers.len() - *lock(&self.taken)
     }
 
-    /// Returns true if one more thread saves more time than its worker takes to open the adapter. The time
-    /// left is estimated from the records so far.
+    /// Returns true if one more thread saves more time than its worker takes to open the adapter. `threads`
+    /// already take from the queue.
     fn pays_another(&self, threads: usize) -> bool {
         let Some(begun) = self.state().begun else {
             return false;
         };
-        let done = self.written.load(Ordering::Relaxed) + 1;
-        let left = begun.elapsed().as_secs_f64() * self.left() as f64 / done as f64;
+        let done = self.written.load(Ordering::Relaxed);
+        let left = time_left(begun.elapsed(), done, self.left());
         left > self.opening.as_secs_f64() * (threads + 1) as f64
     }
 
@@ -298,6 +298,12 @@ impl AdapterQueue {
     }
 }
 
+/// Returns the seconds until cases that nobody has taken are done, if nothing changes. Until the first case
+/// is done, the time so far is a part of its time.
+fn time_left(elapsed: Duration, done: u64, left: usize) -> f64 {
+    elapsed.as_secs_f64() * left as f64 / (done + 1) as f64
+}
+
 /// What a free thread does.
 pub(super) enum Next<'q> {
     Draw(&'q AdapterQueue),
@@ -329,5 +335,21 @@ pub(super) fn next(queues: &[AdapterQueue]) -> Next<'_> {
         Ok(_) => Next::Draw(queue),
         // Another thread was faster, and may be enough.
         Err(_) => Next::Wait,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_left_grows_with_the_first_case_and_shrinks_with_the_last_ones() {
+        let after = |ms, done, left| time_left(Duration::from_millis(ms), done, left);
+        // Five slow cases: the first one alone shows that the others will take long.
+        assert_eq!(after(0, 0, 4), 0.0);
+        assert_eq!(after(500, 0, 4), 2.0);
+        // A thousand fast cases: many are left, then few.
+        assert_eq!(after(100, 99, 900), 0.9);
+        assert_eq!(after(990, 989, 10), 0.01);
     }
 }
