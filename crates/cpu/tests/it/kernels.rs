@@ -259,7 +259,7 @@ fn kernels_draw_built_in_cases_as_spans_do() {
     let machines = if compares_all() { machines } else { machine };
     let equal = compare_all(quick.len(), scenes, machines);
     assert!(equal > 1200, "{equal} quick cases have kernels");
-    let step = if compares_all() { 1 } else { 8 };
+    let step = if compares_all() { 1 } else { 20 };
     let full: Vec<_> = library.cases(Profile::Full).step_by(step).collect();
     let scenes = |i: usize| scene_of(&full[i], i);
     let equal = compare_all(full.len(), scenes, machine);
