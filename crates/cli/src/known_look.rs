@@ -7,7 +7,7 @@
 use crate::failure::Failure;
 use crate::match_text::match_sentence;
 use crate::output::say;
-use etalon_case::{Case, CaseRef, Library, Profile, build};
+use etalon_case::{Case, CaseRef, Library, Profile, build, select};
 use etalon_diagnose::{Group, Groups, KnownBugs, Match, Symptom};
 use etalon_explore::Candidate;
 use etalon_record::{AdapterRecord, Expectations, Expected, Record, Run};
@@ -90,9 +90,7 @@ impl Looks<'_> {
             group(&mut groups, &mut looking, document, record)
         });
         let numbers = numbers.collect::<Result<Vec<usize>, Failure>>()?;
-        let cases = built_in.cases(Profile::Full);
-        let cases = cases.map(|case| (case.id(), case));
-        let mut bugs = KnownBugs::new(self.expectations, adapter, cases, reducer());
+        let mut bugs = known_bugs(self.expectations, adapter, built_in, reducer())?;
         let mut matches: Vec<Option<Match>> = Vec::new();
         let name = &adapter.name;
         for group in groups.iter_mut() {
@@ -119,6 +117,27 @@ impl Looks<'_> {
         }
         Ok(())
     }
+}
+
+/// Returns the bugs that expectations about an adapter know, with the cases of a library that they name.
+pub(crate) fn known_bugs<'a>(
+    expectations: &Expectations,
+    adapter: &AdapterRecord,
+    library: &'a Library,
+    reducer: Reducer<'a>,
+) -> Result<KnownBugs<Reducer<'a>>, Failure> {
+    let about = expectations.about(adapter);
+    let globs: Vec<String> = about.all().iter().flat_map(|k| k.cases.clone()).collect();
+    // Without a glob, all cases would be selected.
+    let cases = match globs.is_empty() {
+        true => Vec::new(),
+        false => {
+            let selected = select(library, Profile::Full, &globs);
+            selected.map_err(Failure::usage)?.cases
+        }
+    };
+    let cases = cases.into_iter().map(|case| (case.id(), case));
+    Ok(KnownBugs::new(expectations, adapter, cases, reducer))
 }
 
 /// Returns the number of the group that a failure of a document belongs to; adds a new group if no group

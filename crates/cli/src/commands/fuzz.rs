@@ -12,6 +12,7 @@ use crate::failure_groups::{FailingScenes, Folders, Group};
 use crate::flags::{AdapterFileArguments, Format, parse_timeout};
 use crate::group_text;
 use crate::interruption::listen;
+use crate::known_look::known_bugs;
 use crate::match_text::why;
 use crate::out_folder::Out;
 use crate::output::{print_json, say, summarize};
@@ -20,8 +21,8 @@ use crate::progress::progress;
 use crate::provenance;
 use crate::reducing::TIMEOUT;
 use clap::Args;
-use etalon_case::{Case, Library, Profile};
-use etalon_diagnose::{KnownBugs, Match};
+use etalon_case::{Case, Library};
+use etalon_diagnose::Match;
 use etalon_explore::{Fuzzer, RandomScene, Space};
 use etalon_frame::Limits;
 use etalon_frame::threads::join;
@@ -319,10 +320,8 @@ impl Search<'_> {
     ) {
         let name = reducer.launch.adapter.clone();
         failing.confirm(self.jobs);
-        let cases = self.library.cases(Profile::Full);
-        let cases = cases.map(|case| (case.id(), case));
-        let mut bugs = KnownBugs::new(self.expectations, adapter, cases, reducer);
-        if let Err(failure) = failing.compare(&mut bugs) {
+        let bugs = known_bugs(self.expectations, adapter, self.library, reducer);
+        if let Err(failure) = bugs.and_then(|mut bugs| failing.compare(&mut bugs)) {
             say!(
                 "{name}: not all groups were compared with findings: {}",
                 failure.message

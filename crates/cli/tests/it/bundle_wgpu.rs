@@ -176,6 +176,8 @@ fn a_page_shows_the_bug_of_a_browser() {
     let (code, summary, error) = bundle(case, "webgpu:chromium", out.path(), &[]);
     assert_eq!(code, 0, "{error}");
     assert!(error.contains("open repro.html in the browser"), "{error}");
+    // Each run is the start of a browser.
+    assert_eq!([&summary["failed"], &summary["runs"]], [5, 5]);
     let folder = Path::new(summary["folder"].as_str().unwrap());
     assert!(!folder.join("main.rs").exists());
     let report = fs::read_to_string(folder.join("report.md")).unwrap();

@@ -298,8 +298,8 @@ impl AdapterQueue {
     }
 }
 
-/// Returns the seconds until cases that nobody has taken are done, if nothing changes. Until the first case
-/// is done, the time so far is a part of its time.
+/// Returns the seconds until the cases left are done, if nothing changes. Until the first case is done, the time so
+/// far is a part of its time.
 fn time_left(elapsed: Duration, done: u64, left: usize) -> f64 {
     elapsed.as_secs_f64() * left as f64 / (done + 1) as f64
 }
