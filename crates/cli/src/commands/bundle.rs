@@ -38,8 +38,8 @@ const CHECKED: usize = 8;
 const BUG: i32 = 1;
 /// The number of processes that draw the case to count how often it fails.
 const RUNS: u32 = 20;
-/// The same number for adapters that have one worker at a time: each is the start of a browser.
-const RUNS_ALONE: u32 = 5;
+/// The same number for browsers, which take a second or more to start.
+const BROWSERS: u32 = 5;
 /// The number of these processes that run at the same time.
 const AT_ONCE: usize = 4;
 
@@ -545,9 +545,10 @@ impl Bundled<'_> {
     /// Returns the number of processes in which the case fails with its symptom, and the number of all
     /// processes.
     fn frequency(&self, driver: Driver<'_>) -> Result<[u32; 2], Failure> {
-        let (runs, at_once) = match driver.launch.alone {
-            true => (RUNS_ALONE, 1),
-            false => (RUNS, processors().min(AT_ONCE)),
+        let (runs, at_once) = if self.adapter.backend == "webgpu" {
+            (BROWSERS, 1)
+        } else {
+            (RUNS, processors().min(AT_ONCE))
         };
         let fails = |_: &u32| {
             let mut worker = Worker::start(driver.launch)?;
