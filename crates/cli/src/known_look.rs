@@ -129,15 +129,14 @@ pub(crate) fn known_bugs<'a>(
     let about = expectations.about(adapter);
     let globs: Vec<String> = about.all().iter().flat_map(|k| k.cases.clone()).collect();
     // Without a glob, all cases would be selected.
-    let cases = match globs.is_empty() {
-        true => Vec::new(),
-        false => {
-            let selected = select(library, Profile::Full, &globs);
-            selected.map_err(Failure::usage)?.cases
-        }
+    let cases = if globs.is_empty() {
+        Vec::new()
+    } else {
+        let selected = select(library, Profile::Full, &globs);
+        selected.map_err(Failure::usage)?.cases
     };
     let cases = cases.into_iter().map(|case| (case.id(), case));
-    Ok(KnownBugs::new(expectations, adapter, cases, reducer))
+    Ok(KnownBugs::new(&about, adapter, cases, reducer))
 }
 
 /// Returns the number of the group that a failure of a document belongs to; adds a new group if no group

@@ -24,6 +24,8 @@ use std::time::{Duration, Instant};
 const POLL_INTERVAL: Duration = Duration::from_millis(100);
 /// The time that a worker may take to exit after its pipe broke.
 const EXIT_TIMEOUT: Duration = Duration::from_secs(5);
+/// The longest time between two looks at whether a worker has exited.
+const LONGEST_STEP: Duration = Duration::from_millis(10);
 /// The time to wait for the rest of a worker's standard error.
 const LAST_WORDS: Duration = Duration::from_secs(2);
 /// The time that a worker which is no longer needed may take to exit.
@@ -266,7 +268,7 @@ impl WorkerProcess {
                 Ok(Some(status)) => return Some(status),
                 Ok(None) if start.elapsed() < limit => {
                     thread::sleep(step);
-                    step = (2 * step).min(POLL_INTERVAL / 10);
+                    step = (2 * step).min(LONGEST_STEP);
                 }
                 _ => return None,
             }

@@ -22,14 +22,15 @@ use etalon_bundle::{
 use etalon_case::Case;
 use etalon_diagnose::{Subject, Symptom};
 use etalon_explore::{Candidate, states};
-use etalon_frame::threads::each;
+use etalon_frame::threads::share;
 use etalon_frame::{ChannelMismatch, Frame, WrongTexel};
 use etalon_judge::{Judge, Judged, judge_texel};
 use etalon_record::{AdapterRecord, Finding, Machine, Record, Source};
 use etalon_report::{ReducedCase, story_text};
-use etalon_runner::{Launch, Recorded, StartError, Worker, smallest};
+use etalon_runner::{Launch, Recorded, Worker, smallest};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
 /// The largest number of wrong samples that a program checks.
@@ -550,16 +551,17 @@ impl Bundled<'_> {
         } else {
             (RUNS, processors().min(AT_ONCE))
         };
-        let fails = |_: &u32| {
-            let mut worker = Worker::start(driver.launch)?;
-            let (record, _) = worker.record(self.case, driver.timeout);
-            Ok(self.symptom.covers(&Symptom::of(&record)))
-        };
-        let numbers: Vec<u32> = (0..runs).collect();
-        let mut failed = 0;
-        for fails in each(at_once, &numbers, fails) {
-            failed += u32::from(fails.map_err(|e: StartError| Failure::incomplete(e))?);
-        }
+        let begun = AtomicU32::new(0);
+        let failed = share(at_once, || {
+            let mut failed = 0;
+            while begun.fetch_add(1, Ordering::Relaxed) < runs {
+                let mut worker = Worker::start(driver.launch).map_err(Failure::incomplete)?;
+                let (record, _) = worker.record(self.case, driver.timeout);
+                failed += u32::from(self.symptom.covers(&Symptom::of(&record)));
+            }
+            Ok(failed)
+        });
+        let failed = failed.into_iter().sum::<Result<u32, Failure>>()?;
         Ok([failed, runs])
     }
 

@@ -2,18 +2,15 @@
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::bundling::{PROGRAMS, bundle, last_line, run_as_told};
+use crate::driven::Driven;
 use crate::sample;
-use serde_json::Value;
 use std::fs;
-use std::io::{BufRead, BufReader, Read, Write};
-use std::net::TcpStream;
-use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
-use std::time::{Duration, Instant};
+use std::path::Path;
+use std::process::Command;
 use tempfile::TempDir;
 
-/// The time limit of a page.
-const PATIENCE: Duration = Duration::from_secs(60);
+/// The seconds that a page may take.
+const PATIENCE: u64 = 60;
 
 /// The answer of a page in Chromium over SwiftShader.
 #[derive(Clone, Copy, Debug)]
@@ -222,105 +219,14 @@ fn drivers() -> String {
     )
 }
 
-/// Opens a page in Chromium. Returns the title that the page sets.
+/// Opens a page in Chromium over SwiftShader. Returns the title that the page sets.
 fn answer(page: &Path) -> String {
-    let profile = TempDir::new().unwrap();
-    let mut browser = Browser::start(page, profile.path());
-    let begun = Instant::now();
-    while begun.elapsed() < PATIENCE {
-        let titles = browser.titles();
-        let is_answer = |title: &&String| {
-            let words = ["right", "not supported: ", "a call fails: "];
-            title.contains(" is wrong: ") || words.iter().any(|word| title.starts_with(word))
-        };
-        if let Some(title) = titles.iter().find(is_answer) {
-            return title.clone();
-        }
-        std::thread::sleep(Duration::from_millis(50));
-    }
-    browser.stop();
-    panic!("{} does not answer", page.display())
-}
-
-/// A headless Chromium with WebGPU over SwiftShader.
-struct Browser {
-    process: Child,
-    /// The address at which Chromium lists its pages.
-    address: String,
-}
-
-impl Browser {
-    fn start(page: &Path, profile: &Path) -> Self {
-        let executable = std::env::var_os("CHROMIUM").map_or("chromium".into(), PathBuf::from);
-        let mut process = Command::new(executable)
-            .args([
-                "--headless",
-                "--no-sandbox",
-                "--disable-dev-shm-usage",
-                "--disable-background-networking",
-                "--disable-component-update",
-                "--disable-extensions",
-                "--disable-sync",
-                "--no-first-run",
-                "--enable-unsafe-webgpu",
-                "--use-webgpu-adapter=swiftshader",
-                "--remote-debugging-port=0",
-            ])
-            .arg(format!("--user-data-dir={}", profile.display()))
-            .arg(format!("file://{}", page.display()))
-            .stdin(Stdio::null())
-            .stdout(Stdio::null())
-            .stderr(Stdio::piped())
-            .spawn()
-            .expect("this test needs Chromium: install Debian's package `chromium`, or set CHROMIUM to its path");
-        let mut lines = BufReader::new(process.stderr.take().unwrap()).lines();
-        let address = lines
-            .by_ref()
-            .map_while(Result::ok)
-            .find_map(|line| Some(line.split_once("DevTools listening on ws://")?.1.to_owned()))
-            .expect("Chromium says where it listens");
-        // Without a reader, a full pipe would block the browser.
-        std::thread::spawn(move || lines.for_each(drop));
-        let address = address.split_once('/').unwrap().0.to_owned();
-        Self { process, address }
-    }
-
-    /// Returns the titles of its pages.
-    fn titles(&self) -> Vec<String> {
-        let mut stream = TcpStream::connect(&self.address).unwrap();
-        stream.set_read_timeout(Some(PATIENCE)).unwrap();
-        let request = format!("GET /json/list HTTP/1.1\r\nHost: {}\r\n\r\n", self.address);
-        stream.write_all(request.as_bytes()).unwrap();
-        // Chromium keeps the connection open, so reading to its end would block.
-        let mut reader = BufReader::new(stream);
-        let mut length = 0;
-        loop {
-            let mut line = String::new();
-            reader.read_line(&mut line).unwrap();
-            match line.trim().split_once(':') {
-                Some(("Content-Length", value)) => length = value.trim().parse().unwrap(),
-                None if line.trim().is_empty() => break,
-                _ => {}
-            }
-        }
-        let mut body = vec![0; length];
-        reader.read_exact(&mut body).unwrap();
-        let pages: Value = serde_json::from_slice(&body).unwrap();
-        let pages = pages.as_array().cloned().unwrap_or_default();
-        pages
-            .iter()
-            .filter_map(|page| page["title"].as_str().map(str::to_owned))
-            .collect()
-    }
-
-    fn stop(&mut self) {
-        let _ = self.process.kill();
-        let _ = self.process.wait();
-    }
-}
-
-impl Drop for Browser {
-    fn drop(&mut self) {
-        self.stop();
-    }
+    let browser = Driven::start("webgpu:chromium");
+    browser.go(&format!("file://{}", page.display()));
+    browser.wait(
+        PATIENCE,
+        "document.title.includes(' is wrong: ') \
+         || ['right', 'not supported: ', 'a call fails: '].some(word => document.title.startsWith(word))",
+    );
+    browser.eval("document.title").as_str().unwrap().to_owned()
 }

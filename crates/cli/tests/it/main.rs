@@ -14,6 +14,7 @@ mod ci_files;
 mod circles;
 mod commands;
 mod diff;
+mod driven;
 mod driver_releases;
 mod etalon;
 mod expectations;

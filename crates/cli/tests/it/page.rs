@@ -2,13 +2,12 @@
 //! saved file, which commands read. Its records equal those of a run through the relay.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
-mod driven;
 mod server;
 
+use crate::driven::Driven;
 use crate::etalon::etalon;
 use crate::house::root;
 use crate::sample;
-use driven::Driven;
 use etalon_record::{Record, Run, Seconds, Verdict};
 use serde_json::Value;
 use server::Server;

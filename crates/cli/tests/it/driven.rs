@@ -1,5 +1,6 @@
 //! A browser that a test drives: Chromium by its DevTools protocol, Firefox by WebDriver BiDi. Commands and profiles are
 //! those of the adapters.
+#![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use serde_json::{Value, json};
 use std::cell::{Cell, RefCell};
@@ -13,7 +14,7 @@ use std::{fs, thread};
 use tungstenite::{Message, WebSocket};
 
 /// The descriptions of the built-in adapters.
-const ADAPTERS: &str = include_str!("../../../adapters.json");
+const ADAPTERS: &str = include_str!("../../adapters.json");
 /// The time limit of one answer.
 const ANSWER: Duration = Duration::from_secs(120);
 
@@ -25,7 +26,7 @@ enum Protocol {
 }
 
 /// A browser with one page.
-pub(super) struct Driven {
+pub(crate) struct Driven {
     process: Child,
     protocol: Protocol,
     socket: RefCell<WebSocket<TcpStream>>,
@@ -37,7 +38,7 @@ pub(super) struct Driven {
 
 impl Driven {
     /// Starts the browser of an adapter.
-    pub(super) fn start(adapter: &str) -> Self {
+    pub(crate) fn start(adapter: &str) -> Self {
         let adapters: Vec<Value> = serde_json::from_str(ADAPTERS).unwrap();
         let description = adapters.iter().find(|a| a["name"] == adapter).unwrap();
         let profile = tempfile::tempdir().unwrap();
@@ -146,7 +147,7 @@ impl Driven {
     }
 
     /// Opens an address.
-    pub(super) fn go(&self, url: &str) {
+    pub(crate) fn go(&self, url: &str) {
         match self.protocol {
             Protocol::DevTools => self.call("Page.navigate", &json!({ "url": url })),
             Protocol::BiDi => self.call(
@@ -157,7 +158,7 @@ impl Driven {
     }
 
     /// Sets the width of the window, and dark mode.
-    pub(super) fn narrow(&self) {
+    pub(crate) fn narrow(&self) {
         let size = json!({ "width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": true });
         self.call("Emulation.setDeviceMetricsOverride", &size);
         let dark = json!([{ "name": "prefers-color-scheme", "value": "dark" }]);
@@ -165,7 +166,7 @@ impl Driven {
     }
 
     /// Kills the processes of the browser that draw, which loses all devices.
-    pub(super) fn kill_gpu(&self) {
+    pub(crate) fn kill_gpu(&self) {
         let processes = fs::read_dir("/proc").unwrap().flatten();
         let numbers = processes.filter_map(|entry| entry.file_name().to_str()?.parse().ok());
         let draws = |number: &i32| {
@@ -211,13 +212,13 @@ impl Driven {
     }
 
     /// Returns the value of an expression.
-    pub(super) fn eval(&self, script: &str) -> Value {
+    pub(crate) fn eval(&self, script: &str) -> Value {
         self.try_eval(script)
             .unwrap_or_else(|e| panic!("{script}: {e}"))
     }
 
     /// Waits until an expression is true.
-    pub(super) fn wait(&self, seconds: u64, script: &str) {
+    pub(crate) fn wait(&self, seconds: u64, script: &str) {
         let begun = Instant::now();
         loop {
             let found = self.try_eval(&format!("!!({script})"));
