@@ -7,15 +7,53 @@ use etalon_case::{Case, Library};
 use etalon_cpu::CpuBackend;
 use etalon_frame::Frame;
 use etalon_frame::threads::each;
+use etalon_record::AdapterRecord;
 use etalon_report::{Catalogue, CatalogueCase, Thumbnails};
 use std::collections::{BTreeSet, HashMap};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Mutex, PoisonError};
 
-/// The largest number of texels of a picture that is drawn.
+/// The largest number of texels of a picture.
 const TEXELS: u64 = 1 << 20;
 
+/// The rasterizer's pictures of cases. Those that a run draws need not be drawn again.
+#[derive(Default)]
+pub(crate) struct Pictures {
+    thumbnails: Thumbnails,
+    /// `data:` URLs by the case's id.
+    taken: Mutex<HashMap<String, String>>,
+}
+
+impl Pictures {
+    /// Takes the picture if the rasterizer drew it, without a planted fault.
+    pub(crate) fn take(&self, adapter: &AdapterRecord, case: &Case, frame: &Frame) {
+        if adapter.name == "cpu" && !is_large(case) {
+            let uri = self.uri(frame);
+            let mut taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
+            taken.insert(case.id.clone(), uri);
+        }
+    }
+
+    /// Returns the picture of a case; empty if it is large or cannot be drawn.
+    fn of(&self, case: &Case) -> String {
+        if is_large(case) {
+            return String::new();
+        }
+        let mut taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
+        let picture = taken.remove(&case.id);
+        drop(taken);
+        let drawn = || drawn(case).map(|frame| self.uri(&frame));
+        picture.or_else(drawn).unwrap_or_default()
+    }
+
+    fn uri(&self, frame: &Frame) -> String {
+        let image = frame.images.first();
+        image.map_or_else(String::new, |image| self.thumbnails.uri(image))
+    }
+}
+
 /// Returns the catalogue of cases. Cases that are not in the library have no template.
-pub(crate) fn catalogue(library: &Library, cases: &[Case]) -> Catalogue {
+pub(crate) fn catalogue(library: &Library, cases: &[Case], pictures: &Pictures) -> Catalogue {
     let mut catalogue = Catalogue::default();
     let ids: BTreeSet<&str> = cases.iter().map(|case| case.id.as_str()).collect();
     let mut files: HashMap<String, String> = HashMap::new();
@@ -28,8 +66,7 @@ pub(crate) fn catalogue(library: &Library, cases: &[Case]) -> Catalogue {
         files.insert(id, stem.to_owned());
     }
     // Cases with large pictures are neighbours, so each thread takes one case at a time instead of a range.
-    let thumbnails = Thumbnails::default();
-    catalogue.cases = each(processors(), cases, |case| entry(case, &files, &thumbnails));
+    catalogue.cases = each(processors(), cases, |case| entry(case, &files, pictures));
     for case in cases {
         for draw in case.scene.passes.iter().flat_map(|p| &p.draws) {
             catalogue
@@ -40,8 +77,7 @@ pub(crate) fn catalogue(library: &Library, cases: &[Case]) -> Catalogue {
     catalogue
 }
 
-fn entry(case: &Case, files: &HashMap<String, String>, thumbnails: &Thumbnails) -> CatalogueCase {
-    let picture = |frame: Frame| Some(thumbnails.uri(frame.images.first()?));
+fn entry(case: &Case, files: &HashMap<String, String>, pictures: &Pictures) -> CatalogueCase {
     let draws = case.scene.passes.iter().flat_map(|p| &p.draws);
     let shaders: BTreeSet<&'static str> = draws.map(|draw| draw.shader.name()).collect();
     CatalogueCase {
@@ -49,15 +85,14 @@ fn entry(case: &Case, files: &HashMap<String, String>, thumbnails: &Thumbnails) 
         file: files.get(&case.id).cloned().unwrap_or_default(),
         lines: scene_text::lines(&case.scene),
         shaders: shaders.into_iter().collect(),
-        picture: reference(case).and_then(picture).unwrap_or_default(),
+        picture: pictures.of(case),
     }
 }
 
-/// Returns the rasterizer's picture; `None` if it is large or cannot be drawn.
-fn reference(case: &Case) -> Option<Frame> {
+/// Returns true if a case has too many texels for a picture.
+fn is_large(case: &Case) -> bool {
     let texels = |a: &etalon_scene::Attachment| u64::from(a.size[0]) * u64::from(a.size[1]);
-    let large = case.scene.attachments.iter().any(|a| texels(a) > TEXELS);
-    if large { None } else { drawn(case) }
+    case.scene.attachments.iter().any(|a| texels(a) > TEXELS)
 }
 
 /// Returns the rasterizer's picture; `None` if it cannot be drawn.

@@ -44,7 +44,7 @@ pub use protocol::Hello;
 pub use reduction::{
     Flakiness, Looked, Lost, Reducer, ReductionError, Smallest, Unconfirmed, confirm, smallest,
 };
-pub use run::{KeptFrames, Options, Plan, Rechecks, RunError, RunSummary, run};
+pub use run::{Drawn, KeptFrames, Options, Plan, Rechecks, RunError, RunSummary, run};
 pub use serve::serve;
 pub use trial::Trials;
 pub use version_search::releases_to_draw;

@@ -361,6 +361,7 @@ impl Search<'_> {
             },
             resume: false,
             stop: self.stop,
+            drawn: &|_, _, _| {},
         };
         let drawing = draw(plan, &|event| {
             if let Event::Recorded(record) = event {

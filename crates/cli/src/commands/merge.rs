@@ -1,7 +1,7 @@
 //! `etalon merge`.
 
 use crate::cases::{build_named, library};
-use crate::catalogue::catalogue;
+use crate::catalogue::{Pictures, catalogue};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::flags::Format;
 use crate::news::{NewsArguments, shown};
@@ -133,7 +133,8 @@ fn write_catalogue(out: &Path, run: &Run) -> Result<(), Failure> {
     let library = library(None)?;
     let drawn: BTreeSet<&str> = run.records.iter().map(|r| r.case.as_str()).collect();
     let cases = build_named(&library, &drawn)?;
-    etalon_report::write_catalogue(out, &catalogue(&library, &cases)).map_err(Failure::incomplete)
+    let catalogue = catalogue(&library, &cases, &Pictures::default());
+    etalon_report::write_catalogue(out, &catalogue).map_err(Failure::incomplete)
 }
 
 /// Returns true if both paths name the same folder.

@@ -3,7 +3,7 @@
 use crate::adapters::{Adapters, Query, cache, discover, refuse_absent, take_unstarted};
 use crate::blessing::{bless, to_bless};
 use crate::cases::{chosen, leave_measured, left_out, library, round_trips};
-use crate::catalogue::catalogue;
+use crate::catalogue::{Pictures, catalogue};
 use crate::expectations::{ExpectArguments, counting};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::flags::{AdapterFileArguments, CaseArguments, Format, parse_timeout};
@@ -205,6 +205,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let _lock = claim.take()?;
     let header = header(arguments, &selected, &adapters, &dead);
     let adapter_names = header.adapters.iter().map(|a| a.name.clone()).collect();
+    let pictures = Pictures::default();
     let mut summary = draw(Plan {
         reports: report_files::RUN,
         cases: &selected.cases,
@@ -218,11 +219,19 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         header,
         resume,
         stop,
+        drawn: &|adapter, case, frame| pictures.take(adapter, case, frame),
     })?;
     if arguments.known_by_look && !summary.interrupted {
         summary.unexpected = known_by_look(arguments, &expectations, &launches, stop)?;
     }
-    let results = Results::write(arguments, &selected, &expectations, summary, adapter_names)?;
+    let results = Results::write(
+        arguments,
+        &selected,
+        &expectations,
+        &pictures,
+        summary,
+        adapter_names,
+    )?;
     results.print()?;
     let run = &results.run;
     if run.missing() > 0 {
@@ -398,6 +407,7 @@ impl<'a> Results<'a> {
         arguments: &'a Arguments,
         selected: &Selected,
         expectations: &Expectations,
+        pictures: &Pictures,
         summary: RunSummary,
         adapter_names: Vec<String>,
     ) -> Result<Self, Failure> {
@@ -408,7 +418,7 @@ impl<'a> Results<'a> {
         let adapter_file = arguments.file.adapter_file.as_deref();
         let dead = dead::of_run(&run, expectations, &library, cases.is_some(), adapter_file)?;
         Dead::write(folder, &dead).map_err(Failure::incomplete)?;
-        let catalogue = catalogue(&library, &selected.cases);
+        let catalogue = catalogue(&library, &selected.cases, pictures);
         etalon_report::write_catalogue(folder, &catalogue).map_err(Failure::incomplete)?;
         let news = arguments.news.news(&run)?;
         let shown = shown(&run, news.as_ref());

@@ -108,6 +108,9 @@ impl<'s> AdapterRun<'s, '_> {
         let mut judging = Duration::ZERO;
         let mut observed = match drawing.frames {
             Ok(frames) => {
+                if let Some(frame) = frames.first() {
+                    (self.shared.drawn)(adapter, case, frame);
+                }
                 let start = Instant::now();
                 let judge = &self.shared.judge;
                 let Judged { record, frame } =

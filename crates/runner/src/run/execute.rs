@@ -86,6 +86,7 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
             .first()
             .map_or_else(String::new, |(l, _)| l.adapter.clone()),
         events,
+        drawn: plan.drawn,
     };
     let missing = |adapter: &str| -> Vec<usize> {
         let done = |case: &Case| done.contains(&(adapter.to_owned(), case.id.clone()));

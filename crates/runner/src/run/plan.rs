@@ -4,6 +4,7 @@ use crate::drawing::DRAW_TIMEOUT;
 use crate::launch::Launch;
 use crate::worker::Worker;
 use etalon_case::Case;
+use etalon_frame::Frame;
 use etalon_record::{AdapterRecord, Expectations, Header, Record, RecordError, ReportFiles};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -37,7 +38,12 @@ pub struct Plan<'a> {
     pub resume: bool,
     /// Set by the caller to stop the run early.
     pub stop: &'a AtomicBool,
+    /// Gets the first frame of each drawn case, from several threads.
+    pub drawn: &'a Drawn<'a>,
 }
+
+/// Gets an adapter, a case and its frame.
+pub type Drawn<'a> = dyn Fn(&AdapterRecord, &Case, &Frame) + Sync + 'a;
 
 /// The default of [`Options::recheck`].
 const DEFAULT_RECHECK: u32 = 4;

@@ -1,7 +1,7 @@
 //! The state that all threads of a run share.
 
 use super::budget::Budget;
-use super::plan::{Options, RunSummary};
+use super::plan::{Drawn, Options, RunSummary};
 use crate::event::Event;
 use crate::sync::lock;
 use etalon_case::Case;
@@ -35,6 +35,7 @@ pub(super) struct Shared<'a> {
     /// The adapter whose pictures are kept.
     pub(super) picture_adapter: String,
     pub(super) events: &'a (dyn Fn(Event) + Sync),
+    pub(super) drawn: &'a Drawn<'a>,
 }
 
 impl Shared<'_> {

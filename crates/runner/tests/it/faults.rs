@@ -307,6 +307,7 @@ fn run_with(launch: Launch, jobs: usize, libraries: &[&Library]) -> (Vec<Record>
         selection: None,
         resume: false,
         stop: &AtomicBool::new(false),
+        drawn: &|_, _, _| {},
     };
     let records = Mutex::new(Vec::new());
     let summary = etalon_runner::run(plan, &|event| {
