@@ -18,8 +18,8 @@ const MOST_KEPT: usize = 32;
 
 /// The maximum numbers of vertices and of samples, over all passes, of a scene whose geometry is kept. A kept
 /// geometry then takes a few MB at most.
-const MOST_VERTICES: usize = 2048;
-const MOST_SAMPLES: u64 = 4096;
+const MOST_VERTICES: usize = 1 << 12;
+const MOST_SAMPLES: u64 = 1 << 18;
 
 /// The geometry of a scene under some limits and rules.
 #[derive(Debug)]

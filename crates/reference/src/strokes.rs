@@ -16,7 +16,17 @@ pub(crate) trait Strokes {
 
     /// Takes samples from `first` to the column `end` that have equal signatures.
     fn stroke(&mut self, first: Sample, end: u32, signature: &SampleKey);
+
+    /// Returns true if further strokes are not needed.
+    fn is_full(&self) -> bool {
+        false
+    }
 }
+
+/// The largest numbers of kept strokes and of their different signatures. A stroke takes 20 bytes. More signatures
+/// mean that most samples differ, and then finding the equal ones costs more than it saves.
+const MOST_STROKES: usize = 1 << 17;
+const MOST_SIGNATURES: usize = 1 << 12;
 
 /// The strokes of each run of draws of a pass.
 pub(crate) type PassStrokes = Vec<KeptStrokes>;
@@ -52,6 +62,10 @@ impl Strokes for KeptStrokes {
         }
         self.strokes.push((first, end, number));
     }
+
+    fn is_full(&self) -> bool {
+        self.strokes.len() > MOST_STROKES || self.signatures.len() > MOST_SIGNATURES
+    }
 }
 
 /// Returns the runs of a pass's draws between clear commands, each with the index of the draw before which the
@@ -68,7 +82,7 @@ pub(crate) fn runs(pass: &Pass) -> impl Iterator<Item = (Range<usize>, usize)> {
 }
 
 impl Walk<'_> {
-    /// Returns the strokes of each pass; `None` if signatures depend on earlier passes.
+    /// Returns the strokes of each pass; `None` if signatures depend on earlier passes or if the strokes are many.
     pub(crate) fn strokes(&self) -> Vec<Option<PassStrokes>> {
         let passes = self.scene.passes.iter().enumerate();
         let strokes = passes.map(|(p, pass)| {
@@ -77,10 +91,13 @@ impl Walk<'_> {
                 let mut kept = KeptStrokes::default();
                 tracer.trace(draws, &mut kept);
                 kept.numbers = FxHashMap::default();
-                kept
+                (!kept.is_full()).then_some(kept)
             };
             let depends = tracer.inputs.iter().any(Inputs::reads_earlier_passes);
-            (!depends).then(|| runs(pass).map(|(draws, _)| kept(draws)).collect())
+            if depends {
+                return None;
+            }
+            runs(pass).map(|(draws, _)| kept(draws)).collect()
         });
         strokes.collect()
     }
@@ -125,6 +142,9 @@ impl<'t, 'a> Tracer<'t, 'a> {
         let mut segments = Segments::default();
         let mut spare = Spare::default();
         for y in 0..size[1] {
+            if to.is_full() {
+                break;
+            }
             let active = rows.row(y);
             if active.is_empty() || lattice.first(0, y).is_none_or(|x| x >= size[0]) {
                 continue;

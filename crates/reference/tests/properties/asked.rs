@@ -142,6 +142,41 @@ fn scenes_with_equal_keys_have_equal_sets() {
     assert!(compared > 100, "{compared}");
 }
 
+/// Large pictures of one geometry: one with few signatures, one with thousands, of which none is kept.
+const LARGE: [(&str, &str); 2] = [
+    (
+        "size/hierarchy/cleared-in-part/",
+        "format=depth24plus-stencil8",
+    ),
+    (
+        "size/hierarchy/equal-redraw/",
+        "format=depth16unorm/mesh=steep",
+    ),
+];
+
+#[test]
+fn large_pictures_of_one_geometry_have_the_sets_that_each_has_alone() {
+    let library = Library::built_in();
+    let limits = limits(APIS[0]);
+    let rules = Rules::of(&limits);
+    for (start, end) in LARGE {
+        let shared = Geometries::default();
+        let cases = library.cases_that_begin(start);
+        let cases = cases.filter(|case| case.id().ends_with(end)).take(3);
+        let mut count = 0;
+        for case in cases {
+            let scene = case.build().expect("it builds").judged_scene().clone();
+            let [a, b] = [&shared, &Geometries::default()].map(|geometries| {
+                legal_set_of_texels(&scene, &limits, &rules, Texels::All, geometries)
+            });
+            assert_eq!(a, b, "{}", case.id());
+            count += 1;
+        }
+        // The third scene is the first one that uses what is kept.
+        assert_eq!(count, 3, "{start}");
+    }
+}
+
 #[test]
 fn a_key_tells_what_is_drawn_and_not_how() {
     let library = Library::built_in();
