@@ -16,7 +16,7 @@ use std::sync::{Mutex, PoisonError};
 /// The largest number of texels of a picture.
 const TEXELS: u64 = 1 << 20;
 
-/// The rasterizer's pictures of cases. Those that a run draws need not be drawn again.
+/// The rasterizer's pictures of cases. A picture that the run draws is not drawn again for the page.
 #[derive(Default)]
 pub(crate) struct Pictures {
     thumbnails: Thumbnails,
