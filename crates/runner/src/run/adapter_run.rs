@@ -108,9 +108,6 @@ impl<'s> AdapterRun<'s, '_> {
         let mut judging = Duration::ZERO;
         let mut observed = match drawing.frames {
             Ok(frames) => {
-                if let Some(frame) = frames.first() {
-                    (self.shared.drawn)(adapter, case, frame);
-                }
                 let start = Instant::now();
                 let judge = &self.shared.judge;
                 let Judged { record, frame } =
@@ -143,7 +140,7 @@ impl<'s> AdapterRun<'s, '_> {
         observed
     }
 
-    /// Writes the frame and pictures if they are kept, and shortens the record.
+    /// Passes the first frame on, writes the frame and pictures if they are kept, and shortens the record.
     pub(super) fn keep(
         &self,
         number: usize,
@@ -164,7 +161,11 @@ impl<'s> AdapterRun<'s, '_> {
             record.frame = Some(self.shared.frames.write_frame(&file)?);
         }
         let case = self.case(number);
-        if let (Some(method), Some(frame)) = (&case.method, observed.frames.first()) {
+        let Some(frame) = observed.frames.first() else {
+            return Ok(());
+        };
+        (self.shared.drawn)(&self.queue.adapter, case, frame);
+        if let Some(method) = &case.method {
             let truth = self.shared.truths.get(method);
             record.measured = measured(case, &truth, frame);
             let kept = self.shared.pictures.contains(&number)

@@ -38,7 +38,7 @@ pub struct Plan<'a> {
     pub resume: bool,
     /// Set by the caller to stop the run early.
     pub stop: &'a AtomicBool,
-    /// Gets the first frame of each drawn case, from several threads.
+    /// Gets the first frame of each drawn case, once, from several threads.
     pub drawn: &'a Drawn<'a>,
 }
 
