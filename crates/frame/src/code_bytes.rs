@@ -11,20 +11,7 @@ pub(crate) fn serialize<S: Serializer>(codes: &[u32], to: S) -> Result<S::Ok, S:
     if to.is_human_readable() {
         return codes.serialize(to);
     }
-    let bits = codes.iter().fold(0, |bits, code| bits | code);
-    let width = match bits {
-        0..=0xff => 1,
-        0x100..=0xffff => 2,
-        _ => 4,
-    };
-    let mut bytes = Vec::with_capacity(1 + codes.len() * width);
-    bytes.push(width as u8);
-    match width {
-        1 => bytes.extend(codes.iter().map(|code| *code as u8)),
-        2 => bytes.extend(codes.iter().flat_map(|code| (*code as u16).to_le_bytes())),
-        _ => bytes.extend(codes.iter().flat_map(|code| code.to_le_bytes())),
-    }
-    to.serialize_bytes(&bytes)
+    to.serialize_bytes(&encoded(codes))
 }
 
 /// Reads codes.
@@ -45,13 +32,36 @@ impl<'de> Visitor<'de> for Bytes {
     }
 
     fn visit_bytes<E: Error>(self, bytes: &[u8]) -> Result<Vec<u32>, E> {
-        let codes = match bytes.split_first() {
-            Some((1, rest)) => Some(rest.iter().map(|byte| u32::from(*byte)).collect()),
-            Some((2, rest)) => wide(rest, |pair| u32::from(u16::from_le_bytes(pair))),
-            Some((4, rest)) => wide(rest, u32::from_le_bytes),
-            _ => None,
-        };
-        codes.ok_or_else(|| E::custom("codes of an unknown width, or a part of a code"))
+        decoded(bytes).ok_or_else(|| E::custom("codes of an unknown width, or a part of a code"))
+    }
+}
+
+/// Returns the bytes of codes, their width before them. Not generic, and so compiled for speed with this crate.
+fn encoded(codes: &[u32]) -> Vec<u8> {
+    match codes.iter().fold(0, |bits, code| bits | code) {
+        0..=0xff => narrow(codes, |code| [code as u8]),
+        0x100..=0xffff => narrow(codes, |code| (code as u16).to_le_bytes()),
+        _ => narrow(codes, u32::to_le_bytes),
+    }
+}
+
+/// Returns `N`, and the bytes of codes of `N` bytes each.
+fn narrow<const N: usize>(codes: &[u32], bytes: impl Fn(u32) -> [u8; N]) -> Vec<u8> {
+    let mut written = vec![N as u8; 1 + codes.len() * N];
+    let (places, _) = written[1..].as_chunks_mut();
+    for (place, code) in places.iter_mut().zip(codes) {
+        *place = bytes(*code);
+    }
+    written
+}
+
+/// Returns the codes in bytes; `None` if their width is unknown or a part of a code is left over.
+fn decoded(bytes: &[u8]) -> Option<Vec<u32>> {
+    match bytes.split_first()? {
+        (1, rest) => Some(rest.iter().map(|byte| u32::from(*byte)).collect()),
+        (2, rest) => wide(rest, |pair| u32::from(u16::from_le_bytes(pair))),
+        (4, rest) => wide(rest, u32::from_le_bytes),
+        _ => None,
     }
 }
 

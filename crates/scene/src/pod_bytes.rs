@@ -20,7 +20,7 @@ impl<T: NoUninit + Serialize> Serialize for Bytes<&[T]> {
     }
 }
 
-impl<'de, T: AnyBitPattern + Deserialize<'de>> Deserialize<'de> for Bytes<Vec<T>> {
+impl<'de, T: NoUninit + AnyBitPattern + Deserialize<'de>> Deserialize<'de> for Bytes<Vec<T>> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         if from.is_human_readable() {
             Vec::deserialize(from).map(Self)
@@ -32,7 +32,7 @@ impl<'de, T: AnyBitPattern + Deserialize<'de>> Deserialize<'de> for Bytes<Vec<T>
 
 struct Items<T>(PhantomData<T>);
 
-impl<T: AnyBitPattern> Visitor<'_> for Items<T> {
+impl<T: NoUninit + AnyBitPattern> Visitor<'_> for Items<T> {
     type Value = Bytes<Vec<T>>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -40,11 +40,10 @@ impl<T: AnyBitPattern> Visitor<'_> for Items<T> {
     }
 
     fn visit_bytes<E: Error>(self, bytes: &[u8]) -> Result<Self::Value, E> {
-        let items = bytes.chunks_exact(size_of::<T>());
-        if !items.remainder().is_empty() {
+        if !bytes.len().is_multiple_of(size_of::<T>()) {
             return Err(E::custom("a part of an item is left over"));
         }
-        Ok(Bytes(items.map(bytemuck::pod_read_unaligned).collect()))
+        Ok(Bytes(bytemuck::pod_collect_to_vec(bytes)))
     }
 }
 
@@ -60,7 +59,7 @@ where
 /// Reads items.
 pub(crate) fn deserialize<'de, T, D>(from: D) -> Result<Vec<T>, D::Error>
 where
-    T: AnyBitPattern + Deserialize<'de>,
+    T: NoUninit + AnyBitPattern + Deserialize<'de>,
     D: Deserializer<'de>,
 {
     Bytes::deserialize(from).map(|items| items.0)
@@ -82,7 +81,7 @@ pub(crate) mod optional {
     /// Reads items, if there are any.
     pub(crate) fn deserialize<'de, T, D>(from: D) -> Result<Option<Vec<T>>, D::Error>
     where
-        T: AnyBitPattern + Deserialize<'de>,
+        T: NoUninit + AnyBitPattern + Deserialize<'de>,
         D: Deserializer<'de>,
     {
         let items = Option::<Bytes<Vec<T>>>::deserialize(from)?;

@@ -109,18 +109,23 @@ impl Image {
     ) -> Vec<u32> {
         let row = (self.width * self.samples * channels).max(1);
         let mut codes = vec![0; self.height * row];
-        let rows = if codes.len() < SHARED {
-            self.height
-        } else {
-            self.height.div_ceil(threads)
+        let bands = self.height.div_ceil(TILE);
+        let shared = if codes.len() < SHARED { 1 } else { threads };
+        let bands = bands.div_ceil(shared).max(1);
+        // Several planes are read tile by tile, as they lie in memory; one plane is quicker row by row.
+        let planes = match aspect {
+            Aspect::Color => self.samples * self.layout.words,
+            Aspect::Depth | Aspect::Stencil => self.samples,
         };
-        let jobs: Vec<_> = codes.chunks_mut((rows * row).max(1)).enumerate().collect();
+        let high = if planes > 1 { TILE } else { 1 };
+        let jobs: Vec<_> = codes.chunks_mut(bands * TILE * row).enumerate().collect();
         on_threads(jobs, &|(number, part)| {
             dispatch!(level, simd => simd.vectorize(
                 #[inline(always)]
                 || {
-                    for (y, codes) in part.chunks_exact_mut(row).enumerate() {
-                        self.tiles_row(aspect, channels, number * rows + y, codes);
+                    for (step, codes) in part.chunks_mut(high * row).enumerate() {
+                        let y = number * bands * TILE + step * high;
+                        self.rows(aspect, channels, y, codes);
                     }
                 },
             ));
@@ -128,16 +133,25 @@ impl Image {
         codes
     }
 
-    /// Writes the codes of one row of texels.
+    /// Writes the codes of rows of texels in one row of tiles, from row `y` on, tile by tile.
     #[inline(always)]
-    fn tiles_row(&self, aspect: Aspect, channels: usize, y: usize, codes: &mut [u32]) {
-        let parts = codes.chunks_mut(TILE * self.samples * channels);
-        for (column, part) in parts.enumerate() {
+    fn rows(&self, aspect: Aspect, channels: usize, y: usize, codes: &mut [u32]) {
+        let texel = self.samples * channels;
+        let (row, wide) = (self.width * texel, TILE * texel);
+        for column in 0..self.across {
             let tile = y / TILE * self.across + column;
-            for sample in 0..self.samples {
-                let plane = tile * self.samples + sample;
-                let rest = &mut part[sample * channels..];
-                self.row(aspect, channels, [plane, y % TILE * TILE], rest);
+            for (y, row) in (y % TILE..).zip(codes.chunks_exact_mut(row)) {
+                let end = row.len().min((column + 1) * wide);
+                let part = &mut row[column * wide..end];
+                for sample in 0..self.samples {
+                    let plane = tile * self.samples + sample;
+                    self.row(
+                        aspect,
+                        channels,
+                        [plane, y * TILE],
+                        &mut part[sample * channels..],
+                    );
+                }
             }
         }
     }
