@@ -97,7 +97,8 @@ pub(crate) fn encode_behind<T: Serialize>(mut bytes: Vec<u8>, message: &T) -> io
     Ok(bytes)
 }
 
-/// The bytes of earlier messages, behind which postcard writes. Its own flavor for this copies byte by byte.
+/// The bytes of earlier messages, behind which postcard writes. The flavor that postcard has for this copies byte
+/// by byte.
 struct Behind(Vec<u8>);
 
 impl Flavor for Behind {

@@ -207,3 +207,53 @@ fn spread<T>(codes: &mut [u32], step: usize, values: &[T], code: impl Fn(&T) -> 
         *slot = code(value);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_frame::TextureFormat;
+
+    #[test]
+    fn codes_come_back_in_rows_for_any_layout() {
+        let formats = [
+            TextureFormat::R8Unorm,
+            TextureFormat::Rgba8Unorm,
+            TextureFormat::Rgba16Float,
+            TextureFormat::Rgba32Float,
+        ];
+        for (format, samples) in formats.into_iter().flat_map(|f| [(f, 1), (f, 4)]) {
+            let attachment = Attachment {
+                name: "color".to_owned(),
+                format,
+                size: [130, 150],
+                samples,
+                contents: Contents::Color([0.0; 4]),
+            };
+            let mut image = Image::new(&attachment);
+            let (layout, channels) = (image.layout, format.color_channels());
+            let mut expected = Vec::new();
+            for (y, x) in (0..150).flat_map(|y| (0..130).map(move |x| (y, x))) {
+                for sample in 0..samples as usize {
+                    // Differs between neighbours in each direction.
+                    let code = |c: usize| {
+                        (x * 3 + y * 7 + sample * 31 + c * 57) as u32 & channels[c].mask()
+                    };
+                    for (word, value) in layout.texel(code).into_iter().enumerate() {
+                        if word < layout.words {
+                            let place = image.color_place(x, y, sample, word);
+                            image.color.texels[place] = value;
+                        }
+                    }
+                    expected.extend((0..channels.len()).map(code));
+                }
+            }
+            for threads in [1, 3] {
+                let codes = image.codes(Aspect::Color, channels.len(), Level::new(), threads);
+                assert!(
+                    codes == expected,
+                    "{format}, {samples} samples, {threads} threads"
+                );
+            }
+        }
+    }
+}
