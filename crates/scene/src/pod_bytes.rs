@@ -1,7 +1,7 @@
 //! Serialization of vertices and indices between processes of one machine: in a binary format, as their bytes;
 //! in a human-readable one, as lists. A large mesh takes longer to write number by number than to draw.
 
-use bytemuck::{AnyBitPattern, NoUninit};
+use bytemuck::Pod;
 use serde::de::{Error, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
@@ -10,7 +10,7 @@ use std::marker::PhantomData;
 /// Items that are written and read as bytes.
 struct Bytes<T>(T);
 
-impl<T: NoUninit + Serialize> Serialize for Bytes<&[T]> {
+impl<T: Pod + Serialize> Serialize for Bytes<&[T]> {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         if to.is_human_readable() {
             self.0.serialize(to)
@@ -20,7 +20,7 @@ impl<T: NoUninit + Serialize> Serialize for Bytes<&[T]> {
     }
 }
 
-impl<'de, T: NoUninit + AnyBitPattern + Deserialize<'de>> Deserialize<'de> for Bytes<Vec<T>> {
+impl<'de, T: Pod + Deserialize<'de>> Deserialize<'de> for Bytes<Vec<T>> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         if from.is_human_readable() {
             Vec::deserialize(from).map(Self)
@@ -32,7 +32,7 @@ impl<'de, T: NoUninit + AnyBitPattern + Deserialize<'de>> Deserialize<'de> for B
 
 struct Items<T>(PhantomData<T>);
 
-impl<T: NoUninit + AnyBitPattern> Visitor<'_> for Items<T> {
+impl<T: Pod> Visitor<'_> for Items<T> {
     type Value = Bytes<Vec<T>>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -50,7 +50,7 @@ impl<T: NoUninit + AnyBitPattern> Visitor<'_> for Items<T> {
 /// Writes items.
 pub(crate) fn serialize<T, S>(items: &[T], to: S) -> Result<S::Ok, S::Error>
 where
-    T: NoUninit + Serialize,
+    T: Pod + Serialize,
     S: Serializer,
 {
     Bytes(items).serialize(to)
@@ -59,7 +59,7 @@ where
 /// Reads items.
 pub(crate) fn deserialize<'de, T, D>(from: D) -> Result<Vec<T>, D::Error>
 where
-    T: NoUninit + AnyBitPattern + Deserialize<'de>,
+    T: Pod + Deserialize<'de>,
     D: Deserializer<'de>,
 {
     Bytes::deserialize(from).map(|items| items.0)
@@ -67,12 +67,12 @@ where
 
 /// The same for items that can be absent.
 pub(crate) mod optional {
-    use super::{AnyBitPattern, Bytes, Deserialize, Deserializer, NoUninit, Serialize, Serializer};
+    use super::{Bytes, Deserialize, Deserializer, Pod, Serialize, Serializer};
 
     /// Writes items, if there are any.
     pub(crate) fn serialize<T, S>(items: &Option<Vec<T>>, to: S) -> Result<S::Ok, S::Error>
     where
-        T: NoUninit + Serialize,
+        T: Pod + Serialize,
         S: Serializer,
     {
         items.as_deref().map(Bytes).serialize(to)
@@ -81,7 +81,7 @@ pub(crate) mod optional {
     /// Reads items, if there are any.
     pub(crate) fn deserialize<'de, T, D>(from: D) -> Result<Option<Vec<T>>, D::Error>
     where
-        T: NoUninit + AnyBitPattern + Deserialize<'de>,
+        T: Pod + Deserialize<'de>,
         D: Deserializer<'de>,
     {
         let items = Option::<Bytes<Vec<T>>>::deserialize(from)?;

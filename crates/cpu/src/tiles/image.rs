@@ -109,22 +109,22 @@ impl Image {
     ) -> Vec<u32> {
         let row = (self.width * self.samples * channels).max(1);
         let mut codes = vec![0; self.height * row];
-        let bands = self.height.div_ceil(TILE);
-        let shared = if codes.len() < SHARED { 1 } else { threads };
-        let bands = bands.div_ceil(shared).max(1);
-        // Several planes are read tile by tile, as they lie in memory; one plane is quicker row by row.
+        let jobs = if codes.len() < SHARED { 1 } else { threads };
+        // The rows of a job: whole tiles.
+        let rows = self.height.div_ceil(TILE).div_ceil(jobs).max(1) * TILE;
+        // Several planes are read in the order of their tiles in memory. One plane is quicker row by row.
         let planes = match aspect {
             Aspect::Color => self.samples * self.layout.words,
             Aspect::Depth | Aspect::Stencil => self.samples,
         };
         let high = if planes > 1 { TILE } else { 1 };
-        let jobs: Vec<_> = codes.chunks_mut(bands * TILE * row).enumerate().collect();
+        let jobs: Vec<_> = codes.chunks_mut(rows * row).enumerate().collect();
         on_threads(jobs, &|(number, part)| {
             dispatch!(level, simd => simd.vectorize(
                 #[inline(always)]
                 || {
                     for (step, codes) in part.chunks_mut(high * row).enumerate() {
-                        let y = number * bands * TILE + step * high;
+                        let y = number * rows + step * high;
                         self.rows(aspect, channels, y, codes);
                     }
                 },
