@@ -117,15 +117,20 @@ impl Image {
             Aspect::Color => self.samples * self.layout.words,
             Aspect::Depth | Aspect::Stencil => self.samples,
         };
-        let high = if planes > 1 { TILE } else { 1 };
         let jobs: Vec<_> = codes.chunks_mut(rows * row).enumerate().collect();
         on_threads(jobs, &|(number, part)| {
             dispatch!(level, simd => simd.vectorize(
                 #[inline(always)]
                 || {
-                    for (step, codes) in part.chunks_mut(high * row).enumerate() {
-                        let y = number * rows + step * high;
-                        self.rows(aspect, channels, y, codes);
+                    let first = number * rows;
+                    if planes > 1 {
+                        for (band, codes) in part.chunks_mut(TILE * row).enumerate() {
+                            self.tiles(aspect, channels, first + band * TILE, codes);
+                        }
+                    } else {
+                        for (y, codes) in part.chunks_exact_mut(row).enumerate() {
+                            self.whole_row(aspect, channels, first + y, codes);
+                        }
                     }
                 },
             ));
@@ -135,24 +140,34 @@ impl Image {
 
     /// Writes the codes of rows of texels in one row of tiles, from row `y` on, tile by tile.
     #[inline(always)]
-    fn rows(&self, aspect: Aspect, channels: usize, y: usize, codes: &mut [u32]) {
+    fn tiles(&self, aspect: Aspect, channels: usize, y: usize, codes: &mut [u32]) {
         let texel = self.samples * channels;
-        let (row, wide) = (self.width * texel, TILE * texel);
         for column in 0..self.across {
-            let tile = y / TILE * self.across + column;
-            for (y, row) in (y % TILE..).zip(codes.chunks_exact_mut(row)) {
-                let end = row.len().min((column + 1) * wide);
-                let part = &mut row[column * wide..end];
-                for sample in 0..self.samples {
-                    let plane = tile * self.samples + sample;
-                    self.row(
-                        aspect,
-                        channels,
-                        [plane, y * TILE],
-                        &mut part[sample * channels..],
-                    );
-                }
+            for (y, row) in (y..).zip(codes.chunks_exact_mut(self.width * texel)) {
+                let end = row.len().min((column + 1) * TILE * texel);
+                let part = &mut row[column * TILE * texel..end];
+                self.part(aspect, channels, [column, y], part);
             }
+        }
+    }
+
+    /// Writes the codes of one row of texels.
+    #[inline(always)]
+    fn whole_row(&self, aspect: Aspect, channels: usize, y: usize, codes: &mut [u32]) {
+        let parts = codes.chunks_mut(TILE * self.samples * channels);
+        for (column, part) in parts.enumerate() {
+            self.part(aspect, channels, [column, y], part);
+        }
+    }
+
+    /// Writes the codes of the texels of row `y` that are in a column of tiles.
+    #[inline(always)]
+    fn part(&self, aspect: Aspect, channels: usize, [column, y]: [usize; 2], codes: &mut [u32]) {
+        let tile = y / TILE * self.across + column;
+        for sample in 0..self.samples {
+            let plane = tile * self.samples + sample;
+            let rest = &mut codes[sample * channels..];
+            self.row(aspect, channels, [plane, y % TILE * TILE], rest);
         }
     }
 
