@@ -3,7 +3,6 @@
 use etalon_backend::{AdapterInfo, BackendError, FrameTime, Recording, Unavailable};
 use etalon_frame::{Frame, Limits};
 use etalon_scene::Scene;
-use postcard::ser_flavors::Flavor;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -87,36 +86,14 @@ pub(crate) fn encode_behind<T: Serialize>(mut bytes: Vec<u8>, message: &T) -> io
     const LENGTH: usize = size_of::<u32>();
     let start = bytes.len() + LENGTH;
     bytes.resize(start, 0);
-    let mut bytes =
-        postcard::serialize_with_flavor(message, Behind(bytes)).map_err(io::Error::other)?;
+    // `to_extend` copies byte by byte.
+    let mut bytes = postcard::to_io(message, bytes).map_err(io::Error::other)?;
     let length = u32::try_from(bytes.len() - start)
         .ok()
         .filter(|n| *n <= MAX_MESSAGE)
         .ok_or_else(|| io::Error::other("the message is too long"))?;
     bytes[start - LENGTH..start].copy_from_slice(&length.to_le_bytes());
     Ok(bytes)
-}
-
-/// The bytes of earlier messages, behind which postcard writes. The flavor that postcard has for this copies byte
-/// by byte.
-struct Behind(Vec<u8>);
-
-impl Flavor for Behind {
-    type Output = Vec<u8>;
-
-    fn try_extend(&mut self, data: &[u8]) -> postcard::Result<()> {
-        self.0.extend_from_slice(data);
-        Ok(())
-    }
-
-    fn try_push(&mut self, byte: u8) -> postcard::Result<()> {
-        self.0.push(byte);
-        Ok(())
-    }
-
-    fn finalize(self) -> postcard::Result<Vec<u8>> {
-        Ok(self.0)
-    }
 }
 
 /// Sends a message at once.
