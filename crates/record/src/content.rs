@@ -7,6 +7,7 @@
 use crate::error::RecordError;
 use crate::folder::FolderKind;
 use crate::lock::LOCK_FILE;
+use crate::output_folder::LIST;
 use serde::de::IgnoredAny;
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -70,7 +71,7 @@ fn is_remnant(name: &str) -> bool {
         let hidden = name.strip_prefix('.');
         hidden.is_some_and(|name| name.strip_prefix(kind.file()).is_some_and(is_process))
     };
-    name == LOCK_FILE || FolderKind::ALL.into_iter().any(unfinished)
+    name == LOCK_FILE || name == LIST || FolderKind::ALL.into_iter().any(unfinished)
 }
 
 /// Returns true for the suffix of an unfinished file: a dot and a process id.

@@ -7,6 +7,8 @@
 use crate::error::RecordError;
 use crate::expectations::{Expectations, Known};
 use crate::folder::DEAD_FILE;
+use crate::output_folder::OutputFolder;
+use crate::paths::open_below;
 use crate::run::Run;
 use crate::verdict::Verdict;
 use etalon_frame::state_enum;
@@ -15,8 +17,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::cell::LazyCell;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
-use std::fs::{self, File};
-use std::io::{ErrorKind, Read};
+use std::io::Read;
 use std::path::Path;
 
 state_enum! {
@@ -57,19 +58,14 @@ impl Dead {
     /// # Errors
     /// If the file cannot be written or removed.
     pub fn write(folder: &Path, dead: &[Self]) -> Result<(), RecordError> {
-        let path = folder.join(DEAD_FILE);
+        let out = OutputFolder::open(folder)?;
         if dead.is_empty() {
-            return match fs::remove_file(&path) {
-                Err(e) if e.kind() != ErrorKind::NotFound => {
-                    Err(RecordError::io("remove", &path)(e))
-                }
-                _ => Ok(()),
-            };
+            return out.take_away(DEAD_FILE);
         }
         let mut text = serde_json::to_string_pretty(dead)
             .map_err(RecordError::serialize("dead expectations"))?;
         text.push('\n');
-        fs::write(&path, text).map_err(RecordError::io("write", &path))
+        out.write(DEAD_FILE, text.as_bytes()).map(drop)
     }
 
     /// Reads the dead expectations in a run folder; returns none if the folder has no list.
@@ -79,11 +75,12 @@ impl Dead {
     pub fn read(folder: &Path) -> Result<Vec<Self>, RecordError> {
         let path = folder.join(DEAD_FILE);
         let mut text = String::new();
-        match File::open(&path).and_then(|f| f.take(MAX_BYTES).read_to_string(&mut text)) {
-            Ok(_) => {}
-            Err(e) if e.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
-            Err(e) => return Err(RecordError::io("read", &path)(e)),
+        match open_below(folder, DEAD_FILE) {
+            Ok(file) => file.take(MAX_BYTES).read_to_string(&mut text),
+            Err(e) if e.is_missing() => return Ok(Vec::new()),
+            Err(e) => return Err(e),
         }
+        .map_err(RecordError::io("read", &path))?;
         serde_json::from_str(&text).map_err(|e| RecordError::Parse {
             line: e.line(),
             message: crate::json::without_position(&e),

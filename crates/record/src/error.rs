@@ -55,6 +55,32 @@ pub enum RecordError {
         /// The kind of the file in it whose header does not parse.
         damaged: Option<FolderKind>,
     },
+    /// A file is in the way that no command recorded.
+    #[error("{} is not a file of etalon and would be replaced; move it, or name another folder", path.display())]
+    NotOurs {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A link is in the way.
+    #[error("{} is a link or no regular file, and nothing is written through it; remove it, or name another folder", path.display())]
+    Link {
+        /// The link.
+        path: PathBuf,
+    },
+    /// A frame file cannot be read.
+    #[error("cannot read the frame {}: {source}; copy the file anew, or draw the case again", path.display())]
+    Frame {
+        /// The file.
+        path: PathBuf,
+        /// The system's error, or that of the compressed file.
+        source: io::Error,
+    },
+    /// A file to read is a link, a pipe, a device or a folder.
+    #[error("{} is a link or no regular file, so it is not read; put the file itself there", path.display())]
+    Irregular {
+        /// The path.
+        path: PathBuf,
+    },
     /// The folder already holds a bench.
     #[error(
         "{} already holds a bench, which lacks {missing} rounds: choose another folder with --out, --resume \
@@ -192,6 +218,11 @@ impl RecordError {
             path,
             source,
         }
+    }
+
+    /// Returns true if a file does not exist.
+    pub(crate) fn is_missing(&self) -> bool {
+        matches!(self, Self::Io { source, .. } if source.kind() == io::ErrorKind::NotFound)
     }
 
     pub(crate) fn serialize(what: &'static str) -> impl FnOnce(serde_json::Error) -> Self {

@@ -17,7 +17,7 @@ pub const FUZZ_FILE: &str = "fuzz.jsonl";
 /// The file of a search over releases.
 pub const VERSIONS_FILE: &str = "versions.jsonl";
 /// The file of a hunt for planted bugs.
-pub(crate) const HUNT_FILE: &str = "mutants.json";
+pub const HUNT_FILE: &str = "mutants.json";
 /// The folder of frame files in a run folder.
 pub(crate) const FRAMES: &str = "frames";
 /// The folder of pictures in a run folder.
@@ -67,6 +67,38 @@ impl FolderKind {
             Self::Fuzz => FUZZ_FILE,
             Self::Versions => VERSIONS_FILE,
             Self::Hunt => HUNT_FILE,
+        }
+    }
+
+    /// Returns the names at the top of a folder of this kind, with `/` after those of folders.
+    pub fn names(self) -> &'static [&'static str] {
+        match self {
+            Self::Bench => &[
+                BENCH_FILE,
+                "index.html",
+                "bencher.json",
+                "benchmark-action.json",
+                "matrix.html",
+                "matrix.csv",
+            ],
+            Self::Run => &[
+                RUN_FILE,
+                CASES_FILE,
+                MISSING_FILE,
+                DEAD_FILE,
+                "index.html",
+                "methods.html",
+                "junit.xml",
+                "ctrf.json",
+                "summary.md",
+                "frames/",
+                "pictures/",
+                "cases/",
+                "results/",
+            ],
+            Self::Fuzz => &[FUZZ_FILE, "found/", "known/"],
+            Self::Versions => &[VERSIONS_FILE, "versions.html", "work/"],
+            Self::Hunt => &[HUNT_FILE, "mutants.html", "recall.txt"],
         }
     }
 

@@ -3,8 +3,9 @@
 use crate::error::RecordError;
 use crate::folder::HUNT_FILE;
 use crate::json::json_line;
-use crate::json_lines::begin;
+use crate::json_lines::put;
 use crate::machine::Machine;
+use crate::output_folder::OutputFolder;
 use crate::verdict::Verdict;
 use etalon_frame::{WrongTexel, state_enum};
 use schemars::JsonSchema;
@@ -188,7 +189,11 @@ impl Hunt {
     /// # Errors
     /// If the folder cannot be written to.
     pub fn write(&self, folder: &Path) -> Result<PathBuf, RecordError> {
-        begin(folder, HUNT_FILE, &json_line("a hunt", self)?)?;
+        put(
+            &OutputFolder::open(folder)?,
+            HUNT_FILE,
+            [json_line("a hunt", self)],
+        )?;
         Ok(folder.join(HUNT_FILE))
     }
 }

@@ -5,10 +5,11 @@
 
 use crate::error::RecordError;
 use crate::json::without_position;
+use crate::output_folder::OutputFolder;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::error::Category;
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{BufRead, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
@@ -36,33 +37,23 @@ pub(crate) struct Extent {
     pub(crate) truncated: bool,
 }
 
-/// Begins a file in a folder, and creates the folder if it does not exist. The file is renamed into place,
-/// so that it never has half a header.
-pub(crate) fn begin(folder: &Path, name: &str, header: &[u8]) -> Result<File, RecordError> {
-    fs::create_dir_all(folder).map_err(RecordError::io("create", folder))?;
-    put(folder, name, [Ok(header)])
-}
-
-/// Writes the lines to a temporary file, and renames it into place.
+/// Writes lines to a file of a folder, and returns it to append more. The file is renamed into place, so that it
+/// never has half a header.
 pub(crate) fn put<L: AsRef<[u8]>>(
-    folder: &Path,
+    out: &OutputFolder,
     name: &str,
     lines: impl IntoIterator<Item = Result<L, RecordError>>,
 ) -> Result<File, RecordError> {
-    let path = folder.join(name);
-    let beside = folder.join(format!(".{name}.{}", std::process::id()));
-    let file = File::create(&beside).map_err(RecordError::io("create", &beside))?;
-    let mut file = BufWriter::new(file);
-    for line in lines {
-        let written = file.write_all(line?.as_ref());
-        written.map_err(RecordError::io("write", &path))?;
-    }
-    file.flush()
-        .and_then(|()| file.get_ref().sync_data())
-        .and_then(|()| fs::rename(&beside, &path))
-        .map_err(RecordError::io("write", &path))?;
-    file.into_inner()
-        .map_err(|error| RecordError::io("write", &path)(error.into_error()))
+    let placed = out.place(name, |file| {
+        let mut file = BufWriter::new(file);
+        for line in lines {
+            file.write_all(line?.as_ref())?;
+        }
+        file.flush()?;
+        file.get_ref().sync_data()?;
+        Ok(())
+    });
+    placed.map(|(_, file)| file)
 }
 
 /// Opens a file to append lines after its first `whole` bytes; cuts off what follows them.

@@ -13,7 +13,6 @@
 
 mod adapter;
 mod bench;
-mod clear;
 mod conflict;
 mod content;
 mod date;
@@ -38,13 +37,14 @@ mod lock;
 mod machine;
 mod measured;
 mod merge;
+mod output_folder;
 mod paths;
 mod record;
-mod report_files;
 mod run;
 mod selection;
 mod shader_cache;
 mod shorten;
+mod unlisted;
 mod verdict;
 mod versions;
 mod writer;
@@ -55,7 +55,6 @@ pub use bench::{
     Counted, Done, Ended, Enough, InstructionCounter, Measure, Picture, ProcessorLimits, Round,
     Time, cell,
 };
-pub use clear::clear;
 pub use content::{Content, is_marked, overlap};
 pub use dead::{Dead, DeadKind};
 pub use driver_version::version_of;
@@ -64,7 +63,8 @@ pub use expectations::{Entry, Expectation, Expectations, Known, Source};
 pub use expected_symptom::{ExpectedSymptom, Shown, Side};
 pub use findings::{Evidence, Finding, Reading, ReadingVerdict, Seen};
 pub use folder::{
-    BENCH_FILE, CASES_FILE, DEAD_FILE, FUZZ_FILE, FolderKind, MISSING_FILE, RUN_FILE, VERSIONS_FILE,
+    BENCH_FILE, CASES_FILE, DEAD_FILE, FUZZ_FILE, FolderKind, HUNT_FILE, MISSING_FILE, RUN_FILE,
+    VERSIONS_FILE,
 };
 pub use frame_file::{FrameFile, FrameImage};
 pub use frame_writer::FrameWriter;
@@ -77,11 +77,12 @@ pub use lock::FolderLock;
 pub use machine::Machine;
 pub use measured::{Measured, Parameter, Times};
 pub use merge::{Merge, Merged};
+pub use output_folder::OutputFolder;
+pub use paths::open_below;
 pub use record::{
     Assertion, Expected, LossKind, MAX_LINE, MAX_VALIDATION, MAX_WRONG_TEXELS, ProcessEnd, Record,
     Seconds, before_axes, case_file,
 };
-pub use report_files::ReportFiles;
 pub use run::Run;
 pub use selection::{read_cases, selection_digest, shard_of};
 pub use shader_cache::ShaderCache;

@@ -28,6 +28,9 @@ impl FolderLock {
     pub fn acquire(folder: &Path) -> Result<Self, RecordError> {
         fs::create_dir_all(folder).map_err(RecordError::io("create", folder))?;
         let path = folder.join(LOCK_FILE);
+        if fs::symlink_metadata(&path).is_ok_and(|found| !found.is_file()) {
+            return Err(RecordError::Link { path });
+        }
         let file = OpenOptions::new()
             .create(true)
             .truncate(false)

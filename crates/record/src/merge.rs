@@ -4,16 +4,16 @@ use crate::dead::Dead;
 use crate::error::RecordError;
 use crate::folder::{CASES_FILE, MISSING_FILE};
 use crate::header::{FORMAT, Header, Settings};
-use crate::paths::below;
+use crate::output_folder::OutputFolder;
+use crate::paths::{frame_path, open_below};
 use crate::record::Record;
-use crate::report_files::ReportFiles;
 use crate::run::Run;
 use crate::selection::read_cases;
 use crate::verdict::Verdict;
 use crate::writer::RunWriter;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::fs;
-use std::io::ErrorKind;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// Parts of a run that fit together, ready to be written.
@@ -134,26 +134,30 @@ impl Merge {
     }
 
     /// Writes the merged run as a run folder: records by adapter and then case, their frames and pictures,
-    /// and a list of the missing records. `reports` are removed from a run that it replaces.
+    /// and a list of the missing records.
     ///
     /// # Errors
     /// If a file cannot be read or written, or if a record names a file outside its folder.
-    pub fn write(mut self, out: &Path, reports: ReportFiles) -> Result<Merged, RecordError> {
-        let mut writer = RunWriter::replace(out, &self.header, reports)?;
+    pub fn write(mut self, out: &Path) -> Result<Merged, RecordError> {
+        let mut writer = RunWriter::create(out, &self.header)?;
         writer.write_cases(self.ids.iter().map(String::as_str))?;
         let mut merged = self.merged;
         for (a, adapter) in self.header.adapters.iter().enumerate() {
             for (c, case) in self.ids.iter().enumerate() {
-                let Some((record, folder)) = self.records.remove(&(a, c)) else {
+                let Some((mut record, folder)) = self.records.remove(&(a, c)) else {
                     merged.missing.push((adapter.name.clone(), case.clone()));
                     continue;
                 };
-                let measured = record.measured.as_ref();
-                let pictures = measured
-                    .into_iter()
-                    .flat_map(|m| [m.picture.as_ref(), m.truth.as_ref()]);
-                for file in pictures.chain([record.frame.as_ref()]).flatten() {
-                    copy(&folder, out, file)?;
+                if let Some(frame) = &mut record.frame {
+                    // Two parts of earlier versions can have one path for two adapters.
+                    let packed = frame.ends_with(".gz");
+                    let path = frame_path(&record.adapter, &record.case);
+                    let to = if packed { path } else { frame.clone() };
+                    copy(&folder, frame, writer.out(), &to)?;
+                    *frame = to;
+                }
+                for picture in record.pictures() {
+                    copy(&folder, picture, writer.out(), picture)?;
                 }
                 writer.append(&record)?;
                 merged.records += 1;
@@ -166,8 +170,7 @@ impl Merge {
         if !merged.missing.is_empty() {
             let lines = merged.missing.iter();
             let text: String = lines.map(|(a, c)| format!("{a} {c}\n")).collect();
-            let path = out.join(MISSING_FILE);
-            fs::write(&path, text).map_err(RecordError::io("write", &path))?;
+            writer.out().write(MISSING_FILE, text.as_bytes())?;
         }
         Ok(merged)
     }
@@ -353,14 +356,13 @@ fn disagreeing(first: (Record, PathBuf), other: (Record, PathBuf)) -> (Record, P
 }
 
 /// Copies a file that a record names. A missing file is left for the report to note.
-fn copy(from: &Path, to: &Path, file: &str) -> Result<(), RecordError> {
-    let relative = below(file)?;
-    let (from, to) = (from.join(&relative), to.join(&relative));
-    if let Some(parent) = to.parent() {
-        fs::create_dir_all(parent).map_err(RecordError::io("create", parent))?;
+fn copy(from: &Path, file: &str, out: &OutputFolder, to: &str) -> Result<(), RecordError> {
+    let mut bytes = Vec::new();
+    match open_below(from, file) {
+        Ok(mut file) => file.read_to_end(&mut bytes),
+        Err(e) if e.is_missing() => return Ok(()),
+        Err(e) => return Err(e),
     }
-    match fs::copy(&from, &to) {
-        Err(e) if e.kind() != ErrorKind::NotFound => Err(RecordError::io("copy", &from)(e)),
-        _ => Ok(()),
-    }
+    .map_err(RecordError::io("read", &from.join(file)))?;
+    out.write(to, &bytes).map(drop)
 }

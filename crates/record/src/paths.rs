@@ -3,7 +3,8 @@
 use crate::error::RecordError;
 use crate::folder::{FRAMES, PICTURES};
 use crate::hash::fnv;
-use std::path::{Component, PathBuf};
+use std::fs::{self, File};
+use std::path::{Component, Path, PathBuf};
 
 /// Returns the path of a file that a record names.
 ///
@@ -21,51 +22,78 @@ pub(crate) fn below(file: &str) -> Result<PathBuf, RecordError> {
     }
 }
 
+/// Opens a file below a folder to read it.
+///
+/// # Errors
+/// If the path leaves the folder or goes through a link, or if it names no regular file.
+pub fn open_below(folder: &Path, file: &str) -> Result<File, RecordError> {
+    let relative = below(file)?;
+    let path = folder.join(&relative);
+    let found = fs::symlink_metadata(&path).map_err(RecordError::io("read", &path))?;
+    // Reading a pipe would block, and a link can lead to any file of the machine.
+    if !found.is_file() || !lowest_real(folder, &relative) {
+        return Err(RecordError::Irregular { path });
+    }
+    File::open(&path).map_err(RecordError::io("read", &path))
+}
+
+/// Returns true if a path below a folder names a regular file, and no folder in between is a link.
+pub(crate) fn lowest_real(folder: &Path, relative: &Path) -> bool {
+    let is = |path: &Path, wanted: fn(&fs::FileType) -> bool| {
+        fs::symlink_metadata(folder.join(path)).is_ok_and(|found| wanted(&found.file_type()))
+    };
+    let mut parents = relative.ancestors().skip(1);
+    is(relative, fs::FileType::is_file)
+        && parents.all(|parent| parent == Path::new("") || is(parent, fs::FileType::is_dir))
+}
+
 /// Returns `frames/<adapter>/<area>/<rest of the case>.json.gz`. The parts of the rest are joined by `,`,
-/// and characters that a file system could treat specially are replaced. A folder per part would cost more
-/// than the frames.
+/// because a folder per part would cost more than the frames.
 pub(crate) fn frame_path(adapter: &str, case: &str) -> String {
     let (area, path) = case.split_once('/').unwrap_or(("", case));
-    let (adapter, area) = (safe(adapter), safe(area));
-    format!("{FRAMES}/{adapter}/{area}/{}.json.gz", safe(path))
+    let (adapter, area) = (component(adapter, (':', '_')), component(area, SEPARATOR));
+    format!(
+        "{FRAMES}/{adapter}/{area}/{}.json.gz",
+        component(path, SEPARATOR)
+    )
 }
 
-/// Returns `pictures/<case>.png`, with the same replacements.
+/// Returns `pictures/<case>.png`, with a folder for each part.
 pub(crate) fn picture_path(case: &str) -> String {
-    format!("{}.png", path_below(PICTURES, case))
+    let parts: Vec<String> = case
+        .split('/')
+        .map(|part| component(part, SEPARATOR))
+        .collect();
+    format!("{PICTURES}/{}.png", parts.join("/"))
 }
 
-/// Returns `<folder>/<case>`, with characters replaced that a file system could treat specially.
-fn path_below(folder: &str, case: &str) -> String {
-    let mut path = folder.to_owned();
-    for part in case.split('/') {
-        path.push('/');
-        path.push_str(&safe(part));
-    }
-    path
-}
+/// The separator of an id's parts, and its replacement in one component.
+const SEPARATOR: (char, char) = ('/', ',');
 
-/// Makes one safe path component. `:` becomes `_`, and `/` becomes `,`. A component that changes in any
-/// other way also gets a hash of the original, so that two components never become equal.
-fn safe(part: &str) -> String {
+/// Makes one safe path component, with one character replaced by another. A name that contains the replacement
+/// or anything that a file system could treat specially also gets a hash, so that two names never become
+/// equal, even where capitals do not count.
+fn component(name: &str, (from, to): (char, char)) -> String {
     const LONGEST: usize = 160;
-    let fine = |c: char| c.is_ascii_alphanumeric() || "._=+-".contains(c);
-    let mut name: String = part
+    let fine = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || "._=+-".contains(c);
+    let is_unchanged = |c: char| fine(c) && c != to;
+    let mut safe: String = name
         .chars()
         .map(|c| match c {
-            '/' => ',',
-            c if fine(c) => c,
+            c if c == from => to,
+            c if fine(c) || c.is_ascii_uppercase() => c,
             _ => '_',
         })
         .take(LONGEST)
         .collect();
-    if name.starts_with('.') {
-        name.replace_range(..1, "_");
+    if safe.starts_with('.') {
+        safe.replace_range(..1, "_");
     }
-    if name.is_empty() || name != part.replace(':', "_").replace('/', ",") {
-        name.push_str(&format!("-{:016x}", fnv(part.bytes())));
+    let whole = name.chars().count() <= LONGEST && !name.is_empty() && !name.starts_with('.');
+    if !whole || !name.chars().all(|c| c == from || is_unchanged(c)) {
+        safe.push_str(&format!("-{:016x}", fnv(name.bytes())));
     }
-    name
+    safe
 }
 
 #[cfg(test)]
@@ -96,7 +124,29 @@ mod tests {
             );
             assert!(path.is_ascii() && !path.contains('\\'), "{path}");
         }
-        assert_ne!(frame_path("a", "x y"), frame_path("a", "x?y"));
+        let apart = [
+            ("gl:a", "gl_a"),
+            ("gl:a", "gl/a"),
+            ("gl:a", "GL:a"),
+            ("gl:a:b", "gl:a_b"),
+            ("x y", "x?y"),
+        ];
+        for (one, other) in apart {
+            let (one_path, other_path) = (frame_path(one, "a/b"), frame_path(other, "a/b"));
+            assert_ne!(
+                one_path.to_lowercase(),
+                other_path.to_lowercase(),
+                "{one} {other}"
+            );
+        }
+        for (one, other) in [("a/b/c", "a/b,c"), ("a/b c", "a/b?c"), ("a/b_c", "a/b:c")] {
+            assert_ne!(
+                frame_path("a", one),
+                frame_path("a", other),
+                "{one} {other}"
+            );
+            assert_ne!(picture_path(one), picture_path(other), "{one} {other}");
+        }
         let long = frame_path("a", &"v".repeat(5000));
         assert!(long.len() < 255, "{}", long.len());
     }

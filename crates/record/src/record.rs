@@ -189,6 +189,18 @@ impl Record {
             };
     }
 
+    /// Returns the paths of its pictures below the run folder: the drawn one and the truth.
+    pub(crate) fn pictures(&self) -> impl Iterator<Item = &str> {
+        let measured = self.measured.as_ref().into_iter();
+        let both = measured.flat_map(|m| [m.picture.as_deref(), m.truth.as_deref()]);
+        both.flatten()
+    }
+
+    /// Returns the paths of all its files below the run folder.
+    pub fn files(&self) -> impl Iterator<Item = &str> {
+        self.pictures().chain(self.frame.as_deref())
+    }
+
     /// Returns the parts that expectations compare.
     pub fn shown(&self) -> Shown<'_> {
         Shown {

@@ -6,7 +6,7 @@ use crate::frame_file::FrameFile;
 use crate::header::{FORMAT, Header};
 use crate::json::without_position;
 use crate::json_lines::JsonLines;
-use crate::paths::below;
+use crate::paths::open_below;
 use crate::record::{MAX_LINE, Record};
 use flate2::read::GzDecoder;
 use std::fs::File;
@@ -32,6 +32,8 @@ const MAX_HEADER: u64 = 16 << 20;
 const MAX_FRAME: u64 = 512 << 20;
 /// The remedy for a damaged line.
 const REMEDY: &str = "remove the line, or record the run again";
+/// The remedy for a damaged frame: the run is readable without it.
+const FRAME_REMEDY: &str = "copy the file anew, or draw the case again";
 
 fn lines(path: &Path) -> JsonLines<'_> {
     JsonLines {
@@ -104,23 +106,26 @@ impl Run {
     /// # Errors
     /// If the path leaves the folder, or if the file cannot be read or does not parse.
     pub fn read_frame(folder: &Path, frame: &str) -> Result<FrameFile, RecordError> {
-        let path = folder.join(below(frame)?);
+        let file = open_below(folder, frame)?;
+        let path = folder.join(frame);
         let mut bytes = Vec::new();
         let packed = path.extension().is_some_and(|extension| extension == "gz");
-        File::open(&path)
-            .and_then(|file| {
-                let contents: Box<dyn Read> = if packed {
-                    Box::new(GzDecoder::new(file))
-                } else {
-                    Box::new(file)
-                };
-                contents.take(MAX_FRAME).read_to_end(&mut bytes)
-            })
-            .map_err(RecordError::io("read", &path))?;
+        let contents: Box<dyn Read> = if packed {
+            Box::new(GzDecoder::new(file))
+        } else {
+            Box::new(file)
+        };
+        contents
+            .take(MAX_FRAME)
+            .read_to_end(&mut bytes)
+            .map_err(|source| RecordError::Frame {
+                path: path.clone(),
+                source,
+            })?;
         serde_json::from_slice(&bytes).map_err(|e| RecordError::Parse {
             line: e.line(),
             message: without_position(&e),
-            remedy: REMEDY,
+            remedy: FRAME_REMEDY,
             path,
         })
     }
@@ -135,11 +140,11 @@ impl Run {
         picture: &str,
         most: u64,
     ) -> Result<Option<Vec<u8>>, RecordError> {
-        let path = folder.join(below(picture)?);
+        let file = open_below(folder, picture)?;
         let mut bytes = Vec::new();
-        File::open(&path)
-            .and_then(|file| file.take(most.saturating_add(1)).read_to_end(&mut bytes))
-            .map_err(RecordError::io("read", &path))?;
+        file.take(most.saturating_add(1))
+            .read_to_end(&mut bytes)
+            .map_err(RecordError::io("read", &folder.join(picture)))?;
         let is_picture = bytes.len() as u64 <= most && bytes.starts_with(PNG);
         Ok(is_picture.then_some(bytes))
     }

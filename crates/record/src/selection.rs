@@ -6,10 +6,11 @@ use crate::error::RecordError;
 use crate::folder::CASES_FILE;
 use crate::hash::fnv;
 use crate::header::Header;
+use crate::output_folder::OutputFolder;
+use crate::paths::open_below;
 use etalon_frame::without_mark;
 use std::collections::BTreeSet;
-use std::fs::{self, File};
-use std::io::{ErrorKind, Read};
+use std::io::Read;
 use std::path::Path;
 
 /// The maximum number of bytes of a list of cases.
@@ -43,10 +44,10 @@ pub fn shard_of(id: &str, count: u32) -> u32 {
 pub fn read_cases(folder: &Path, header: &Header) -> Result<Option<Vec<String>>, RecordError> {
     let path = folder.join(CASES_FILE);
     let mut text = String::new();
-    let file = match File::open(&path) {
+    let file = match open_below(folder, CASES_FILE) {
         Ok(file) => file,
-        Err(e) if e.kind() == ErrorKind::NotFound => return Ok(None),
-        Err(e) => return Err(RecordError::io("read", &path)(e)),
+        Err(e) if e.is_missing() => return Ok(None),
+        Err(e) => return Err(e),
     };
     file.take(MAX_BYTES)
         .read_to_string(&mut text)
@@ -64,19 +65,15 @@ pub fn read_cases(folder: &Path, header: &Header) -> Result<Option<Vec<String>>,
 }
 
 pub(crate) fn write_cases<'a>(
-    folder: &Path,
+    out: &OutputFolder,
     ids: impl IntoIterator<Item = &'a str>,
 ) -> Result<(), RecordError> {
-    let path = folder.join(CASES_FILE);
-    let beside = folder.join(format!(".{CASES_FILE}.{}", std::process::id()));
     let mut text = String::new();
     for id in ids {
         text.push_str(id);
         text.push('\n');
     }
-    fs::write(&beside, text)
-        .and_then(|()| fs::rename(&beside, &path))
-        .map_err(RecordError::io("write", &path))
+    out.write(CASES_FILE, text.as_bytes()).map(drop)
 }
 
 #[cfg(test)]

@@ -8,9 +8,10 @@ use crate::folder::VERSIONS_FILE;
 use crate::json::json_line;
 use crate::json_lines::JsonLines;
 use crate::machine::Machine;
+use crate::output_folder::OutputFolder;
 use crate::verdict::Verdict;
 use serde::{Deserialize, Serialize};
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -164,16 +165,11 @@ impl Versions {
     /// # Errors
     /// If the folder cannot be written to.
     pub fn write(&self, folder: &Path) -> Result<PathBuf, RecordError> {
-        fs::create_dir_all(folder).map_err(RecordError::io("create", folder))?;
-        let path = folder.join(VERSIONS_FILE);
         let mut bytes = json_line("the releases", &self.header)?;
         for case in &self.cases {
             bytes.append(&mut json_line("a case", case)?);
         }
-        let new = folder.join(format!(".{VERSIONS_FILE}.{}", std::process::id()));
-        fs::write(&new, bytes).map_err(RecordError::io("write", &new))?;
-        fs::rename(&new, &path).map_err(RecordError::io("write", &path))?;
-        Ok(path)
+        OutputFolder::open(folder)?.write(VERSIONS_FILE, &bytes)
     }
 
     /// Reads the file in a folder.
@@ -283,8 +279,8 @@ mod tests {
         versions.write(folder.path()).unwrap();
         assert_eq!(Versions::read(folder.path()).unwrap(), versions);
         let path = folder.path().join(VERSIONS_FILE);
-        let text = fs::read_to_string(&path).unwrap();
-        fs::write(&path, text.replace("[\"pass\",", "[")).unwrap();
+        let text = std::fs::read_to_string(&path).unwrap();
+        std::fs::write(&path, text.replace("[\"pass\",", "[")).unwrap();
         let error = Versions::read(folder.path()).unwrap_err().to_string();
         assert!(error.contains("one verdict per release"), "{error}");
         assert!(Versions::read(&folder.path().join("none")).is_err());

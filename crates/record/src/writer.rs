@@ -1,27 +1,27 @@
 //! Writing a run folder.
 
 use crate::conflict::resume_conflict;
-use crate::content::Content;
 use crate::error::RecordError;
-use crate::folder::{CASES_FILE, DEAD_FILE, FRAMES, FolderKind, MISSING_FILE, PICTURES, RUN_FILE};
+use crate::folder::{FolderKind, RUN_FILE};
 use crate::frame_writer::FrameWriter;
 use crate::header::Header;
 use crate::json::json_line;
-use crate::json_lines::{begin, put, reopen};
+use crate::json_lines::{put, reopen};
+use crate::output_folder::OutputFolder;
 use crate::record::Record;
-use crate::report_files::ReportFiles;
 use crate::run::Run;
 use crate::selection::write_cases;
 use crate::shorten::fit;
 use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Writes a run folder, line by line. Appended lines survive the end of the process.
 #[derive(Debug)]
 pub struct RunWriter {
-    folder: PathBuf,
+    out: Arc<OutputFolder>,
     path: PathBuf,
     file: File,
     synced: Instant,
@@ -29,13 +29,6 @@ pub struct RunWriter {
 
 /// The interval between two syncs. A power cut loses at most this part of a run.
 const SYNC_EVERY: Duration = Duration::from_secs(1);
-/// The files of a run other than its reports and records. The records are removed last: as long as they
-/// exist, the other files are known to belong to a run.
-pub(crate) const BESIDE: ReportFiles = ReportFiles {
-    // Earlier versions wrote frames uncompressed.
-    folders: &[(FRAMES, "gz"), (FRAMES, "json"), (PICTURES, "png")],
-    files: &[MISSING_FILE, DEAD_FILE, CASES_FILE],
-};
 
 impl Run {
     /// Replaces the run in a folder. A concurrent reader sees the old run or the new one, never a mixture.
@@ -45,44 +38,20 @@ impl Run {
     pub fn replace_in(&self, folder: &Path) -> Result<(), RecordError> {
         let header = json_line("the header", &self.header);
         let lines = std::iter::once(header).chain(self.records.iter().map(fit));
-        put(folder, RUN_FILE, lines).map(drop)
+        put(&OutputFolder::open(folder)?, RUN_FILE, lines).map(drop)
     }
 }
 
 impl RunWriter {
     /// Begins a run in a folder, and creates the folder if it does not exist. Replaces a run that the
-    /// folder already holds, but keeps its reports; refuses any other content.
+    /// folder already holds, with its reports; refuses any other content.
     ///
     /// # Errors
     /// If the folder cannot be written to, or holds anything other than a run.
     pub fn create(folder: &Path, header: &Header) -> Result<Self, RecordError> {
-        Self::replace(folder, header, ReportFiles::NONE)
-    }
-
-    /// Like [`RunWriter::create`], but also removes the reports of the earlier run.
-    ///
-    /// # Errors
-    /// If the folder cannot be written to, or holds anything other than a run.
-    pub fn replace(
-        folder: &Path,
-        header: &Header,
-        reports: ReportFiles,
-    ) -> Result<Self, RecordError> {
-        match Content::writable(folder)? {
-            Content::Recorded(FolderKind::Run) => {
-                reports.remove(folder)?;
-                BESIDE.remove(folder)?;
-            }
-            Content::Recorded(kind) => {
-                return Err(RecordError::Holds {
-                    path: folder.to_owned(),
-                    kind,
-                });
-            }
-            Content::Empty | Content::Other => {}
-        }
-        let file = begin(folder, RUN_FILE, &json_line("the header", header)?)?;
-        Ok(Self::new(folder, folder.join(RUN_FILE), file))
+        let out = OutputFolder::replace(folder, FolderKind::Run)?;
+        let file = put(&out, RUN_FILE, [json_line("the header", header)])?;
+        Ok(Self::new(out, file))
     }
 
     /// Resumes the run in a folder, and returns what was recorded so far. Removes a last record that was
@@ -98,16 +67,17 @@ impl RunWriter {
                 reason,
             });
         }
-        let path = folder.join(RUN_FILE);
-        let file = reopen(&path, length)?;
+        let out = OutputFolder::open(folder)?;
+        out.check(FolderKind::Run)?;
+        let file = reopen(&folder.join(RUN_FILE), length)?;
         run.truncated = false;
-        Ok((Self::new(folder, path, file), run))
+        Ok((Self::new(out, file), run))
     }
 
-    fn new(folder: &Path, path: PathBuf, file: File) -> Self {
+    fn new(out: OutputFolder, file: File) -> Self {
         Self {
-            folder: folder.to_owned(),
-            path,
+            path: out.path().join(RUN_FILE),
+            out: Arc::new(out),
             file,
             synced: Instant::now(),
         }
@@ -122,7 +92,7 @@ impl RunWriter {
         &self,
         ids: impl IntoIterator<Item = &'a str>,
     ) -> Result<(), RecordError> {
-        write_cases(&self.folder, ids)
+        write_cases(&self.out, ids)
     }
 
     /// Appends one record in a single write. A record longer than [`MAX_LINE`](crate::MAX_LINE) is
@@ -153,11 +123,11 @@ impl RunWriter {
 
     /// Returns a writer of frames and pictures for the folder.
     pub fn frames(&self) -> FrameWriter {
-        FrameWriter::new(&self.folder)
+        FrameWriter::new(Arc::clone(&self.out))
     }
 
     /// Returns the run folder.
-    pub fn folder(&self) -> &Path {
-        &self.folder
+    pub fn out(&self) -> &OutputFolder {
+        &self.out
     }
 }

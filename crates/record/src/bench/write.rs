@@ -4,12 +4,11 @@ use super::header::BenchHeader;
 use super::line::BenchLine;
 use super::read::Bench;
 use crate::conflict::bench_conflict;
-use crate::content::Content;
 use crate::error::RecordError;
 use crate::folder::{BENCH_FILE, FolderKind};
 use crate::json::json_line;
-use crate::json_lines::{begin, reopen};
-use crate::report_files::ReportFiles;
+use crate::json_lines::{put, reopen};
+use crate::output_folder::OutputFolder;
 use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -23,34 +22,13 @@ pub struct BenchWriter {
 
 impl BenchWriter {
     /// Begins a bench in a folder, and creates the folder if it does not exist. Replaces a bench that the
-    /// folder already holds, but keeps its reports.
+    /// folder already holds, with its reports.
     ///
     /// # Errors
     /// If the folder cannot be written to, or holds anything other than a bench.
     pub fn create(folder: &Path, header: &BenchHeader) -> Result<Self, RecordError> {
-        Self::replace(folder, header, ReportFiles::NONE)
-    }
-
-    /// Like [`BenchWriter::create`], but also removes the reports of the earlier bench.
-    ///
-    /// # Errors
-    /// If the folder cannot be written to, or holds anything other than a bench.
-    pub fn replace(
-        folder: &Path,
-        header: &BenchHeader,
-        reports: ReportFiles,
-    ) -> Result<Self, RecordError> {
-        match Content::writable(folder)? {
-            Content::Recorded(FolderKind::Bench) => reports.remove(folder)?,
-            Content::Recorded(kind) => {
-                return Err(RecordError::Holds {
-                    path: folder.to_owned(),
-                    kind,
-                });
-            }
-            Content::Empty | Content::Other => {}
-        }
-        let file = begin(folder, BENCH_FILE, &json_line("the header", header)?)?;
+        let out = OutputFolder::replace(folder, FolderKind::Bench)?;
+        let file = put(&out, BENCH_FILE, [json_line("the header", header)])?;
         let path = folder.join(BENCH_FILE);
         Ok(Self { path, file })
     }
@@ -68,6 +46,7 @@ impl BenchWriter {
                 reason,
             });
         }
+        OutputFolder::open(folder)?.check(FolderKind::Bench)?;
         let path = folder.join(BENCH_FILE);
         let file = reopen(&path, length)?;
         bench.truncated = false;

@@ -2,7 +2,7 @@
 
 use etalon_record::{
     BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchWriter, Done, Ended, Enough, FolderKind,
-    Machine, Picture, RecordError, ReportFiles, Round, ShaderCache, Time, Verdict,
+    Machine, OutputFolder, Picture, RecordError, Round, ShaderCache, Time, Verdict,
 };
 use serde_json::{Value, json};
 use std::fs;
@@ -249,11 +249,12 @@ fn a_bench_replaces_a_bench_and_no_run() {
     written(folder.path(), &[picture(Verdict::Pass)]).unwrap();
     fs::write(folder.path().join("bencher.json"), "{}").unwrap();
     fs::write(folder.path().join("mine.txt"), "").unwrap();
-    let reports = ReportFiles {
-        files: &["index.html", "bencher.json"],
-        folders: &[],
-    };
-    drop(BenchWriter::replace(folder.path(), &header(), reports).unwrap());
+    let refused = BenchWriter::create(folder.path(), &header()).unwrap_err();
+    assert!(matches!(refused, RecordError::NotOurs { .. }), "{refused}");
+    fs::remove_file(folder.path().join("bencher.json")).unwrap();
+    let out = OutputFolder::open(folder.path()).unwrap();
+    out.write("bencher.json", b"{}").unwrap();
+    drop(BenchWriter::create(folder.path(), &header()).unwrap());
     let bench = Bench::read(folder.path()).unwrap();
     assert!(bench.records.is_empty());
     assert!(

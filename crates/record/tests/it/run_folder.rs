@@ -7,7 +7,7 @@ use etalon_frame::{
 };
 use etalon_record::{
     AdapterRecord, Assertion, Expected, FORMAT, FrameFile, FrameImage, Header, LossKind, MAX_LINE,
-    MAX_WRONG_TEXELS, Machine, Measured, Parameter, ProcessEnd, Record, RecordError, ReportFiles,
+    MAX_WRONG_TEXELS, Machine, Measured, OutputFolder, Parameter, ProcessEnd, Record, RecordError,
     Run, RunWriter, Seconds, Settings, Shard, Times, Verdict, read_cases, selection_digest,
 };
 use proptest::prelude::*;
@@ -455,37 +455,49 @@ fn a_new_run_replaces_the_old_one_and_nothing_else() {
     assert!(frames.join("mine").exists(), "not a run folder before");
     fs::remove_dir_all(&frames).unwrap();
     written(folder.path(), &[Verdict::Pass]);
-    fs::create_dir_all(frames.join("gl/a")).unwrap();
-    fs::write(frames.join("gl/a/b.json"), "").unwrap();
-    fs::write(frames.join("mine"), "").unwrap();
-    fs::write(folder.path().join("notes.txt"), "").unwrap();
+    let out = OutputFolder::open(folder.path()).unwrap();
+    for name in ["frames/gl/a/b.json.gz", "index.html", "results/a.csv"] {
+        out.write(name, b"ours").unwrap();
+    }
+    let mine = ["frames/gl/mine.json.gz", "results/b.csv", "notes.txt"];
+    for name in mine {
+        fs::write(folder.path().join(name), "").unwrap();
+    }
     written(folder.path(), &[Verdict::Pass]);
-    assert!(!frames.join("gl").exists() && frames.join("mine").exists());
-    assert!(folder.path().join("notes.txt").exists());
+    assert!(!frames.join("gl/a").exists() && !folder.path().join("index.html").exists());
+    assert!(!folder.path().join("results/a.csv").exists());
+    for name in mine {
+        assert!(folder.path().join(name).exists(), "{name}");
+    }
 }
 
 #[test]
-fn reports_go_with_the_run_that_they_are_about() {
+fn a_folder_of_an_earlier_version_loses_what_its_records_name() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
-    let reports = ReportFiles {
-        files: &["index.html", "never-written"],
-        folders: &[("results", "csv")],
-    };
-    let put = || {
-        fs::create_dir_all(path("results")).unwrap();
-        for name in ["index.html", "results/a.csv", "notes.txt"] {
-            fs::write(path(name), "").unwrap();
-        }
-    };
-    RunWriter::replace(folder.path(), &header(), reports).unwrap();
-    put();
-    RunWriter::replace(folder.path(), &header(), reports).unwrap();
-    assert!(!path("index.html").exists() && !path("results").exists());
-    assert!(path("notes.txt").exists());
-    put();
+    let mut writer = RunWriter::create(folder.path(), &header()).unwrap();
+    let mut record = Record::new("a/b", "cpu", Verdict::Fail);
+    record.frame = Some("frames/cpu/a/b.json".to_owned());
+    writer.append(&record).unwrap();
+    fs::remove_file(path(".files")).unwrap();
+    let ours = ["frames/cpu/a/b.json", "index.html", "cases/a.js"];
+    let mine = ["frames/cpu/a/c.json", "cases/b.js", "notes.txt"];
+    for name in ours.iter().chain(&mine) {
+        fs::create_dir_all(path(name).parent().unwrap()).unwrap();
+        let script = if *name == "cases/a.js" {
+            "etalonArea("
+        } else {
+            ""
+        };
+        fs::write(path(name), script).unwrap();
+    }
     RunWriter::create(folder.path(), &header()).unwrap();
-    assert!(path("index.html").exists(), "nobody named it");
+    for name in ours {
+        assert!(!path(name).exists(), "{name}");
+    }
+    for name in mine {
+        assert!(path(name).exists(), "{name}");
+    }
 }
 
 #[test]

@@ -1,0 +1,456 @@
+//! An output folder, and the list of the files that were written into it.
+//!
+//! Only listed files are replaced or removed, so a user's file in the folder is safe whatever its name is. A
+//! file is listed before it is written. Links below the folder are never followed.
+
+use crate::content::Content;
+use crate::error::RecordError;
+use crate::folder::FolderKind;
+use crate::paths::{below, lowest_real};
+use crate::unlisted;
+use std::collections::HashSet;
+use std::fs::{self, File, FileType, OpenOptions};
+use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// The file that lists the others: a path per line, with `/` as separator.
+pub(crate) const LIST: &str = ".files";
+/// The maximum number of bytes of the list that are read.
+const MAX_LIST: u64 = 256 << 20;
+
+/// A folder that files are written to.
+#[derive(Debug)]
+pub struct OutputFolder {
+    folder: PathBuf,
+    state: Mutex<State>,
+}
+
+#[derive(Debug)]
+struct State {
+    /// The paths of the files that etalon wrote, below the folder.
+    listed: HashSet<String>,
+    /// The list, once a path was added to it.
+    list: Option<File>,
+    /// Folders that exist and are no links.
+    real: HashSet<PathBuf>,
+}
+
+impl OutputFolder {
+    /// Opens a folder, which does not have to exist. Writes nothing.
+    ///
+    /// # Errors
+    /// If its list cannot be read.
+    pub fn open(folder: &Path) -> Result<Self, RecordError> {
+        let listed = match read_list(folder)? {
+            Some(listed) => listed,
+            None => unlisted::files(folder),
+        };
+        Ok(Self {
+            folder: folder.to_owned(),
+            state: Mutex::new(State {
+                listed,
+                list: None,
+                real: HashSet::new(),
+            }),
+        })
+    }
+
+    /// Opens a folder for a new recording of a kind. Removes an earlier one, but for its marking file, which is
+    /// replaced by renaming.
+    ///
+    /// # Errors
+    /// If the folder holds anything else. Nothing has changed then.
+    pub fn replace(folder: &Path, kind: FolderKind) -> Result<Self, RecordError> {
+        match Content::writable(folder)? {
+            Content::Recorded(other) if other != kind => {
+                let path = folder.to_owned();
+                return Err(RecordError::Holds { path, kind: other });
+            }
+            _ => {}
+        }
+        let out = Self::open(folder)?;
+        out.check(kind)?;
+        out.clear(Some(kind))?;
+        Ok(out)
+    }
+
+    /// Returns the folder.
+    pub fn path(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Checks that a recording of this kind can be written without touching a file of somebody else.
+    ///
+    /// # Errors
+    /// Names the first file or link that is in the way.
+    pub fn check(&self, kind: FolderKind) -> Result<(), RecordError> {
+        let state = self.state();
+        for name in kind.names() {
+            let path = self.folder.join(name.trim_end_matches('/'));
+            let Some(found) = type_of(&path)? else {
+                continue;
+            };
+            if found.is_symlink() {
+                return Err(RecordError::Link { path });
+            }
+            let is_ours = match name.strip_suffix('/') {
+                Some(_) => found.is_dir(),
+                None => found.is_file() && state.listed.contains(*name),
+            };
+            if !is_ours {
+                return Err(RecordError::NotOurs { path });
+            }
+        }
+        let list = self.folder.join(LIST);
+        match type_of(&list)? {
+            Some(found) if !found.is_file() => Err(RecordError::Link { path: list }),
+            _ => Ok(()),
+        }
+    }
+
+    /// Writes a file below the folder, and creates the folders that it needs. A concurrent reader sees the old
+    /// file or the new one.
+    ///
+    /// # Errors
+    /// If the path leaves the folder or goes through a link, if there is a file that etalon did not write, or if
+    /// the system refuses.
+    pub fn write(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, RecordError> {
+        self.place(name, |file| file.write_all(bytes).map_err(Into::into))
+            .map(|(path, _)| path)
+    }
+
+    /// Writes a file as [`OutputFolder::write`] does, and returns it with its path, to append to.
+    pub(crate) fn place(
+        &self,
+        name: &str,
+        fill: impl FnOnce(&mut File) -> Result<(), FillError>,
+    ) -> Result<(PathBuf, File), RecordError> {
+        let relative = below(name)?;
+        self.list(&relative)?;
+        let path = self.folder.join(&relative);
+        let last = relative.file_name().unwrap_or_default().to_string_lossy();
+        let beside = path.with_file_name(format!(".{last}.{}", std::process::id()));
+        let result = (|| {
+            remove_if_there(&beside)?;
+            let mut file = OpenOptions::new()
+                .write(true)
+                .create_new(true)
+                .open(&beside)?;
+            fill(&mut file)?;
+            fs::rename(&beside, &path)?;
+            Ok(file)
+        })();
+        match result {
+            Ok(file) => Ok((path, file)),
+            Err(error) => {
+                // Errors are ignored: the first error is reported.
+                let _ = fs::remove_file(&beside);
+                Err(match error {
+                    FillError::Io(source) => RecordError::io("write", &path)(source),
+                    FillError::Record(error) => error,
+                })
+            }
+        }
+    }
+
+    /// Makes the folders of a file, checks that the file can be replaced, and lists it.
+    fn list(&self, relative: &Path) -> Result<(), RecordError> {
+        let mut state = self.state();
+        let parent = relative.parent().unwrap_or(Path::new(""));
+        if !state.real.contains(parent) {
+            let parts: Vec<_> = parent.components().collect();
+            let mut folder = self.folder.clone();
+            fs::create_dir_all(&folder).map_err(RecordError::io("create", &folder))?;
+            for part in parts {
+                folder.push(part);
+                match fs::create_dir(&folder) {
+                    Err(e) if e.kind() != ErrorKind::AlreadyExists => {
+                        return Err(RecordError::io("create", &folder)(e));
+                    }
+                    _ => {}
+                }
+                if !type_of(&folder)?.is_some_and(|found| found.is_dir()) {
+                    return Err(RecordError::Link { path: folder });
+                }
+            }
+            state.real.insert(parent.to_owned());
+        }
+        let name = list_name(relative);
+        let path = self.folder.join(relative);
+        match type_of(&path)? {
+            Some(found) if found.is_symlink() => return Err(RecordError::Link { path }),
+            Some(found) if !found.is_file() => return Err(RecordError::NotOurs { path }),
+            Some(_) if state.listed.contains(&name) => {}
+            Some(_) => {
+                // Another process may have written it since.
+                if let Some(listed) = read_list(&self.folder)? {
+                    state.listed.extend(listed);
+                }
+                if !state.listed.contains(&name) {
+                    return Err(RecordError::NotOurs { path });
+                }
+            }
+            None => {}
+        }
+        if state.listed.insert(name.clone()) || state.list.is_none() {
+            self.append(&mut state, &name)?;
+        }
+        Ok(())
+    }
+
+    /// Adds a path to the list. A new list begins with the files of an earlier version.
+    fn append(&self, state: &mut State, name: &str) -> Result<(), RecordError> {
+        let path = self.folder.join(LIST);
+        let failed = || RecordError::io("write", &path);
+        let State { listed, list, .. } = state;
+        let file = match list {
+            Some(file) => file,
+            None => {
+                if type_of(&path)?.is_some_and(|found| !found.is_file()) {
+                    return Err(RecordError::Link { path });
+                }
+                let is_new = !path.exists();
+                let file = OpenOptions::new()
+                    .append(true)
+                    .create(true)
+                    .open(&path)
+                    .map_err(failed())?;
+                let file = list.insert(file);
+                if is_new {
+                    let mut text = String::new();
+                    for other in listed.iter().filter(|other| *other != name) {
+                        text.push_str(other);
+                        text.push('\n');
+                    }
+                    file.write_all(text.as_bytes()).map_err(failed())?;
+                }
+                file
+            }
+        };
+        let line = format!("{name}\n");
+        file.write_all(line.as_bytes()).map_err(failed())
+    }
+
+    /// Removes the listed files and the folders that become empty; a marking file last. Keeps the marking
+    /// file of `kept`. Links and other files stay.
+    ///
+    /// # Errors
+    /// If a file cannot be removed.
+    pub fn clear(&self, kept: Option<FolderKind>) -> Result<(), RecordError> {
+        let mut state = self.state();
+        let is_mark = |name: &str| FolderKind::ALL.iter().any(|kind| kind.file() == name);
+        let (marks, files): (Vec<String>, Vec<String>) =
+            state.listed.drain().partition(|name| is_mark(name));
+        let mut folders = HashSet::new();
+        for name in &files {
+            if let Some(relative) = self.remove(name)? {
+                let parents = relative.ancestors().skip(1);
+                folders.extend(parents.map(Path::to_owned));
+            }
+        }
+        let mut folders: Vec<PathBuf> = folders.into_iter().collect();
+        folders.sort_by_key(|folder| std::cmp::Reverse(folder.components().count()));
+        for folder in folders.iter().filter(|folder| **folder != Path::new("")) {
+            // A folder that holds something else stays.
+            let _ = fs::remove_dir(self.folder.join(folder));
+        }
+        let kept = kept.map(FolderKind::file);
+        for name in marks.iter().filter(|name| Some(name.as_str()) != kept) {
+            self.remove(name)?;
+        }
+        let list = self.folder.join(LIST);
+        state.list = None;
+        state.real.clear();
+        if type_of(&list)?.is_some_and(|found| found.is_file()) {
+            fs::remove_file(&list).map_err(RecordError::io("remove", &list))?;
+        }
+        if let Some(kept) = kept.filter(|kept| marks.iter().any(|name| name == kept)) {
+            state.listed.insert(kept.to_owned());
+            self.append(&mut state, kept)?;
+        }
+        Ok(())
+    }
+
+    /// Removes a listed file, and returns its path below the folder; `None` if the path is no regular file.
+    fn remove(&self, name: &str) -> Result<Option<PathBuf>, RecordError> {
+        let Ok(relative) = below(name) else {
+            return Ok(None);
+        };
+        let path = self.folder.join(&relative);
+        if !lowest_real(&self.folder, &relative) {
+            return Ok(None);
+        }
+        match fs::remove_file(&path) {
+            Err(e) if e.kind() != ErrorKind::NotFound => Err(RecordError::io("remove", &path)(e)),
+            _ => Ok(Some(relative)),
+        }
+    }
+
+    /// Removes a file if etalon wrote it.
+    ///
+    /// # Errors
+    /// If it cannot be removed.
+    pub(crate) fn take_away(&self, name: &str) -> Result<(), RecordError> {
+        if self.state().listed.contains(name) {
+            self.remove(name)?;
+        }
+        Ok(())
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// An error of the closure that fills a file.
+#[derive(Debug)]
+pub(crate) enum FillError {
+    Io(std::io::Error),
+    Record(RecordError),
+}
+
+impl From<std::io::Error> for FillError {
+    fn from(error: std::io::Error) -> Self {
+        Self::Io(error)
+    }
+}
+
+impl From<RecordError> for FillError {
+    fn from(error: RecordError) -> Self {
+        Self::Record(error)
+    }
+}
+
+/// Returns the type of what is at a path, without following a link; `None` if there is nothing.
+fn type_of(path: &Path) -> Result<Option<FileType>, RecordError> {
+    match fs::symlink_metadata(path) {
+        Ok(found) => Ok(Some(found.file_type())),
+        Err(e) if e.kind() == ErrorKind::NotFound => Ok(None),
+        Err(e) => Err(RecordError::io("read", path)(e)),
+    }
+}
+
+fn remove_if_there(path: &Path) -> std::io::Result<()> {
+    match fs::remove_file(path) {
+        Err(e) if e.kind() != ErrorKind::NotFound => Err(e),
+        _ => Ok(()),
+    }
+}
+
+/// Returns a path below a folder as the list names it.
+fn list_name(relative: &Path) -> String {
+    let parts = relative
+        .components()
+        .map(|part| part.as_os_str().to_string_lossy());
+    parts.collect::<Vec<_>>().join("/")
+}
+
+/// Returns the listed paths; `None` if the folder has no list.
+fn read_list(folder: &Path) -> Result<Option<HashSet<String>>, RecordError> {
+    let path = folder.join(LIST);
+    // Reading a pipe would block, and a link can lead anywhere.
+    if !fs::symlink_metadata(&path).is_ok_and(|found| found.is_file()) {
+        return Ok(None);
+    }
+    let file = File::open(&path).map_err(RecordError::io("read", &path))?;
+    let mut listed = HashSet::new();
+    for line in BufReader::new(file.take(MAX_LIST)).lines() {
+        match line {
+            // A path that etalon would not write is no file of etalon.
+            Ok(name) if below(&name).is_ok() => drop(listed.insert(name)),
+            Ok(_) => {}
+            Err(e) if e.kind() == ErrorKind::InvalidData => {}
+            Err(e) => return Err(RecordError::io("read", &path)(e)),
+        }
+    }
+    Ok(Some(listed))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text(path: &Path) -> String {
+        fs::read_to_string(path).unwrap()
+    }
+
+    #[test]
+    fn what_etalon_wrote_is_removed_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        let out = OutputFolder::open(folder).unwrap();
+        out.write("run.jsonl", b"{\"etalon\":\"1\"}\n").unwrap();
+        out.write("frames/a/b/c.json.gz", b"ours").unwrap();
+        out.write("index.html", b"ours").unwrap();
+        for name in ["frames/a/mine.json.gz", "notes.txt", "pictures/mine.png"] {
+            let path = folder.join(name);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, "mine").unwrap();
+        }
+        let again = OutputFolder::open(folder).unwrap();
+        again.check(FolderKind::Run).unwrap();
+        again.clear(Some(FolderKind::Run)).unwrap();
+        assert!(folder.join("run.jsonl").exists());
+        assert!(!folder.join("index.html").exists() && !folder.join("frames/a/b").exists());
+        again.clear(None).unwrap();
+        assert!(!folder.join("run.jsonl").exists() && !folder.join(LIST).exists());
+        for name in ["frames/a/mine.json.gz", "notes.txt", "pictures/mine.png"] {
+            assert_eq!(text(&folder.join(name)), "mine", "{name}");
+        }
+    }
+
+    #[test]
+    fn a_file_of_somebody_else_is_never_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        let out = OutputFolder::open(folder).unwrap();
+        out.write("run.jsonl", b"{}\n").unwrap();
+        fs::write(folder.join("index.html"), "mine").unwrap();
+        let refused = out.check(FolderKind::Run).unwrap_err();
+        assert!(refused.to_string().contains("index.html"), "{refused}");
+        let refused = out.write("index.html", b"ours").unwrap_err();
+        assert!(matches!(refused, RecordError::NotOurs { .. }), "{refused}");
+        assert_eq!(text(&folder.join("index.html")), "mine");
+        assert!(out.write("../x", b"").is_err() && out.write("/tmp/x", b"").is_err());
+    }
+
+    #[test]
+    fn a_file_that_another_process_listed_can_be_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let [one, other] = [(); 2].map(|()| OutputFolder::open(folder.path()).unwrap());
+        one.write("index.html", b"1").unwrap();
+        let path = other.write("index.html", b"2").unwrap();
+        assert_eq!(text(&path), "2");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_not_followed() {
+        use std::os::unix::fs::symlink;
+        let work = tempfile::tempdir().unwrap();
+        let elsewhere = work.path().join("elsewhere");
+        fs::create_dir(&elsewhere).unwrap();
+        fs::write(elsewhere.join("x"), "mine").unwrap();
+        let folder = work.path().join("out");
+        let out = OutputFolder::open(&folder).unwrap();
+        out.write("run.jsonl", b"{}\n").unwrap();
+        symlink(&elsewhere, folder.join("frames")).unwrap();
+        symlink(elsewhere.join("x"), folder.join("index.html")).unwrap();
+        for name in ["frames/x", "index.html"] {
+            let refused = out.write(name, b"ours").unwrap_err();
+            assert!(matches!(refused, RecordError::Link { .. }), "{refused}");
+        }
+        assert!(out.check(FolderKind::Run).is_err());
+        // A list that names them removes neither the link nor what is behind it.
+        fs::write(folder.join(LIST), "frames/x\nindex.html\n../elsewhere/x\n").unwrap();
+        OutputFolder::open(&folder).unwrap().clear(None).unwrap();
+        assert_eq!(text(&elsewhere.join("x")), "mine");
+        assert!(folder.join("index.html").is_symlink());
+        // The list itself is not written through a link.
+        symlink(elsewhere.join("new"), folder.join(LIST)).unwrap();
+        let out = OutputFolder::open(&folder).unwrap();
+        assert!(out.write("summary.md", b"ours").is_err());
+        assert!(!elsewhere.join("new").exists());
+    }
+}
