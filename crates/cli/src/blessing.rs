@@ -1,8 +1,9 @@
 //! `etalon run --bless`: updates a list of expectations or a folder of findings from the verdicts of a run.
 
 use crate::cases::ids;
-use crate::expectations::{replace, today, write};
+use crate::expectations::{today, write};
 use crate::failure::Failure;
+use crate::named_files::replace;
 use crate::output::say;
 use etalon_diagnose::Blessing;
 use etalon_record::{Expectations, Run, Source};
@@ -96,7 +97,8 @@ fn write_findings(folder: &Path, blessing: &Blessing) -> Result<(), Failure> {
             .find(|path| !path.exists());
         // There is no end of names, so a free path always exists.
         let Some(path) = free else { continue };
-        replace(&path, &finding.to_text().map_err(Failure::usage)?)?;
+        let text = finding.to_text().map_err(Failure::usage)?;
+        replace(&path, text.as_bytes())?;
     }
     for known in &blessing.removed {
         fs::remove_file(&known.path).map_err(|e| {

@@ -1,5 +1,7 @@
 //! The catalogue of a run's cases, for its page: a description of each scene, with the rasterizer's picture.
 
+use crate::cases::{build_named, library};
+use crate::failure::Failure;
 use crate::processors::processors;
 use crate::scene_text;
 use etalon_backend::Backend;
@@ -7,10 +9,11 @@ use etalon_case::{Case, Library};
 use etalon_cpu::CpuBackend;
 use etalon_frame::Frame;
 use etalon_frame::threads::each;
-use etalon_record::AdapterRecord;
+use etalon_record::{AdapterRecord, Header, Run};
 use etalon_report::{Catalogue, CatalogueCase, Thumbnails};
 use std::collections::{BTreeSet, HashMap};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 
 /// The largest number of texels of a picture.
@@ -50,6 +53,23 @@ impl Pictures {
         let image = frame.images.first();
         image.map_or_else(String::new, |image| self.thumbnails.uri(image))
     }
+}
+
+/// Returns true if a run draws built-in cases: the case files of a `--cases` folder need not be there any more.
+pub(crate) fn draws_built_in(header: &Header) -> bool {
+    let names_folder = |word: &String| word == "--cases" || word.starts_with("--cases=");
+    !header.command.iter().any(names_folder)
+}
+
+/// Returns the catalogue of a recorded run's cases, from the built-in case files or those of a folder.
+///
+/// # Errors
+/// If the case files cannot be read.
+pub(crate) fn catalogue_of(run: &Run, cases: Option<&PathBuf>) -> Result<Catalogue, Failure> {
+    let library = library(cases)?;
+    let drawn: BTreeSet<&str> = run.records.iter().map(|r| r.case.as_str()).collect();
+    let cases = build_named(&library, &drawn)?;
+    Ok(catalogue(&library, &cases, &Pictures::default()))
 }
 
 /// Returns the catalogue of cases. Cases that are not in the library have no template.

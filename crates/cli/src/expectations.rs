@@ -1,10 +1,10 @@
 //! Reads and writes expectations.
 
 use crate::failure::Failure;
+use crate::named_files::replace;
 use crate::provenance;
 use clap::Args;
 use etalon_record::{Entry, Expectations, RecordError};
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Flags for expectations of the user's own.
@@ -60,18 +60,5 @@ pub(crate) fn write(path: &Path, entries: &[Entry]) -> Result<(), Failure> {
     let text = Expectations::to_text(entries).map_err(Failure::usage)?;
     // An invalid file must not replace a valid one.
     Expectations::parse(&text, path).map_err(|error: RecordError| Failure::usage(error))?;
-    replace(path, &text)
-}
-
-/// Replaces a file atomically: writes a new file next to it and renames it.
-pub(crate) fn replace(path: &Path, text: &str) -> Result<(), Failure> {
-    let mut beside = path.as_os_str().to_owned();
-    beside.push(format!(".{}", std::process::id()));
-    let beside = PathBuf::from(beside);
-    let written = fs::write(&beside, text).and_then(|()| fs::rename(&beside, path));
-    written.map_err(|e| {
-        // The first error is the one to report.
-        let _ = fs::remove_file(&beside);
-        Failure::incomplete(format!("cannot write {}: {e}", path.display()))
-    })
+    replace(path, text.as_bytes())
 }

@@ -7,7 +7,7 @@ use etalon_case::Case;
 use etalon_diagnose::{Groups, KnownBugs, Symptom};
 use etalon_explore::{RandomScene, keys, states};
 use etalon_frame::threads::share;
-use etalon_record::Record;
+use etalon_record::{OutputFolder, Record};
 use etalon_report::ReducedCase;
 use etalon_runner::{Looked, Reducer, confirm};
 use serde_json::{Value, json};
@@ -37,31 +37,20 @@ pub(crate) struct Kept {
 /// The failing scenes of one adapter.
 pub(crate) struct FailingScenes<'a> {
     groups: Groups<Kept>,
-    folders: Folders,
+    out: &'a OutputFolder,
     reducer: Reducer<'a>,
 }
 
-/// The folders of case files.
-#[derive(Clone, Debug)]
-pub(crate) struct Folders {
-    /// The folder of scenes that no finding explains.
-    pub(crate) found: PathBuf,
-    /// The folder of scenes that a finding explains.
-    pub(crate) known: PathBuf,
-}
-
-impl Folders {
-    /// The name of the folder `found`.
-    pub(crate) const FOUND: &str = "found";
-    /// The name of the folder `known`.
-    pub(crate) const KNOWN: &str = "known";
-}
+/// The folder of scenes that no finding explains.
+const FOUND: &str = "found";
+/// The folder of scenes that a finding explains.
+const KNOWN: &str = "known";
 
 impl<'a> FailingScenes<'a> {
-    pub(crate) fn new(reducer: Reducer<'a>, folders: Folders) -> Self {
+    pub(crate) fn new(reducer: Reducer<'a>, out: &'a OutputFolder) -> Self {
         Self {
             groups: Groups::default(),
-            folders,
+            out,
             reducer,
         }
     }
@@ -103,7 +92,7 @@ impl<'a> FailingScenes<'a> {
     pub(crate) fn compare(&mut self, bugs: &mut KnownBugs<Reducer<'_>>) -> Result<(), Failure> {
         for group in self.groups.iter_mut().filter(|g| g.can_be_compared()) {
             group.known = bugs.matching(group.verdict, &group.traits, group.steady)?;
-            file_under(group, &self.folders)?;
+            file_under(group, self.out)?;
         }
         Ok(())
     }
@@ -149,10 +138,8 @@ impl<'a> FailingScenes<'a> {
         described["about"] = json!(reduced.about(&format!("{about} On {adapter}.")));
         let id = format!("{adapter}-{}", seen.scene.case.id.replace("found/", ""));
         let name = file_name(&id, "");
-        let found = &self.folders.found;
-        let file = found.join(format!("{}.json", name.trim_end_matches('.')));
-        fs::create_dir_all(found).map_err(|e| failed(&file, &e))?;
-        write(&file, &described)?;
+        let name = format!("{FOUND}/{}.json", name.trim_end_matches('.'));
+        let file = write(self.out, &name, &described)?;
         let kept = Kept {
             adapter,
             index,
@@ -171,7 +158,7 @@ impl<'a> FailingScenes<'a> {
 }
 
 /// Writes the matching finding into a group's case file, and moves the file to `known` if the match is exact.
-fn file_under(group: &mut Group, folders: &Folders) -> Result<(), Failure> {
+fn file_under(group: &mut Group, out: &OutputFolder) -> Result<(), Failure> {
     let Some(known) = &group.known else {
         return Ok(());
     };
@@ -180,23 +167,22 @@ fn file_under(group: &mut Group, folders: &Folders) -> Result<(), Failure> {
     let mut document: Value = serde_json::from_str(&text).map_err(|e| failed(file, &e))?;
     let about = document["about"].as_str().unwrap_or_default();
     document["about"] = json!(format!("{about} {}", match_sentence(known)));
-    write(file, &document)?;
-    if known.is_exact()
-        && let Some(name) = file.file_name()
-    {
-        let path = folders.known.join(name);
-        fs::create_dir_all(&folders.known)
-            .and_then(|()| fs::rename(&*file, &path))
-            .map_err(|e| failed(&path, &e))?;
-        *file = path;
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    let folder = if known.is_exact() { KNOWN } else { FOUND };
+    let path = write(out, &format!("{folder}/{name}"), &document)?;
+    if path != *file {
+        fs::remove_file(&*file).map_err(|e| failed(file, &e))?;
     }
+    *file = path;
     Ok(())
 }
 
 /// Writes a case file.
-fn write(path: &Path, document: &Value) -> Result<(), Failure> {
-    let text = serde_json::to_string_pretty(document).map_err(|e| failed(path, &e))?;
-    fs::write(path, text + "\n").map_err(|e| failed(path, &e))
+fn write(out: &OutputFolder, name: &str, document: &Value) -> Result<PathBuf, Failure> {
+    let path = out.path().join(name);
+    let text = serde_json::to_string_pretty(document).map_err(|e| failed(&path, &e))?;
+    out.write(name, (text + "\n").as_bytes())
+        .map_err(Failure::incomplete)
 }
 
 fn failed(path: &Path, error: &dyn std::fmt::Display) -> Failure {

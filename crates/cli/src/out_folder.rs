@@ -1,8 +1,10 @@
-//! The folder of `--out`. Records in it are replaced only with `--force`, and other files never.
+//! The folder of `--out`. Records in it are replaced only with `--force`, and other files never. Everything is
+//! checked before anything is removed.
 
 use crate::failure::Failure;
-use crate::report_files;
-use etalon_record::{Bench, Content, FolderKind, FolderLock, RecordError, Run, clear, overlap};
+use etalon_record::{
+    Bench, Content, FolderKind, FolderLock, OutputFolder, RecordError, Run, overlap,
+};
 use std::path::Path;
 
 /// The treatment of an output folder's existing content.
@@ -30,22 +32,19 @@ pub(crate) struct Claim<'a> {
 }
 
 impl Claim<'_> {
-    /// Makes and locks the folder, and removes records of another kind and reports of the same kind.
+    /// Makes and locks the folder, and removes what the command does not continue. The writers of runs and benches
+    /// replace records of their own kind.
     ///
     /// # Errors
     /// If a file cannot be removed, or another process has locked the folder.
     pub(crate) fn take(self) -> Result<FolderLock, Failure> {
         let lock = self.lock.map_or_else(|| self.out.lock(), Ok)?;
         let Out { folder, kind, .. } = self.out;
+        let kept = matches!(kind, FolderKind::Run | FolderKind::Bench).then_some(kind);
         match Content::writable(folder).map_err(Failure::usage)? {
-            Content::Recorded(other) if other != kind => {
-                clear(folder, other, report_files::of(other)).map_err(Failure::usage)?;
-            }
-            // A continued run or bench keeps its reports; a replaced one loses them with its records.
-            Content::Recorded(FolderKind::Fuzz | FolderKind::Versions | FolderKind::Hunt) => {
-                report_files::of(kind)
-                    .remove(folder)
-                    .map_err(Failure::usage)?;
+            Content::Recorded(held) if Some(held) != kept => {
+                let out = OutputFolder::open(folder).map_err(Failure::usage)?;
+                out.clear(None).map_err(Failure::usage)?;
             }
             _ => {}
         }
@@ -73,11 +72,14 @@ impl<'a> Out<'a> {
     /// changed then.
     pub(crate) fn claim(self) -> Result<Claim<'a>, Failure> {
         apart(self.folder, self.cases)?;
-        Content::writable(self.folder).map_err(Failure::usage)?;
+        let resume = self.resumes()?;
+        OutputFolder::open(self.folder)
+            .and_then(|out| out.check(self.kind))
+            .map_err(Failure::usage)?;
         let lock = self.folder.exists().then(|| self.lock()).transpose()?;
         Ok(Claim {
             out: self,
-            resume: self.resumes()?,
+            resume,
             lock,
         })
     }

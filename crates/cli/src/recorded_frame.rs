@@ -1,7 +1,6 @@
 //! The frames that a run keeps, of cases that were not entirely right.
 
 use crate::failure::Failure;
-use crate::saved_run::folder;
 use etalon_frame::{Aspect, Frame, Image, ReadPath};
 use etalon_record::{AdapterRecord, FrameImage, Machine, Record, Run};
 use etalon_scene::Scene;
@@ -14,20 +13,19 @@ pub(crate) struct RecordedFrame {
     pub(crate) frame: Frame,
 }
 
-/// Returns an adapter's frame of a case's own scene from a run folder or a saved run. `adapter` can be `None` if the
+/// Returns an adapter's frame of a case's own scene from a run folder. `adapter` can be `None` if the
 /// case has one record.
 ///
 /// # Errors
 /// If the run keeps no such frame.
 pub(crate) fn recorded_frame(
-    run: &Path,
+    folder: &Path,
     adapter: Option<&str>,
     case: &str,
     scene: &Scene,
 ) -> Result<RecordedFrame, Failure> {
-    let folder = folder(run)?;
-    let recorded = Run::read(&folder).map_err(Failure::usage)?;
-    let refuse = |why: &str| Failure::usage(format!("{}: {why}", run.display()));
+    let recorded = Run::read(folder).map_err(Failure::usage)?;
+    let refuse = |why: &str| Failure::usage(format!("{}: {why}", folder.display()));
     let named = |record: &&Record| adapter.is_none_or(|name| record.adapter == name);
     let mut records = recorded
         .records
@@ -53,7 +51,7 @@ pub(crate) fn recorded_frame(
     let path = path.ok_or_else(|| refuse("no frame of this case is kept"))?;
     let adapter = recorded.header.adapter(&record.adapter);
     let adapter = adapter.ok_or_else(|| refuse("the header lacks the adapter"))?;
-    let file = Run::read_frame(&folder, path).map_err(Failure::usage)?;
+    let file = Run::read_frame(folder, path).map_err(Failure::usage)?;
     if !file.images.iter().all(FrameImage::is_whole) {
         return Err(refuse("the kept frame is damaged"));
     }

@@ -1,52 +1,200 @@
-//! Runs that the page saved: a run folder as one file, `*.tar.gz`. Commands unpack it beside the file, and use the
-//! folder.
+//! Saved runs: a run folder as one file, `*.tar.gz`, as the page saves it or `tar` packs it. Commands unpack it
+//! beside the file, and use the folder.
+//!
+//! Only records, frames and pictures are taken. Pages and scripts are made anew from them, so that nothing
+//! runs in a browser that came with an archive.
 
 use crate::failure::Failure;
 use crate::output::say;
-use etalon_record::{Content, FolderKind, RUN_FILE};
+use clap::Args;
+use etalon_record::{
+    CASES_FILE, Content, DEAD_FILE, FolderKind, MISSING_FILE, OutputFolder, RUN_FILE,
+};
+use etalon_report::plain;
 use flate2::read::GzDecoder;
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
-use tar::Archive;
+use tar::{Archive, EntryType};
 
 /// The end of a saved run's name.
 const EXTENSION: &str = ".tar.gz";
-/// The maximum number of bytes of an unpacked run.
-const MAX_BYTES: u64 = 8 << 30;
+/// The files that are taken from an archive.
+const FILES: [&str; 4] = [RUN_FILE, CASES_FILE, MISSING_FILE, DEAD_FILE];
+/// The folders whose files are taken, and the ends of the files' names.
+const FOLDERS: [(&str, &[&str]); 2] = [("frames", &[".json.gz", ".json"]), ("pictures", &[".png"])];
+/// The number of files left out that are named, and the length of a name.
+const NAMED: usize = 3;
+const LONGEST: usize = 120;
 
-/// Returns the run folders of a command: for a saved run, the folder that it is unpacked to; any other path
-/// unchanged.
-///
-/// # Errors
-/// If a saved run cannot be unpacked.
-pub(crate) fn folders(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
-    paths.iter().map(|path| folder(path)).collect()
+/// The flag for the size of saved runs.
+#[derive(Clone, Copy, Debug, Args)]
+pub(crate) struct UnpackArguments {
+    /// The largest size of a saved run (`*.tar.gz`) when it is unpacked. A full run of thirteen adapters has 320 MiB
+    #[arg(long, value_name = "MIB", default_value = "1024", value_parser = clap::value_parser!(u64).range(1..=1 << 20))]
+    pub(crate) max_unpacked: u64,
 }
 
-/// Returns the run folder of a path, as [`folders`] does.
-///
-/// # Errors
-/// If it is a saved run that cannot be unpacked.
-pub(crate) fn folder(path: &Path) -> Result<PathBuf, Failure> {
-    let name = path.to_str().and_then(|name| name.strip_suffix(EXTENSION));
-    let Some(folder) = name.map(PathBuf::from).filter(|_| path.is_file()) else {
-        return Ok(path.to_owned());
+impl UnpackArguments {
+    /// Returns the run folders of a command: for a saved run, the folder that it is unpacked to; any other path
+    /// unchanged.
+    ///
+    /// # Errors
+    /// If a saved run cannot be unpacked.
+    pub(crate) fn folders(self, paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+        paths.iter().map(|path| self.folder(path)).collect()
+    }
+
+    /// Returns the run folder of a path, as [`UnpackArguments::folders`] does.
+    ///
+    /// # Errors
+    /// If it is a saved run that cannot be unpacked.
+    pub(crate) fn folder(self, path: &Path) -> Result<PathBuf, Failure> {
+        let name = path.to_str().and_then(|name| name.strip_suffix(EXTENSION));
+        let Some(folder) = name.map(PathBuf::from).filter(|_| path.is_file()) else {
+            return Ok(path.to_owned());
+        };
+        let failed =
+            |error: io::Error| Failure::usage(format!("cannot unpack {}: {error}", path.display()));
+        let mut beside = folder.as_os_str().to_owned();
+        beside.push(format!(".{}", std::process::id()));
+        let beside = PathBuf::from(beside);
+        fs::create_dir(&beside).map_err(failed)?;
+        let unpacked = self.unpack(path, &beside);
+        let placed = unpacked.and_then(|left_out| Ok((place(&beside, &folder)?, left_out)));
+        if beside.exists() {
+            // The first error is the one to report.
+            let _ = fs::remove_dir_all(&beside);
+        }
+        let (is_new, left_out) = placed.map_err(failed)?;
+        if is_new {
+            say!("{} is unpacked to {}", path.display(), folder.display());
+        }
+        if !left_out.is_empty() {
+            say!("{}", left_out_text(path, &left_out));
+        }
+        Ok(folder)
+    }
+
+    /// Unpacks an archive into an empty folder. Returns the names of the files that were left out.
+    fn unpack(self, path: &Path, to: &Path) -> io::Result<Vec<String>> {
+        let out = OutputFolder::open(to).map_err(io::Error::other)?;
+        let text = Bounded {
+            inner: GzDecoder::new(File::open(path)?),
+            left: self.max_unpacked << 20,
+            max: self.max_unpacked,
+        };
+        let mut archive = Archive::new(text);
+        // The folder in the archive that has the run.
+        let mut root: Option<PathBuf> = None;
+        let mut left_out = Vec::new();
+        for entry in archive.entries()? {
+            let mut entry = entry?;
+            let name = entry.path()?.into_owned();
+            let shown = plain(&name.to_string_lossy(), LONGEST);
+            match entry.header().entry_type() {
+                EntryType::Regular | EntryType::Continuous => {}
+                EntryType::Directory | EntryType::XGlobalHeader => continue,
+                kind => {
+                    let kind = entry_type(kind);
+                    return Err(io::Error::other(format!(
+                        "{shown} is {kind}; only files and folders are unpacked"
+                    )));
+                }
+            }
+            let Some(parts) = parts(&name) else {
+                return Err(io::Error::other(format!("{shown} leads out of the folder")));
+            };
+            let Some((above, below)) = of_run(&parts) else {
+                left_out.push(shown);
+                continue;
+            };
+            if *root.get_or_insert_with(|| above.clone()) != above {
+                return Err(io::Error::other(format!(
+                    "it holds several folders, of which {shown} is in the second; unpack it, and name them"
+                )));
+            }
+            out.write_from(&below, &mut entry)
+                .map_err(io::Error::other)?;
+        }
+        if to.join(RUN_FILE).is_file() {
+            Ok(left_out)
+        } else {
+            Err(io::Error::other(format!("it has no {RUN_FILE}")))
+        }
+    }
+}
+
+/// Returns the parts of an entry's path; `None` if the path leads out of the folder.
+fn parts(name: &Path) -> Option<Vec<String>> {
+    let mut parts = Vec::new();
+    for part in name.components() {
+        match part {
+            Component::CurDir => {}
+            Component::Normal(part) => parts.push(part.to_str()?.to_owned()),
+            _ => return None,
+        }
+    }
+    Some(parts)
+}
+
+/// Splits the path of a run's file into the folder of the run and the path below it; `None` for other files.
+fn of_run(parts: &[String]) -> Option<(PathBuf, String)> {
+    let (last, folders) = parts.split_last()?;
+    let start = if FILES.contains(&last.as_str()) {
+        folders.len()
+    } else {
+        let is_taken = |part: &String| {
+            let mut kinds = FOLDERS.iter();
+            kinds.any(|(name, ends)| part == name && ends.iter().any(|end| last.ends_with(end)))
+        };
+        folders.iter().position(is_taken)?
     };
-    let failed =
-        |error: io::Error| Failure::usage(format!("cannot unpack {}: {error}", path.display()));
-    let mut beside = folder.as_os_str().to_owned();
-    beside.push(format!(".{}", std::process::id()));
-    let beside = PathBuf::from(beside);
-    let unpacked = unpack(path, &beside).and_then(|()| place(&beside, &folder));
-    if unpacked.is_err() || beside.exists() {
-        // The first error is the one to report.
-        let _ = fs::remove_dir_all(&beside);
+    Some((parts[..start].iter().collect(), parts[start..].join("/")))
+}
+
+fn entry_type(kind: EntryType) -> &'static str {
+    match kind {
+        EntryType::Symlink => "a symbolic link",
+        EntryType::Link => "a hard link",
+        EntryType::Char | EntryType::Block => "a device",
+        EntryType::Fifo => "a pipe",
+        _ => "no regular file",
     }
-    if unpacked.map_err(failed)? {
-        say!("{} is unpacked to {}", path.display(), folder.display());
+}
+
+fn left_out_text(path: &Path, left_out: &[String]) -> String {
+    let named = left_out.iter().take(NAMED).map(String::as_str);
+    let mut names = named.collect::<Vec<_>>().join(", ");
+    let more = left_out.len().saturating_sub(NAMED);
+    if more > 0 {
+        names.push_str(&format!(" and {more} more"));
     }
-    Ok(folder)
+    format!(
+        "{}: only records, frames and pictures are taken; left out: {names}",
+        path.display()
+    )
+}
+
+/// A reader that fails behind a number of bytes.
+struct Bounded<R> {
+    inner: R,
+    left: u64,
+    /// The limit in MiB, for the error.
+    max: u64,
+}
+
+impl<R: Read> Read for Bounded<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let length = self.inner.read(buffer)?;
+        self.left = self.left.checked_sub(length as u64).ok_or_else(|| {
+            io::Error::other(format!(
+                "it unpacks to more than {} MiB; --max-unpacked raises the limit",
+                self.max
+            ))
+        })?;
+        Ok(length)
+    }
 }
 
 /// Moves an unpacked run to its folder. Returns false if the folder has the same run already.
@@ -72,96 +220,120 @@ fn same(folder: &Path, other: &Path) -> io::Result<bool> {
     Ok(fs::read(folder.join(RUN_FILE))? == fs::read(other.join(RUN_FILE))?)
 }
 
-/// Unpacks an archive into a new folder.
-fn unpack(path: &Path, to: &Path) -> io::Result<()> {
-    fs::create_dir(to)?;
-    let text = GzDecoder::new(File::open(path)?).take(MAX_BYTES);
-    let mut archive = Archive::new(text);
-    for entry in archive.entries()? {
-        let mut entry = entry?;
-        let name = entry.path()?.into_owned();
-        let plain = name
-            .components()
-            .all(|part| matches!(part, Component::Normal(_)));
-        if !plain || !entry.header().entry_type().is_file() {
-            return Err(io::Error::other(format!(
-                "{} is not a file of a run",
-                name.display()
-            )));
-        }
-        let file = to.join(name);
-        if let Some(parent) = file.parent() {
-            fs::create_dir_all(parent)?;
-        }
-        io::copy(&mut entry, &mut File::create_new(file)?)?;
-    }
-    if to.join(RUN_FILE).is_file() {
-        Ok(())
-    } else {
-        Err(io::Error::other(format!("it has no {RUN_FILE}")))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use flate2::Compression;
     use flate2::write::GzEncoder;
-    use tar::{Builder, EntryType, Header};
+    use tar::{Builder, Header};
 
     const LINE: &str = "{\"format\":4,\"etalon\":\"1\"}\n";
+    const DEFAULT: UnpackArguments = UnpackArguments { max_unpacked: 1024 };
 
-    /// Writes an archive of one file with this name.
-    fn archive(path: &Path, name: &str, kind: EntryType) {
+    /// Writes an archive of files with these names.
+    fn archive(path: &Path, entries: &[(&str, EntryType, &[u8])]) {
         let packed = GzEncoder::new(File::create(path).unwrap(), Compression::fast());
         let mut builder = Builder::new(packed);
-        let mut header = Header::new_gnu();
-        header.set_entry_type(kind);
-        // Sets the bytes of the name, since the builder refuses dangerous ones.
-        header.as_old_mut().name[..name.len()].copy_from_slice(name.as_bytes());
-        header.set_size(LINE.len() as u64);
-        header.set_cksum();
-        builder.append(&header, LINE.as_bytes()).unwrap();
+        for (name, kind, content) in entries {
+            let mut header = Header::new_gnu();
+            header.set_entry_type(*kind);
+            // Sets the bytes of the name, since the builder refuses dangerous ones.
+            header.as_old_mut().name[..name.len()].copy_from_slice(name.as_bytes());
+            header.set_size(content.len() as u64);
+            header.set_cksum();
+            builder.append(&header, *content).unwrap();
+        }
         builder.into_inner().unwrap().finish().unwrap();
     }
+
+    const RUN: (&str, EntryType, &[u8]) = (RUN_FILE, EntryType::Regular, LINE.as_bytes());
 
     #[test]
     fn a_saved_run_is_unpacked_once_and_replaces_nothing() {
         let above = tempfile::tempdir().unwrap();
         let path = above.path().join("mine.tar.gz");
-        archive(&path, RUN_FILE, EntryType::Regular);
-        let unpacked = folder(&path).unwrap();
+        archive(&path, &[RUN]);
+        let unpacked = DEFAULT.folder(&path).unwrap();
         assert_eq!(unpacked, above.path().join("mine"));
         assert_eq!(fs::read_to_string(unpacked.join(RUN_FILE)).unwrap(), LINE);
-        fs::write(unpacked.join("index.html"), "report").unwrap();
-        assert_eq!(folder(&path).unwrap(), unpacked);
-        assert!(unpacked.join("index.html").is_file());
+        fs::write(unpacked.join("notes.txt"), "mine").unwrap();
+        assert_eq!(DEFAULT.folder(&path).unwrap(), unpacked);
+        assert!(unpacked.join("notes.txt").is_file());
         fs::write(unpacked.join(RUN_FILE), LINE.replace('4', "3")).unwrap();
-        assert!(
-            folder(&path)
-                .unwrap_err()
-                .message
-                .contains("holds something else")
-        );
+        let refused = DEFAULT.folder(&path).unwrap_err().message;
+        assert!(refused.contains("holds something else"), "{refused}");
         assert_eq!(fs::read_dir(above.path()).unwrap().count(), 2);
-        assert_eq!(folder(above.path()).unwrap(), above.path());
+        assert_eq!(DEFAULT.folder(above.path()).unwrap(), above.path());
+    }
+
+    #[test]
+    fn an_archive_brings_records_frames_and_pictures_only() {
+        let above = tempfile::tempdir().unwrap();
+        let path = above.path().join("mine.tar.gz");
+        let file = |name| (name, EntryType::Regular, &b"x"[..]);
+        archive(
+            &path,
+            &[
+                ("top/", EntryType::Directory, b""),
+                ("top/run.jsonl", EntryType::Regular, LINE.as_bytes()),
+                file("./top/frames/cpu/a/b.json.gz"),
+                file("top/pictures/a.png"),
+                file("top/pictures/a.html"),
+                file("top/frames/a.js"),
+                file("top/cases/depth.js"),
+                file("top/methods.html"),
+                file("top/.files"),
+            ],
+        );
+        let folder = DEFAULT.folder(&path).unwrap();
+        for name in [RUN_FILE, "frames/cpu/a/b.json.gz", "pictures/a.png"] {
+            assert!(folder.join(name).is_file(), "{name}");
+        }
+        for name in ["pictures/a.html", "frames/a.js", "cases", "methods.html"] {
+            assert!(!folder.join(name).exists(), "{name}");
+        }
+        let listed = fs::read_to_string(folder.join(".files")).unwrap();
+        assert_eq!(listed.lines().count(), 3, "{listed}");
+        let text = left_out_text(&path, &["a", "b", "c", "d", "e"].map(str::to_owned));
+        assert!(text.ends_with("left out: a, b, c and 2 more"), "{text}");
     }
 
     #[test]
     fn an_archive_writes_only_files_of_its_folder() {
         let above = tempfile::tempdir().unwrap();
         let path = above.path().join("mine.tar.gz");
-        for (name, kind) in [
-            ("../out", EntryType::Regular),
-            ("/tmp/out", EntryType::Regular),
-            (RUN_FILE, EntryType::Symlink),
-            ("other", EntryType::Regular),
+        for (name, kind, words) in [
+            ("../run.jsonl", EntryType::Regular, "../run.jsonl leads out"),
+            ("/tmp/run.jsonl", EntryType::Regular, "leads out"),
+            (RUN_FILE, EntryType::Symlink, "run.jsonl is a symbolic link"),
+            ("frames/a", EntryType::Link, "frames/a is a hard link"),
+            ("frames/a", EntryType::Char, "is a device"),
+            ("frames/a", EntryType::Fifo, "is a pipe"),
+            ("other", EntryType::Regular, "it has no run.jsonl"),
         ] {
-            archive(&path, name, kind);
-            assert!(folder(&path).is_err(), "{name}");
+            archive(&path, &[(name, kind, b"")]);
+            let refused = DEFAULT.folder(&path).unwrap_err().message;
+            assert!(refused.contains(words), "{name}: {refused}");
             assert_eq!(fs::read_dir(above.path()).unwrap().count(), 1, "{name}");
         }
+        archive(&path, &[RUN, ("other/run.jsonl", EntryType::Regular, b"")]);
+        let refused = DEFAULT.folder(&path).unwrap_err().message;
+        assert!(refused.contains("several folders"), "{refused}");
         fs::write(&path, "no archive").unwrap();
-        assert!(folder(&path).is_err());
+        assert!(DEFAULT.folder(&path).is_err());
+    }
+
+    #[test]
+    fn an_archive_has_a_largest_size() {
+        let above = tempfile::tempdir().unwrap();
+        let path = above.path().join("mine.tar.gz");
+        let zeros = vec![0; 2 << 20];
+        archive(&path, &[RUN, ("frames/a.json", EntryType::Regular, &zeros)]);
+        let small = UnpackArguments { max_unpacked: 2 };
+        let refused = small.folder(&path).unwrap_err().message;
+        let words = "more than 2 MiB; --max-unpacked raises the limit";
+        assert!(refused.contains(words), "{refused}");
+        assert_eq!(fs::read_dir(above.path()).unwrap().count(), 1);
+        DEFAULT.folder(&path).unwrap();
     }
 }

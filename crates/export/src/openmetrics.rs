@@ -159,7 +159,8 @@ fn label(name: &str, value: &str) -> String {
     let value = value
         .replace('\\', "\\\\")
         .replace('"', "\\\"")
-        .replace('\n', "\\n");
+        .replace('\n', "\\n")
+        .replace(char::is_control, "\u{fffd}");
     format!("{name}=\"{value}\"")
 }
 
@@ -170,5 +171,6 @@ mod tests {
     #[test]
     fn values_are_escaped() {
         assert_eq!(label("a", "b\"c\\d\ne"), r#"a="b\"c\\d\ne""#);
+        assert_eq!(label("a", "\0\r"), "a=\"\u{fffd}\u{fffd}\"");
     }
 }

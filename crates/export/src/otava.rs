@@ -106,12 +106,13 @@ fn table(
     (csv, rows)
 }
 
-/// Returns a CSV field, quoted if necessary.
+/// Returns a CSV field on one line, quoted if necessary. Readers of CSV refuse control characters.
 fn field(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
+    let text = text.replace(char::is_control, "\u{fffd}");
+    if text.contains([',', '"']) {
         format!("\"{}\"", text.replace('"', "\"\""))
     } else {
-        text.to_owned()
+        text
     }
 }
 
@@ -122,6 +123,6 @@ mod tests {
     #[test]
     fn fields_are_quoted() {
         assert_eq!(field("a"), "a");
-        assert_eq!(field("a,\"b\"\n"), "\"a,\"\"b\"\"\n\"");
+        assert_eq!(field("a,\"b\"\n\0"), "\"a,\"\"b\"\"\u{fffd}\u{fffd}\"");
     }
 }

@@ -60,7 +60,7 @@ impl Dead {
     pub fn write(folder: &Path, dead: &[Self]) -> Result<(), RecordError> {
         let out = OutputFolder::open(folder)?;
         if dead.is_empty() {
-            return out.take_away(DEAD_FILE);
+            return out.retain(|name| name != DEAD_FILE);
         }
         let mut text = serde_json::to_string_pretty(dead)
             .map_err(RecordError::serialize("dead expectations"))?;

@@ -161,6 +161,12 @@ pub enum RecordError {
         /// The format that this crate reads.
         expected: u32,
     },
+    /// A folder of findings has other files only.
+    #[error("{} holds files, and none is a finding (*.json); name the folder of findings", path.display())]
+    NoFinding {
+        /// The folder.
+        path: PathBuf,
+    },
     /// A line of a run, a frame file or an expectations file does not parse.
     #[error("{}:{line}: {message}; {remedy}", path.display())]
     Parse {

@@ -277,12 +277,21 @@ impl Expectations {
             return Self::parse(&text_of(path)?, path);
         }
         let mut files = Vec::new();
+        let mut has_others = false;
         for entry in fs::read_dir(path).map_err(RecordError::io("read", path))? {
             let file = entry.map_err(RecordError::io("read", path))?.path();
             // Reading a pipe would block.
             if file.extension().is_some_and(|e| e == "json") && file.is_file() {
                 files.push(file);
+            } else {
+                let name = entry_name(&file);
+                has_others |= !name.starts_with('.') && !name.ends_with(".md");
             }
+        }
+        if files.is_empty() && has_others {
+            return Err(RecordError::NoFinding {
+                path: path.to_owned(),
+            });
         }
         files.sort();
         let mut expectations = Self::default();
@@ -622,6 +631,11 @@ impl Expectations {
             _ => Expectation::None,
         }
     }
+}
+
+fn entry_name(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default();
+    name.to_string_lossy().into_owned()
 }
 
 fn text_of(path: &Path) -> Result<String, RecordError> {

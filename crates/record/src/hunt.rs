@@ -3,17 +3,22 @@
 use crate::error::RecordError;
 use crate::folder::HUNT_FILE;
 use crate::json::json_line;
-use crate::json_lines::put;
+use crate::json_lines::{JsonLines, put};
 use crate::machine::Machine;
 use crate::output_folder::OutputFolder;
+use crate::paths::open_below;
 use crate::verdict::Verdict;
 use etalon_frame::{WrongTexel, state_enum};
 use schemars::JsonSchema;
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// The format of `mutants.json` that this crate writes.
 pub const HUNT_FORMAT: u32 = 1;
+
+/// The maximum number of bytes of a hunt that are read.
+const MAX_BYTES: u64 = 64 << 20;
 
 /// The description of a planted bug.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -182,6 +187,24 @@ impl Hunt {
         self.mutants
             .iter()
             .filter_map(move |m| each(m).map(|why| (m, why)))
+    }
+
+    /// Reads `mutants.json` in a folder.
+    ///
+    /// # Errors
+    /// If the file cannot be read or does not parse.
+    pub fn read(folder: &Path) -> Result<Self, RecordError> {
+        let path = folder.join(HUNT_FILE);
+        let lines = JsonLines {
+            path: &path,
+            format: HUNT_FORMAT,
+            max_header: MAX_BYTES,
+            max_line: 0,
+            remedy: "record the hunt again",
+        };
+        let file = open_below(folder, HUNT_FILE)?;
+        let (hunt, _) = lines.read(file, |hunt| hunt, |_, _: IgnoredAny| Ok(()))?;
+        Ok(hunt)
     }
 
     /// Writes `mutants.json` into a folder, and creates the folder if it does not exist.

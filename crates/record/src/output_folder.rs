@@ -120,6 +120,15 @@ impl OutputFolder {
             .map(|(path, _)| path)
     }
 
+    /// Writes a file as [`OutputFolder::write`] does, from a reader.
+    ///
+    /// # Errors
+    /// As [`OutputFolder::write`], and if the reader fails.
+    pub fn write_from(&self, name: &str, reader: &mut dyn Read) -> Result<PathBuf, RecordError> {
+        let copy = |file: &mut File| Ok(std::io::copy(reader, file).map(drop)?);
+        self.place(name, copy).map(|(path, _)| path)
+    }
+
     /// Writes a file as [`OutputFolder::write`] does, and returns it with its path, to append to.
     pub(crate) fn place(
         &self,
@@ -287,15 +296,14 @@ impl OutputFolder {
         }
     }
 
-    /// Removes a file if etalon wrote it.
+    /// Removes the listed files whose names `keep` refuses.
     ///
     /// # Errors
-    /// If it cannot be removed.
-    pub(crate) fn take_away(&self, name: &str) -> Result<(), RecordError> {
-        if self.state().listed.contains(name) {
-            self.remove(name)?;
-        }
-        Ok(())
+    /// If one cannot be removed.
+    pub fn retain(&self, keep: impl Fn(&str) -> bool) -> Result<(), RecordError> {
+        let state = self.state();
+        let mut others = state.listed.iter().filter(|name| !keep(name));
+        others.try_for_each(|name| self.remove(name).map(drop))
     }
 
     fn state(&self) -> MutexGuard<'_, State> {

@@ -6,7 +6,7 @@ use crate::frame_file::FrameFile;
 use crate::header::{FORMAT, Header};
 use crate::json::without_position;
 use crate::json_lines::JsonLines;
-use crate::paths::open_below;
+use crate::paths::{below, open_below};
 use crate::record::{MAX_LINE, Record};
 use flate2::read::GzDecoder;
 use std::fs::File;
@@ -45,6 +45,14 @@ fn lines(path: &Path) -> JsonLines<'_> {
     }
 }
 
+/// Returns an error if a record names a file outside the run folder.
+fn check_files(record: &Record) -> Result<(), String> {
+    let outside = record.files().find(|file| below(file).is_err());
+    outside.map_or(Ok(()), |file| {
+        Err(format!("{file:?} is not a path below the run folder"))
+    })
+}
+
 impl Run {
     /// Reads `run.jsonl` in a run folder. A last line that is not whole JSON is dropped and noted;
     /// any other line must parse.
@@ -70,6 +78,7 @@ impl Run {
             truncated: false,
         };
         let (mut run, extent) = lines(&path).read(file, begin, |run, record: Record| {
+            check_files(&record)?;
             run.records.push(record);
             Ok(())
         })?;
@@ -90,6 +99,10 @@ impl Run {
         begin: impl FnOnce(Header) -> T,
         take: impl Fn(&mut T, Record) -> Result<(), String>,
     ) -> Result<(T, bool), RecordError> {
+        let take = |result: &mut T, record: Record| {
+            check_files(&record)?;
+            take(result, record)
+        };
         let (result, extent) = lines(path).read(text, begin, take)?;
         Ok((result, extent.truncated))
     }

@@ -15,7 +15,7 @@ fn main() {
     };
     let start = Instant::now();
     let history = History::open_read(database).unwrap();
-    let written = write_history(&history, &Labels::new(), folder).unwrap();
+    let written = write_history(&history, &Labels::new(), folder, true).unwrap();
     println!(
         "{}: {:.2} MB; {} files, {:.1} MB in all, in {:.1?}",
         written.html.display(),

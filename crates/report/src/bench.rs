@@ -8,4 +8,5 @@ mod table;
 mod write;
 
 pub use table::bench_table;
-pub use write::{BENCH_FILES, WrittenBench, write_bench};
+pub(crate) use write::write_bench_to;
+pub use write::{WrittenBench, write_bench};

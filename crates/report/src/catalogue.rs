@@ -5,18 +5,16 @@
 //! files and forbids all other loading.
 
 use crate::error::ReportError;
-use crate::files::{make, replace};
+use crate::files::Destination;
 use crate::lists::Interner;
 use crate::picture::enlarged;
 use etalon_frame::Frame;
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::fs;
-use std::path::Path;
 
 /// The folder of the scripts in a run folder.
-pub const CATALOGUE: &str = "cases";
+pub(crate) const CATALOGUE: &str = "cases";
 /// The maximum number of bytes of one area's pictures. Pictures beyond this limit are left out.
 const PICTURE_BYTES: usize = 1_000_000;
 
@@ -67,13 +65,14 @@ pub fn reference_png(frame: &Frame) -> Option<Vec<u8>> {
     frame.images.first().and_then(enlarged)
 }
 
-/// Writes `cases/<area>.js` for each area into a run folder.
+/// Writes `cases/<area>.js` for each area. Returns area and path of each.
 ///
 /// # Errors
-/// Returns an error if the folder cannot be written to.
-pub fn write_catalogue(folder: &Path, catalogue: &Catalogue) -> Result<(), ReportError> {
-    let below = folder.join(CATALOGUE);
-    make(&below)?;
+/// Returns an error if a script cannot be written.
+pub(crate) fn write_scripts(
+    to: &dyn Destination,
+    catalogue: &Catalogue,
+) -> Result<Vec<(String, String)>, ReportError> {
     let mut areas: BTreeMap<&str, Vec<&CatalogueCase>> = BTreeMap::new();
     for case in &catalogue.cases {
         areas
@@ -81,17 +80,16 @@ pub fn write_catalogue(folder: &Path, catalogue: &Catalogue) -> Result<(), Repor
             .or_default()
             .push(case);
     }
-    for (name, cases) in areas {
-        let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-        if name.is_empty() || !name.chars().all(plain) {
-            continue;
-        }
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    areas.retain(|name, _| !name.is_empty() && name.chars().all(plain));
+    let write = |(name, cases): (&str, Vec<&CatalogueCase>)| {
         let json =
             serde_json::to_string(&area(catalogue, &cases)).unwrap_or_else(|_| "null".to_owned());
-        let text = format!("etalonArea({name:?}, {json});\n");
-        replace(&below, &format!("{name}.js"), text.as_bytes())?;
-    }
-    Ok(())
+        let path = format!("{CATALOGUE}/{name}.js");
+        to.write(&path, format!("etalonArea({name:?}, {json});\n").as_bytes())?;
+        Ok((name.to_owned(), path))
+    };
+    areas.into_iter().map(write).collect()
 }
 
 fn area<'a>(catalogue: &'a Catalogue, cases: &[&'a CatalogueCase]) -> Area<'a> {
@@ -129,19 +127,4 @@ fn area<'a>(catalogue: &'a Catalogue, cases: &[&'a CatalogueCase]) -> Area<'a> {
         file.insert(variant, place);
     }
     area
-}
-
-/// Returns the scripts of a run folder: area and path below the folder.
-pub(crate) fn scripts(folder: &Path) -> Vec<(String, String)> {
-    let Ok(entries) = fs::read_dir(folder.join(CATALOGUE)) else {
-        return Vec::new();
-    };
-    let script = |entry: fs::DirEntry| {
-        let name = entry.file_name().into_string().ok()?;
-        let area = name.strip_suffix(".js")?.to_owned();
-        Some((area, format!("{CATALOGUE}/{name}")))
-    };
-    let mut scripts: Vec<_> = entries.flatten().filter_map(script).collect();
-    scripts.sort();
-    scripts
 }

@@ -35,11 +35,13 @@ pub enum ReportError {
         /// The folder.
         path: PathBuf,
     },
-    /// The folder for a site already has a site.
-    #[error("{} holds a site; --force replaces it", path.display())]
-    HasSite {
+    /// The folder for pages already has such pages.
+    #[error("{} holds a {kind}; --force replaces it", path.display())]
+    HasPages {
         /// The folder.
         path: PathBuf,
+        /// The kind of pages.
+        kind: &'static str,
     },
     /// A folder for pages has other files.
     #[error("{} is not empty and holds no {kind}; name another folder", path.display())]

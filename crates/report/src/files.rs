@@ -1,38 +1,42 @@
-//! Files of reports. Each is written to a temporary file and renamed, so a reader never sees half a report.
+//! Files of reports.
 
 use crate::error::ReportError;
+use etalon_record::OutputFolder;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Creates a folder and its parents.
-pub(crate) fn make(folder: &Path) -> Result<(), ReportError> {
-    fs::create_dir_all(folder).map_err(ReportError::unwritten(folder))
+/// The place of a report's files.
+pub(crate) trait Destination: Sync {
+    /// Writes a file. A reader never sees half of it.
+    ///
+    /// # Errors
+    /// If the system refuses, or a file of somebody else is in the way.
+    fn write(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, ReportError>;
 }
 
-/// Writes a file in a folder.
-pub(crate) fn replace(folder: &Path, name: &str, bytes: &[u8]) -> Result<PathBuf, ReportError> {
-    let path = folder.join(name);
-    let beside = folder.join(format!(".{name}.{}", std::process::id()));
-    let result = fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, &path));
-    match result {
-        Ok(()) => Ok(path),
-        Err(source) => {
-            // Errors are ignored: the first error is reported.
-            let _ = fs::remove_file(&beside);
-            Err(ReportError::Io { path, source })
-        }
+impl Destination for OutputFolder {
+    fn write(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, ReportError> {
+        Ok(OutputFolder::write(self, name, bytes)?)
     }
 }
 
-/// Writes a file at a path.
+/// Writes a file at a path that the user named.
 pub(crate) fn replace_at(path: &Path, bytes: &[u8]) -> Result<PathBuf, ReportError> {
-    let folder = path.parent().unwrap_or(Path::new(""));
-    match path.file_name().and_then(|n| n.to_str()) {
-        Some(name) => replace(folder, name, bytes),
-        None => Err(ReportError::NoFile {
+    let Some(name) = path.file_name() else {
+        return Err(ReportError::NoFile {
             path: path.to_owned(),
-        }),
+        });
+    };
+    let hidden = format!(".{}.{}", name.to_string_lossy(), std::process::id());
+    let beside = path.with_file_name(hidden);
+    match fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, path)) {
+        Ok(()) => Ok(path.to_owned()),
+        Err(source) => {
+            // Errors are ignored: the first error is reported.
+            let _ = fs::remove_file(&beside);
+            Err(ReportError::unwritten(path)(source))
+        }
     }
 }
 

@@ -1,14 +1,14 @@
 //! Hunts for planted bugs: `mutants.html` and the summary for a terminal.
 
 use crate::error::ReportError;
-use crate::files::replace;
+use crate::files::Destination;
 use crate::numbers::{count, duration};
 use crate::page::origin::origin;
 use crate::page::{self, Page};
 use crate::table::{Cell, Table};
 use crate::terminal::TableOptions;
 use crate::words::plain;
-use etalon_record::{AreaTally, Catch, Hunt, MutantRecord, Sighting};
+use etalon_record::{AreaTally, Catch, Hunt, MutantRecord, OutputFolder, Sighting};
 use maud::{Markup, html};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -31,8 +31,13 @@ pub struct WrittenHunt {
 /// Returns an error if the folder cannot be written to.
 pub fn write_hunt(folder: &Path, hunt: &Hunt) -> Result<WrittenHunt, ReportError> {
     let json = hunt.write(folder)?;
-    let html = replace(folder, HUNT_PAGE, html(hunt).as_bytes())?;
+    let html = write_hunt_page(&OutputFolder::open(folder)?, hunt)?;
     Ok(WrittenHunt { html, json })
+}
+
+/// Writes the page of a hunt.
+pub(crate) fn write_hunt_page(to: &dyn Destination, hunt: &Hunt) -> Result<PathBuf, ReportError> {
+    to.write(HUNT_PAGE, html(hunt).as_bytes())
 }
 
 /// Returns a table with a row per area, the totals, and the bugs that were only noticed, survived, or were

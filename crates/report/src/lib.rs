@@ -38,8 +38,8 @@ mod threads;
 mod versions;
 mod words;
 
-pub use bench::{BENCH_FILES, WrittenBench, bench_table, write_bench};
-pub use catalogue::{CATALOGUE, Catalogue, CatalogueCase, reference_png, write_catalogue};
+pub use bench::{WrittenBench, bench_table, write_bench};
+pub use catalogue::{Catalogue, CatalogueCase, reference_png};
 pub use command::quoted;
 pub use diff::benches::{
     BenchDiff, BenchFacts, InstructionChange, InstructionOutcome, TimeChange, Untimed, diff,
@@ -55,10 +55,9 @@ pub use methods::methods_html;
 pub use news::{News, NewsEntry, Since, news_table};
 pub use picture::{Ringed, Thumbnails, ringed_pictures};
 pub use run::{
-    OtherFormats, RUN_FILES, RUN_FOLDERS, RecordLine, RunReports, dead_lines, record_html, table,
-    write, write_run_with_news,
+    OtherFormats, RecordLine, RunReport, RunReports, dead_lines, record_html, table, write,
 };
-pub use site::{SITE_FILE, write_site};
+pub use site::{CasesOf, SITE_FILE, write_site};
 pub use staged::WrittenFolder;
 pub use terminal::TableOptions;
 pub use versions::{VERSIONS_PAGE, versions_table, write_versions};

@@ -12,4 +12,4 @@ mod write;
 pub use dead::dead_lines;
 pub use sample::{RecordLine, record_html};
 pub use table::table;
-pub use write::{OtherFormats, RUN_FILES, RUN_FOLDERS, RunReports, write, write_run_with_news};
+pub use write::{OtherFormats, RunReport, RunReports, write};

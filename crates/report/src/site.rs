@@ -7,4 +7,5 @@ mod runs;
 mod start;
 mod write;
 
+pub use runs::CasesOf;
 pub use write::{SITE_FILE, write_site};

@@ -1,12 +1,14 @@
 //! Folders of pages, which are written to a temporary folder and renamed when they are complete.
 
 use crate::error::ReportError;
+use crate::files::Destination;
 use etalon_record::is_marked;
 use serde_json::{Value, json};
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// A kind of folder of pages.
 pub(crate) struct Kind {
@@ -62,7 +64,10 @@ fn check(to: &Path, kind: &Kind, replace: bool) -> Result<(), ReportError> {
     paths.sort_unstable();
     let foreign = |path: &PathBuf| path.as_os_str() != kind.mark && !is_listed(path);
     match paths.into_iter().find(foreign) {
-        _ if !replace => Err(ReportError::HasSite { path }),
+        _ if !replace => Err(ReportError::HasPages {
+            path,
+            kind: kind.names[1],
+        }),
         Some(path) => Err(ReportError::Foreign {
             path: to.join(path),
             kind: kind.names[0],
@@ -94,8 +99,38 @@ pub(crate) struct Staged {
     kind: &'static Kind,
     to: PathBuf,
     beside: PathBuf,
+    written: Mutex<Written>,
+}
+
+/// The files that were written.
+#[derive(Debug, Default)]
+struct Written {
     names: Vec<String>,
     bytes: u64,
+}
+
+/// A folder below one that is being written.
+pub(crate) struct StagedBelow<'a> {
+    staged: &'a Staged,
+    below: PathBuf,
+}
+
+impl StagedBelow<'_> {
+    /// Returns the names of its files.
+    pub(crate) fn names(&self) -> BTreeSet<PathBuf> {
+        let written = self.staged.written();
+        let names = written.names.iter().map(Path::new);
+        let below = names.filter_map(|name| name.strip_prefix(&self.below).ok());
+        below.map(Path::to_owned).collect()
+    }
+}
+
+impl Destination for StagedBelow<'_> {
+    fn write(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, ReportError> {
+        let name = self.below.join(name);
+        self.staged.write(&name, bytes)?;
+        Ok(self.staged.to.join(name))
+    }
 }
 
 impl Staged {
@@ -119,8 +154,7 @@ impl Staged {
             kind,
             to: to.to_owned(),
             beside: to.with_file_name(hidden),
-            names: Vec::new(),
-            bytes: 0,
+            written: Mutex::default(),
         })
     }
 
@@ -128,19 +162,28 @@ impl Staged {
     ///
     /// # Errors
     /// Returns an error if the system refuses.
-    pub(crate) fn write(
-        &mut self,
-        name: impl AsRef<Path>,
-        bytes: &[u8],
-    ) -> Result<(), ReportError> {
+    pub(crate) fn write(&self, name: impl AsRef<Path>, bytes: &[u8]) -> Result<(), ReportError> {
         let path = self.beside.join(&name);
         let folder = path.parent().unwrap_or(&self.beside);
         let written = fs::create_dir_all(folder).and_then(|()| fs::write(&path, bytes));
         written.map_err(ReportError::unwritten(&self.to.join(&name)))?;
-        self.names
-            .push(name.as_ref().to_string_lossy().into_owned());
-        self.bytes += bytes.len() as u64;
+        let mut written = self.written();
+        let name = name.as_ref().to_string_lossy();
+        written.names.push(name.into_owned());
+        written.bytes += bytes.len() as u64;
         Ok(())
+    }
+
+    /// Returns a folder below this one.
+    pub(crate) fn below(&self, folder: impl Into<PathBuf>) -> StagedBelow<'_> {
+        StagedBelow {
+            staged: self,
+            below: folder.into(),
+        }
+    }
+
+    fn written(&self) -> MutexGuard<'_, Written> {
+        self.written.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Writes the start page and the marking file, which lists all files, and moves the folder to its place.
@@ -149,12 +192,12 @@ impl Staged {
     /// # Errors
     /// Returns an error if the system refuses. The earlier folder is then restored.
     pub(crate) fn finish(
-        mut self,
+        self,
         start: &[u8],
         mut about: Value,
     ) -> Result<WrittenFolder, ReportError> {
         self.write("index.html", start)?;
-        about["files"] = json!(self.names);
+        about["files"] = json!(self.written().names);
         self.write(self.kind.mark, about.to_string().as_bytes())?;
         let old = self.beside.with_extension("old");
         let replaces = self.to.exists();
@@ -171,11 +214,12 @@ impl Staged {
         if replaces {
             fs::remove_dir_all(&old).map_err(ReportError::unwritten(&old))?;
         }
+        let written = self.written();
         Ok(WrittenFolder {
             html: self.to.join("index.html"),
             start: start.len() as u64,
-            files: self.names.len() as u64,
-            bytes: self.bytes,
+            files: written.names.len() as u64,
+            bytes: written.bytes,
         })
     }
 }

@@ -3,14 +3,14 @@
 mod groups;
 
 use crate::error::ReportError;
-use crate::files::replace;
+use crate::files::Destination;
 use crate::numbers::count;
 use crate::page::origin::origin;
 use crate::page::{self, Page};
 use crate::table::{Cell, Table, as_is};
 use crate::terminal::TableOptions;
 use crate::words::plain;
-use etalon_record::{CaseVersions, ReleaseRecord, Standing, Verdict, Versions};
+use etalon_record::{CaseVersions, OutputFolder, ReleaseRecord, Standing, Verdict, Versions};
 use groups::{Course, Group, groups};
 use maud::{Markup, html};
 use std::path::{Path, PathBuf};
@@ -24,7 +24,15 @@ pub const VERSIONS_PAGE: &str = "versions.html";
 /// Returns an error if the folder cannot be written to.
 pub fn write_versions(folder: &Path, versions: &Versions) -> Result<PathBuf, ReportError> {
     versions.write(folder)?;
-    replace(folder, VERSIONS_PAGE, html(versions).as_bytes())
+    write_versions_page(&OutputFolder::open(folder)?, versions)
+}
+
+/// Writes the page of a search over releases.
+pub(crate) fn write_versions_page(
+    to: &dyn Destination,
+    versions: &Versions,
+) -> Result<PathBuf, ReportError> {
+    to.write(VERSIONS_PAGE, html(versions).as_bytes())
 }
 
 /// Returns a table with a row per finding and span of releases, and the totals. The text always ends in a

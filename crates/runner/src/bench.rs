@@ -21,8 +21,7 @@ use etalon_frame::{Limits, WrongTexel};
 use etalon_judge::{Judge, changed_picture};
 use etalon_record::{
     AdapterRecord, BenchHeader, BenchLine, BenchRecord, BenchWriter, CellRate, Done, Ended, Enough,
-    Expectations, InstructionCounter, Picture, Record, RecordError, ReportFiles, Round, Time,
-    Verdict, cell,
+    Expectations, InstructionCounter, Picture, Record, RecordError, Round, Time, Verdict, cell,
 };
 use etalon_stats::{MIN_ROUNDS, is_within, median_interval, quantile};
 pub use instructions::instruction_counter;
@@ -51,8 +50,6 @@ pub struct BenchPlan<'a> {
     pub resume: bool,
     /// The bench folder.
     pub folder: &'a Path,
-    /// The reports that are removed if a bench is replaced.
-    pub reports: ReportFiles,
     /// The header of the bench, with its number of rounds.
     pub header: BenchHeader,
 }
@@ -141,7 +138,7 @@ pub fn bench(
         let (writer, before) = resumed.map_err(BenchError::Folder)?;
         (writer, before.records)
     } else {
-        let begun = BenchWriter::replace(plan.folder, &plan.header, plan.reports);
+        let begun = BenchWriter::create(plan.folder, &plan.header);
         (begun.map_err(BenchError::Folder)?, Vec::new())
     };
     let last = before.iter().flat_map(|r| &r.rounds).map(|round| round.at);

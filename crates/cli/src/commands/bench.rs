@@ -7,7 +7,7 @@ use crate::flags::{AdapterFileArguments, CaseArguments, Format, parse_timeout};
 use crate::out_folder::Out;
 use crate::output::{print_json, say, summarize, table_options};
 use crate::progress::progress;
-use crate::{expectations, provenance, report_files, shard};
+use crate::{expectations, provenance, shard};
 use clap::Args;
 use etalon_case::Case;
 use etalon_record::{
@@ -110,7 +110,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let resume = claim.resume;
     let _lock = claim.take()?;
     let summary = measure(BenchPlan {
-        reports: report_files::BENCH,
         cases: &selected.cases,
         adapters: adapters.ready,
         budget: Duration::from_secs_f64(arguments.seconds),

@@ -9,13 +9,13 @@ use crate::out_folder::Out;
 use crate::output::{print_json, say, summarize, table_options};
 use crate::processors::processors;
 use crate::progress::progress;
-use crate::{expectations, provenance, report_files};
+use crate::{expectations, provenance};
 use clap::Args;
 use etalon_case::Case;
 use etalon_record::{
     AbsentAdapter, AdapterRecord, CaseVersions, Expectation, Expectations, FolderKind, Header,
-    Release, ReleaseRecord, Run, Standing, VERSIONS_FORMAT, Verdict, Versions, VersionsHeader,
-    clear,
+    OutputFolder, Release, ReleaseRecord, Run, Standing, VERSIONS_FORMAT, Verdict, Versions,
+    VersionsHeader,
 };
 use etalon_runner::{
     Event, Launch, Options, Plan, RunError, Worker, releases_to_draw, run as draw,
@@ -121,7 +121,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let findings = expectations::built_in()?;
     let outcome = search.run(&mut versions, &mut drawn, &findings, &arguments.out);
     // The file already has everything that an interrupted run holds.
-    let _ = clear(search.folder, FolderKind::Run, report_files::RUN);
+    let _ = OutputFolder::open(search.folder).and_then(|work| work.clear(None));
     let _ = std::fs::remove_file(search.folder.join(".lock"));
     let _ = std::fs::remove_dir(search.folder);
     outcome?;
@@ -350,7 +350,6 @@ impl Search<'_> {
             // Without expectations, every bad verdict is checked again.
             expectations: &Expectations::default(),
             folder: self.folder,
-            reports: report_files::RUN,
             header: Header {
                 etalon: provenance::VERSION.to_owned(),
                 commit: provenance::commit(),

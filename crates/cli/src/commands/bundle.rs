@@ -13,6 +13,7 @@ use crate::provenance;
 use crate::recorded_frame::recorded_frame;
 use crate::reducing::{Failing, FailingArguments, started};
 use crate::saved_recording::saved_recording;
+use crate::saved_run::UnpackArguments;
 use clap::Args;
 use etalon_backend::{AdapterInfo, Recording};
 use etalon_bundle::{
@@ -55,6 +56,8 @@ pub(crate) struct Arguments {
     /// The case is not reduced. Only for browsers
     #[arg(long, value_name = "RUN", conflicts_with = "latest")]
     pub(crate) run: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) unpack: UnpackArguments,
     /// Folder for the bundle, which is a folder with the case's name, and the same as .tar.gz
     #[arg(long, value_name = "DIR", default_value = "reports/bundles")]
     pub(crate) out: PathBuf,
@@ -116,7 +119,8 @@ fn saved(arguments: &Arguments, run: &Path) -> Result<u8, Failure> {
     free(arguments, &name)?;
     let case = alone(case);
     let adapter = Some(failing.adapter.as_str());
-    let recorded = recorded_frame(run, adapter, &failing.case, &case.scene)?;
+    let folder = arguments.unpack.folder(run)?;
+    let recorded = recorded_frame(&folder, adapter, &failing.case, &case.scene)?;
     let frames = std::slice::from_ref(&recorded.frame);
     let judged = Judge::default().judge(0, &case, "", &recorded.adapter.limits, frames);
     if !judged.record.verdict.is_violation() {

@@ -3,7 +3,7 @@
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::flags::Format;
 use crate::output::{print, print_json, table_options};
-use crate::saved_run::folder;
+use crate::saved_run::UnpackArguments;
 use clap::{Args, ValueEnum};
 use etalon_record::{Bench, FolderKind, Time};
 use etalon_report::runs::{self, RunDiff};
@@ -48,6 +48,8 @@ pub(crate) struct Arguments {
     /// Also write an HTML page to this file
     #[arg(long, value_name = "FILE.html")]
     pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) unpack: UnpackArguments,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: Format,
@@ -55,7 +57,11 @@ pub(crate) struct Arguments {
 
 /// Compares two runs or two benches.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let [before, after] = [folder(&arguments.before)?, folder(&arguments.after)?];
+    let unpack = arguments.unpack;
+    let [before, after] = [
+        unpack.folder(&arguments.before)?,
+        unpack.folder(&arguments.after)?,
+    ];
     let [before, after] = [before.as_path(), after.as_path()];
     match [before, after].map(FolderKind::of) {
         [Some(FolderKind::Run), Some(FolderKind::Run)] => of_runs(arguments, [before, after]),

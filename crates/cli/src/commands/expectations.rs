@@ -2,9 +2,10 @@
 
 use crate::adapters::{Query, discover, refuse_absent};
 use crate::cases::ids;
-use crate::expectations::{ExpectArguments, replace, write};
+use crate::expectations::{ExpectArguments, write};
 use crate::failure::Failure;
 use crate::flags::AdapterFileArguments;
+use crate::named_files::NamedFiles;
 use crate::output::{say, summarize};
 use clap::{Args, Subcommand};
 use etalon_record::{About, AdapterRecord, Entry, Expectations, Imported, ListKind};
@@ -75,11 +76,16 @@ pub(crate) struct ExportArguments {
     /// Folder for the lists
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
+    /// Replace lists of the same names
+    #[arg(long)]
+    pub(crate) force: bool,
     /// Read case files from this folder instead of the built-in ones
     #[arg(long, value_name = "DIR")]
     pub(crate) cases: Option<PathBuf>,
 }
 
+/// The files of an export: failures, flaky cases and cases to skip.
+const LISTS: [&str; 3] = ["fails.txt", "flakes.txt", "skips.txt"];
 /// The largest number of unmatched lines that are printed.
 const PRINTED: usize = 20;
 
@@ -165,6 +171,11 @@ fn list(path: &Path) -> Result<Vec<Entry>, Failure> {
 }
 
 fn export(arguments: &ExportArguments) -> Result<u8, Failure> {
+    let out = NamedFiles {
+        folder: &arguments.out,
+        force: arguments.force,
+    };
+    out.check(LISTS)?;
     let expected = arguments.expected.read(&[])?;
     let ids = ids(arguments.cases.as_ref())?;
     let name = std::slice::from_ref(&arguments.adapter);
@@ -178,20 +189,15 @@ fn export(arguments: &ExportArguments) -> Result<u8, Failure> {
         return Err(Failure::nothing("the adapter was not found"));
     };
     let lists = expected.lists(&AdapterRecord::from(worker), &ids);
-    let out = &arguments.out;
-    fs::create_dir_all(out)
-        .map_err(|e| Failure::usage(format!("cannot create {}: {e}", out.display())))?;
-    for (name, text) in [
-        ("fails.txt", &lists.fails),
-        ("flakes.txt", &lists.flakes),
-        ("skips.txt", &lists.skips),
-    ] {
-        replace(&out.join(name), text)?;
-        summarize(&format!(
-            "{}: {} lines\n",
-            out.join(name).display(),
-            text.lines().count()
-        ));
+    let texts = [lists.fails, lists.flakes, lists.skips];
+    let lines = texts.each_ref().map(|text| text.lines().count());
+    let files: Vec<_> = LISTS
+        .map(str::to_owned)
+        .into_iter()
+        .zip(texts.map(String::into_bytes))
+        .collect();
+    for (path, lines) in out.write(&files)?.iter().zip(lines) {
+        summarize(&format!("{}: {lines} lines\n", path.display()));
     }
     Ok(0)
 }

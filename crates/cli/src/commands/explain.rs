@@ -6,6 +6,7 @@ use crate::failure::{Failure, UNEXPECTED};
 use crate::flags::AdapterFileArguments;
 use crate::output::print;
 use crate::recorded_frame::recorded_frame;
+use crate::saved_run::UnpackArguments;
 use clap::Args;
 use etalon_backend::Backend;
 use etalon_case::Case;
@@ -38,6 +39,8 @@ pub(crate) struct Arguments {
     /// (`*.tar.gz`). If it has several adapters, choose one with --adapter
     #[arg(long, value_name = "RUN")]
     pub(crate) run: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) unpack: UnpackArguments,
     /// Also compare the texel with the yardstick, the band of good quality within the legal values
     #[arg(long)]
     pub(crate) yardstick: bool,
@@ -55,7 +58,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     refuse_outside(scene, arguments)?;
     let (limits, frames) = match (&arguments.run, &arguments.adapter) {
         (Some(run), adapter) => {
-            let recorded = recorded_frame(run, adapter.as_deref(), &case.id, &case.scene)?;
+            let folder = arguments.unpack.folder(run)?;
+            let recorded = recorded_frame(&folder, adapter.as_deref(), &case.id, &case.scene)?;
             (recorded.adapter.limits, vec![recorded.frame])
         }
         (None, None) => (CpuBackend::new("cpu").limits().clone(), Vec::new()),

@@ -6,9 +6,9 @@
 use crate::adapters::{Query, discover, refuse_absent};
 use crate::cases::library;
 use crate::counted::counted;
-use crate::expectations::{self, ExpectArguments};
+use crate::expectations::ExpectArguments;
 use crate::failure::{Failure, INCOMPLETE, UNEXPECTED};
-use crate::failure_groups::{FailingScenes, Folders, Group};
+use crate::failure_groups::{FailingScenes, Group};
 use crate::flags::{AdapterFileArguments, Format, parse_timeout};
 use crate::group_text;
 use crate::interruption::listen;
@@ -26,7 +26,9 @@ use etalon_diagnose::Match;
 use etalon_explore::{Fuzzer, RandomScene, Space};
 use etalon_frame::Limits;
 use etalon_frame::threads::join;
-use etalon_record::{AdapterRecord, Expectations, FUZZ_FILE, FolderKind, Record, Verdict};
+use etalon_record::{
+    AdapterRecord, Expectations, FUZZ_FILE, FolderKind, OutputFolder, Record, Verdict,
+};
 use etalon_runner::{Batches, Launch, Reducer, Worker};
 use indicatif::ProgressBar;
 use serde_json::{Value, json};
@@ -223,11 +225,8 @@ impl Search<'_> {
         let adapter = AdapterRecord::from(&worker);
         let limits = &worker.hello.limits;
         let reducer = || Reducer::new(launch.clone(), limits.clone(), self.timeout, self.stop);
-        let folders = Folders {
-            found: out.join(Folders::FOUND),
-            known: out.join(Folders::KNOWN),
-        };
-        let mut failing = FailingScenes::new(reducer(), folders);
+        let out = OutputFolder::open(out).map_err(Failure::usage)?;
+        let mut failing = FailingScenes::new(reducer(), &out);
         let bug_reducer = reducer();
         let begun = Instant::now();
         let count = match self.arguments.time {
@@ -380,8 +379,10 @@ fn write(arguments: &Arguments, tallies: &[Tally], interrupted: bool) -> Result<
             .flat_map(|t| t.groups.iter().map(group_text::json)),
     );
     let text: String = lines.iter().map(|line| format!("{line}\n")).collect();
-    let path = arguments.out.join(FUZZ_FILE);
-    expectations::replace(&path, &text)
+    OutputFolder::open(&arguments.out)
+        .and_then(|out| out.write(FUZZ_FILE, text.as_bytes()))
+        .map_err(Failure::incomplete)?;
+    Ok(())
 }
 
 impl Tally {

@@ -1,10 +1,10 @@
 //! `etalon man`.
 
 use crate::failure::Failure;
+use crate::named_files::NamedFiles;
 use crate::output::{print, summarize};
 use clap::{Args, Command};
-use clap_mangen::{Man, generate_to};
-use std::fs;
+use clap_mangen::Man;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -12,6 +12,9 @@ pub(crate) struct Arguments {
     /// Write a page for each command to this folder, instead of printing the first page
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+    /// Replace pages of the same names
+    #[arg(long, requires = "out")]
+    pub(crate) force: bool,
 }
 
 /// Prints or writes the manual pages of a command.
@@ -24,10 +27,27 @@ pub(crate) fn run(arguments: &Arguments, command: Command) -> Result<u8, Failure
         print(&String::from_utf8_lossy(&page))?;
         return Ok(0);
     };
-    fs::create_dir_all(folder)
-        .map_err(|e| Failure::usage(format!("cannot create {}: {e}", folder.display())))?;
-    generate_to(command, folder)
-        .map_err(|e| Failure::incomplete(format!("cannot write to {}: {e}", folder.display())))?;
+    let mut command = command.disable_help_subcommand(true);
+    command.build();
+    let mut pages = Vec::new();
+    add_pages(&command, &mut pages)?;
+    NamedFiles {
+        folder,
+        force: arguments.force,
+    }
+    .write(&pages)?;
     summarize(&format!("manual pages written to {}\n", folder.display()));
     Ok(0)
+}
+
+/// Adds the pages of a command's commands, then its own: the name of each file and its text.
+fn add_pages(command: &Command, pages: &mut Vec<(String, Vec<u8>)>) -> Result<(), Failure> {
+    for below in command.get_subcommands().filter(|c| !c.is_hide_set()) {
+        add_pages(below, pages)?;
+    }
+    let man = Man::new(command.clone());
+    let mut page = Vec::new();
+    man.render(&mut page).map_err(Failure::incomplete)?;
+    pages.push((man.get_filename(), page));
+    Ok(())
 }

@@ -1,19 +1,17 @@
 //! `etalon merge`.
 
-use crate::cases::{build_named, library};
-use crate::catalogue::{Pictures, catalogue};
+use crate::catalogue::{catalogue_of, draws_built_in};
 use crate::failure::{Failure, IMPROVED, UNEXPECTED};
 use crate::flags::Format;
 use crate::news::{NewsArguments, shown};
 use crate::out_folder::Out;
 use crate::output::{print_json, say, summarize, table_options};
-use crate::saved_run::folders;
-use crate::{provenance, report_files};
+use crate::provenance;
+use crate::saved_run::UnpackArguments;
 use clap::Args;
 use etalon_record::{FolderKind, MISSING_FILE, Merge, Merged, Run};
-use etalon_report::{News, OtherFormats};
+use etalon_report::{Catalogue, News, OtherFormats, RunReport};
 use serde_json::json;
-use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -29,6 +27,8 @@ pub(crate) struct Arguments {
     #[arg(long)]
     pub(crate) force: bool,
     #[command(flatten)]
+    pub(crate) unpack: UnpackArguments,
+    #[command(flatten)]
     pub(crate) news: NewsArguments,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
@@ -43,10 +43,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     arguments.news.check()?;
     let out = &arguments.out;
     refuse_part(arguments)?;
-    let mut merge = Merge::read(&folders(&arguments.folders)?).map_err(Failure::usage)?;
-    // The case files of a `--cases` folder are not available here.
-    let of_folder = |word: &String| word == "--cases" || word.starts_with("--cases=");
-    let built_in = !merge.header_mut().command.iter().any(of_folder);
+    let folders = arguments.unpack.folders(&arguments.folders)?;
+    let mut merge = Merge::read(&folders).map_err(Failure::usage)?;
+    let built_in = draws_built_in(merge.header_mut());
     merge.header_mut().command = provenance::command();
     let claim = Out {
         folder: out,
@@ -58,15 +57,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     }
     .claim()?;
     let _lock = claim.take()?;
-    let merged = merge
-        .write(out, report_files::RUN)
-        .map_err(Failure::incomplete)?;
+    let merged = merge.write(out).map_err(Failure::incomplete)?;
     let run = Run::read(out).map_err(Failure::incomplete)?;
-    if built_in {
-        write_catalogue(out, &run)?;
-    }
+    let catalogue = if built_in {
+        Some(catalogue_of(&run, None)?)
+    } else {
+        None
+    };
     let news = arguments.news.news(&run)?;
-    print(arguments, &merged, &run, news.as_ref())?;
+    print(arguments, &merged, &run, catalogue.as_ref(), news.as_ref())?;
     print_overlap(&merged);
     if !merged.missing.is_empty() || !merged.empty.is_empty() {
         return Err(Failure::incomplete(holes(&merged, out)));
@@ -99,12 +98,20 @@ fn print(
     arguments: &Arguments,
     merged: &Merged,
     run: &Run,
+    catalogue: Option<&Catalogue>,
     news: Option<&News>,
 ) -> Result<(), Failure> {
     let out = &arguments.out;
     let shown = shown(run, news);
-    let written = etalon_report::write_run_with_news(out, &shown, news, OtherFormats::default())
-        .map_err(Failure::incomplete)?;
+    let written = RunReport {
+        folder: out,
+        run: &shown,
+        catalogue,
+        news,
+        formats: OtherFormats::default(),
+    }
+    .write()
+    .map_err(Failure::incomplete)?;
     if arguments.format == Format::Json {
         let pair = |(adapter, case): &(String, String)| json!({"adapter": adapter, "case": case});
         return print_json(&json!({
@@ -126,15 +133,6 @@ fn print(
     summarize(&etalon_report::table(&shown, table_options()));
     summarize(&format!("\nReport: {}\n", written.html.display()));
     Ok(())
-}
-
-/// Writes the catalogue of the merged cases.
-fn write_catalogue(out: &Path, run: &Run) -> Result<(), Failure> {
-    let library = library(None)?;
-    let drawn: BTreeSet<&str> = run.records.iter().map(|r| r.case.as_str()).collect();
-    let cases = build_named(&library, &drawn)?;
-    let catalogue = catalogue(&library, &cases, &Pictures::default());
-    etalon_report::write_catalogue(out, &catalogue).map_err(Failure::incomplete)
 }
 
 /// Returns true if both paths name the same folder.

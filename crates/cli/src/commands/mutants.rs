@@ -3,12 +3,12 @@
 use crate::cases::{build, library};
 use crate::failure::{Failure, UNEXPECTED};
 use crate::flags::{CaseProfile, Format};
+use crate::named_files::replace;
 use crate::out_folder::{Claim, Out};
 use crate::output::{print, print_json, summarize, table_options};
 use crate::processors::processors;
 use crate::progress::progress;
 use crate::provenance;
-use crate::report_files::RECALL;
 use crate::worth::order;
 use clap::Args;
 use etalon_backend::Backend;
@@ -19,11 +19,16 @@ use etalon_frame::Limits;
 use etalon_frame::threads::each;
 use etalon_judge::Judge;
 use etalon_mutants::{MutantBackend, mutants};
-use etalon_record::{Catch, FolderKind, HUNT_FORMAT, Hunt, MutantInfo, MutantRecord};
+use etalon_record::{Catch, FolderKind, HUNT_FORMAT, Hunt, MutantInfo, MutantRecord, OutputFolder};
 use etalon_runner::HuntPlan;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Instant;
+
+/// The default folder.
+const LATEST: &str = "reports/mutants-latest";
+/// The table of a hunt with random scenes.
+const RECALL: &str = "recall.txt";
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -56,8 +61,11 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "S", default_value_t = 0, requires = "fuzz")]
     pub(crate) seed: u64,
     /// Folder for mutants.json and mutants.html; with --fuzz also recall.txt
-    #[arg(long, value_name = "DIR", default_value = "reports/mutants-latest")]
+    #[arg(long, value_name = "DIR", default_value = LATEST)]
     pub(crate) out: PathBuf,
+    /// Replace what etalon wrote into the folder; the default folder is always replaced
+    #[arg(long)]
+    pub(crate) force: bool,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: Format,
@@ -72,11 +80,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let claim = Out {
         folder: &arguments.out,
         kind: FolderKind::Hunt,
-        latest: None,
+        latest: Some(LATEST),
         cases: arguments.cases.as_deref(),
         resume: None,
-        // A hunt takes only minutes to repeat.
-        force: true,
+        force: arguments.force,
     }
     .claim()?;
     if let Some(scenes) = arguments.fuzz {
@@ -167,8 +174,7 @@ fn hunt(arguments: &Arguments, cases: &[Case], chosen: &[MutantInfo]) -> Result<
     let found = etalon_runner::hunt(plan, &open, &|| bar.inc(1));
     bar.finish_and_clear();
     if let Some(path) = &arguments.order {
-        std::fs::write(path, order(cases, &found))
-            .map_err(|e| Failure::incomplete(format!("cannot write {}: {e}", path.display())))?;
+        replace(path, order(cases, &found).as_bytes())?;
     }
     let records = found.records;
     Ok(hunted(
@@ -223,9 +229,9 @@ fn fuzz(
             "\nWrong: {case} fails without a bug, and was left out\n"
         ));
     }
-    let path = arguments.out.join(RECALL);
-    std::fs::write(&path, &table)
-        .map_err(|e| Failure::incomplete(format!("cannot write {}: {e}", path.display())))?;
+    OutputFolder::open(&arguments.out)
+        .and_then(|out| out.write(RECALL, table.as_bytes()))
+        .map_err(Failure::incomplete)?;
     match arguments.format {
         Format::Json => print_json(&hunt)?,
         Format::Text => summarize(&format!("{table}\nReport: {}\n", written.html.display())),

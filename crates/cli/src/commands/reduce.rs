@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use crate::flags::Format;
 use crate::interruption::listen;
+use crate::named_files::NamedFiles;
 use crate::out_folder::apart;
 use crate::output::{print_json, summarize};
 use crate::reducing::{Failing, FailingArguments};
@@ -13,8 +14,7 @@ use etalon_record::Record;
 use etalon_report::ReducedCase;
 use etalon_runner::smallest;
 use serde_json::{Value, json};
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -23,6 +23,9 @@ pub(crate) struct Arguments {
     /// Folder for the reduced case file; `--cases` accepts it
     #[arg(long, value_name = "DIR", default_value = "reports/reduced")]
     pub(crate) out: PathBuf,
+    /// Replace the file of the same name
+    #[arg(long)]
+    pub(crate) force: bool,
 }
 
 /// Reduces a case that fails on an adapter, and writes the result as a case file.
@@ -35,8 +38,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         launch,
         worker,
     } = Failing::find(failing)?;
-    let path = arguments.out.join(format!("{name}.json"));
-    refuse_foreign(&path)?;
+    let name = format!("{name}.json");
+    let out = NamedFiles {
+        folder: &arguments.out,
+        force: arguments.force,
+    };
+    out.check([&name])?;
+    let path = arguments.out.join(&name);
     let document = candidate.document.clone();
     let timeout = failing.timeout();
     let smallest = smallest(
@@ -58,27 +66,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     };
     let text = serde_json::to_string_pretty(&report.document())
         .map_err(|e| Failure::incomplete(format!("cannot write JSON: {e}")))?;
-    fs::create_dir_all(&arguments.out)
-        .and_then(|()| fs::write(&path, text + "\n"))
-        .map_err(|e| Failure::incomplete(format!("cannot write {}: {e}", path.display())))?;
+    out.write(&[(name, (text + "\n").into_bytes())])?;
     match arguments.failing.format {
         Format::Text => summarize(&report.text(&path.display().to_string())),
         Format::Json => print_json(&report.json(&path.display().to_string()))?,
     }
     Ok(0)
-}
-
-/// Refuses to replace a file that is not a case file.
-fn refuse_foreign(path: &Path) -> Result<(), Failure> {
-    let text = fs::read(path).unwrap_or_default();
-    let document: Value = serde_json::from_slice(&text).unwrap_or_default();
-    if path.exists() && !document["scene"].is_object() {
-        return Err(Failure::usage(format!(
-            "{} exists and is not a case file; name another folder with --out",
-            path.display()
-        )));
-    }
-    Ok(())
 }
 
 /// A reduction, for text and JSON.

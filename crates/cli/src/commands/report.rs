@@ -1,13 +1,14 @@
 //! `etalon report`.
 
+use crate::catalogue::{catalogue_of, draws_built_in};
 use crate::expectations;
 use crate::failure::{Failure, IMPROVED, INCOMPLETE, UNEXPECTED};
 use crate::news::{NewsArguments, shown};
 use crate::output::{say, summarize, table_options};
-use crate::saved_run::folders;
+use crate::saved_run::UnpackArguments;
 use clap::Args;
 use etalon_record::{Bench, Expectation, FolderKind, Record, Run};
-use etalon_report::{OtherFormats, TableOptions};
+use etalon_report::{OtherFormats, RunReport, TableOptions};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
@@ -15,6 +16,11 @@ pub(crate) struct Arguments {
     /// Run and bench folders, and runs that the page saved (`*.tar.gz`)
     #[arg(value_name = "DIR", required = true)]
     pub(crate) folders: Vec<PathBuf>,
+    /// Read the case files of a run of `--cases` from this folder, for the pages of single cases
+    #[arg(long, value_name = "DIR")]
+    pub(crate) cases: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) unpack: UnpackArguments,
     #[command(flatten)]
     pub(crate) news: NewsArguments,
     /// Also write `ctrf.json`, in the Common Test Report Format
@@ -40,7 +46,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     arguments.news.check()?;
     let options = table_options();
     let mut codes = Vec::new();
-    for folder in &folders(&arguments.folders)? {
+    for folder in &arguments.unpack.folders(&arguments.folders)? {
         codes.push(match FolderKind::of(folder) {
             Some(FolderKind::Bench) => bench(folder, options)?,
             // A folder that is neither a run nor a bench is reported as a missing run.
@@ -56,8 +62,20 @@ fn of_run(folder: &Path, arguments: &Arguments, options: TableOptions) -> Result
     let news = arguments.news.news(&run)?;
     let shown = shown(&run, news.as_ref());
     let formats = arguments.formats();
-    let written = etalon_report::write_run_with_news(folder, &shown, news.as_ref(), formats)
-        .map_err(Failure::usage)?;
+    let catalogue = match &arguments.cases {
+        Some(cases) => Some(catalogue_of(&run, Some(cases))?),
+        None if draws_built_in(&run.header) => Some(catalogue_of(&run, None)?),
+        None => None,
+    };
+    let written = RunReport {
+        folder,
+        run: &shown,
+        catalogue: catalogue.as_ref(),
+        news: news.as_ref(),
+        formats,
+    }
+    .write()
+    .map_err(Failure::usage)?;
     if let Some(news) = &news {
         summarize(&etalon_report::news_table(news, options));
     }

@@ -15,7 +15,7 @@ use crate::output::{print_json, say, summarize, table_options};
 use crate::processors::processors;
 use crate::progress::progress;
 use crate::worth::sort_by_worth;
-use crate::{dead, provenance, report_files, shard};
+use crate::{dead, provenance, shard};
 use clap::{Args, ValueEnum};
 use etalon_case::Case;
 use etalon_history::FrameTimes;
@@ -23,7 +23,7 @@ use etalon_record::{
     AdapterRecord, Dead, Expectations, FolderKind, Header, Run, Settings, Shard, Verdict,
     selection_digest,
 };
-use etalon_report::{News, OtherFormats};
+use etalon_report::{News, OtherFormats, RunReport};
 use etalon_runner::{Event, KeptFrames, Launch, Options, Plan, Rechecks, RunError, RunSummary};
 use indicatif::ProgressBar;
 use serde_json::json;
@@ -207,7 +207,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let adapter_names = header.adapters.iter().map(|a| a.name.clone()).collect();
     let pictures = Pictures::default();
     let mut summary = draw(Plan {
-        reports: report_files::RUN,
         cases: &selected.cases,
         round_trips: &selected.round_trips,
         selection: Some(&selected.ids),
@@ -419,15 +418,16 @@ impl<'a> Results<'a> {
         let dead = dead::of_run(&run, expectations, &library, cases.is_some(), adapter_file)?;
         Dead::write(folder, &dead).map_err(Failure::incomplete)?;
         let catalogue = catalogue(&library, &selected.cases, pictures);
-        etalon_report::write_catalogue(folder, &catalogue).map_err(Failure::incomplete)?;
         let news = arguments.news.news(&run)?;
         let shown = shown(&run, news.as_ref());
-        let written = etalon_report::write_run_with_news(
+        let written = RunReport {
             folder,
-            &shown,
-            news.as_ref(),
-            OtherFormats::default(),
-        )
+            run: &shown,
+            catalogue: Some(&catalogue),
+            news: news.as_ref(),
+            formats: OtherFormats::default(),
+        }
+        .write()
         .map_err(Failure::incomplete)?;
         drop(shown);
         Ok(Self {

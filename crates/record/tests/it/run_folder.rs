@@ -150,7 +150,7 @@ prop_compose! {
         figures in prop::collection::vec(any::<[u64; 7]>(), 0..3),
         wrong in prop::collection::vec((".{0,9}", any::<u32>(), any::<u32>()), 0..5),
         story in prop::option::of(story()),
-        frame in prop::option::of(".*"),
+        frame in prop::option::of("[a-z]{1,9}(/[^/.\\\\\u{0}]{1,9}){0,2}"),
         seconds in any::<[u32; 2]>(),
         (lost, said) in (
             prop::option::of((prop::option::of(any::<i32>()), ".*")),

@@ -3,16 +3,14 @@
 use super::figures::{CaseFigures, Timed, figures};
 use super::page;
 use crate::error::ReportError;
-use crate::files::replace;
+use crate::files::Destination;
 use crate::matrix::{self, Matrix};
 use crate::numbers::change;
 use etalon_dashboards::{ACTION_FILE, BENCHER_FILE, Benchmark, Figure, nanoseconds};
-use etalon_record::{Bench, Time};
+use etalon_record::{Bench, OutputFolder, Time};
 use etalon_stats::Summary;
 use std::path::{Path, PathBuf};
 
-/// The files that [`write_bench`] writes.
-pub const BENCH_FILES: [&str; 5] = [HTML, BENCHER_FILE, ACTION_FILE, MATRIX, MATRIX_CSV];
 const HTML: &str = "index.html";
 const MATRIX: &str = "matrix.html";
 const MATRIX_CSV: &str = "matrix.csv";
@@ -37,23 +35,30 @@ pub struct WrittenBench {
 /// # Errors
 /// Returns an error if the folder holds no readable bench, or cannot be written to.
 pub fn write_bench(folder: &Path) -> Result<WrittenBench, ReportError> {
-    let bench = Bench::read(folder)?;
-    let figures = figures(&bench);
-    let html = page::page(&bench, &figures);
-    let matrix = Matrix::new(&bench);
+    write_bench_to(&OutputFolder::open(folder)?, &Bench::read(folder)?)
+}
+
+/// Writes the reports of a bench, as [`write_bench`] does.
+pub(crate) fn write_bench_to(
+    to: &dyn Destination,
+    bench: &Bench,
+) -> Result<WrittenBench, ReportError> {
+    let figures = figures(bench);
+    let html = page::page(bench, &figures);
+    let matrix = Matrix::new(bench);
     let benchmarks = benchmarks(&figures);
     let bencher = etalon_dashboards::bencher(&benchmarks).map_err(ReportError::Json)?;
     let action = etalon_dashboards::action(&benchmarks).map_err(ReportError::Json)?;
     Ok(WrittenBench {
-        html: replace(folder, HTML, html.as_bytes())?,
-        bencher: replace(folder, BENCHER_FILE, &bencher)?,
-        action: replace(folder, ACTION_FILE, &action)?,
+        html: to.write(HTML, html.as_bytes())?,
+        bencher: to.write(BENCHER_FILE, &bencher)?,
+        action: to.write(ACTION_FILE, &action)?,
         matrix: if matrix.cells.is_empty() {
             None
         } else {
             Some([
-                replace(folder, MATRIX, matrix::page(&matrix).as_bytes())?,
-                replace(folder, MATRIX_CSV, matrix::csv(&matrix).as_bytes())?,
+                to.write(MATRIX, matrix::page(&matrix).as_bytes())?,
+                to.write(MATRIX_CSV, matrix::csv(&matrix).as_bytes())?,
             ])
         },
     })

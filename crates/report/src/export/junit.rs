@@ -32,7 +32,13 @@ pub(crate) fn xml(run: &Run, grid: &Grid<'_>) -> Result<String, SerializeError> 
         report.add_test_suite(suite);
     }
     report.add_test_suite(completeness(run));
-    report.to_string()
+    Ok(well_formed(&report.to_string()?))
+}
+
+/// Replaces the characters that XML 1.0 forbids even as references (section 2.2).
+fn well_formed(xml: &str) -> String {
+    let is_allowed = |c: char| matches!(c, '\t' | '\n' | '\r' | '\u{20}'..='\u{fffd}' | '\u{10000}'..='\u{10ffff}');
+    xml.replace(|c| !is_allowed(c), "\u{fffd}")
 }
 
 fn test_case(record: &Record) -> TestCase {

@@ -25,7 +25,7 @@ const FOLDER: Kind = Kind {
 };
 
 /// Writes the pages of the runs of a history into a folder. With labels, only runs that have them all are
-/// shown. An earlier page in the folder is replaced, unless an error is returned.
+/// shown. If `replace` is true, an earlier page in the folder is replaced, unless an error is returned.
 ///
 /// # Errors
 /// Returns an error if the history cannot be read or has no such run, or the folder has other files or cannot
@@ -34,6 +34,7 @@ pub fn write_history(
     history: &History,
     only: &Labels,
     to: &Path,
+    replace: bool,
 ) -> Result<WrittenFolder, ReportError> {
     let places = Places::new(history, only);
     if places.runs.is_empty() {
@@ -41,10 +42,10 @@ pub fn write_history(
             path: history.path().to_owned(),
         });
     }
-    let mut folder = Staged::begin(to, &FOLDER, true)?;
+    let folder = Staged::begin(to, &FOLDER, replace)?;
     let model = Model::read(history, &places)?;
     let news = News::find(&model);
-    let mut write = |name: &str, value: &str| {
+    let write = |name: &str, value: &str| {
         folder.write(format!("data/{name}.js"), file(name, value).as_bytes())
     };
     let order = Order::of(model.cases);

@@ -17,7 +17,6 @@ mod findings;
 mod matrix;
 mod overview;
 
-use crate::catalogue::scripts;
 use crate::chart;
 use crate::mark::class;
 use crate::methods::{self, Methods};
@@ -27,10 +26,10 @@ use crate::page::origin::origin;
 use crate::page::{self, Page};
 use crate::run::grid::{Grid, Tally};
 use crate::run::reasons::{total, undrawn};
+use crate::run::write::RunReport;
 use crate::words::{self, Tone};
 use etalon_record::{Dead, Run, Verdict};
 use maud::{Markup, html};
-use std::path::Path;
 
 const STYLE: &str = concat!(
     include_str!("index/matrix.css"),
@@ -51,15 +50,16 @@ const SCRIPT: &str = concat!(
 );
 /// Returns the page. Frame files are read from the folder when they are needed.
 pub(crate) fn page(
-    folder: &Path,
-    run: &Run,
+    report: &RunReport<'_>,
+    scripts: &[(String, String)],
     dead: &[Dead],
     methods: Option<&Methods<'_>>,
-    news: Option<&News>,
 ) -> String {
+    let RunReport {
+        folder, run, news, ..
+    } = *report;
     let grid = Grid::new(run);
     let plan = findings::Plan::new(&grid);
-    let scripts = scripts(folder);
     let drivers = methods::driver_section(&grid);
     let charts = drivers.as_ref().map(|_| chart::style());
     let main = html! {
@@ -78,10 +78,10 @@ pub(crate) fn page(
                 (overview::dead(dead))
                 @if let Some(methods) = methods { (methods::section(methods)) }
                 @if let Some(drivers) = drivers { (drivers) }
-                (cases::section(&grid, &scripts))
+                (cases::section(&grid, scripts))
             }
             // Before the long sections, so that the table works while the rest is still read.
-            (data::block(&grid, &plan, &scripts))
+            (data::block(&grid, &plan, scripts))
             (page::script(SCRIPT))
             @if !run.records.is_empty() {
                 (findings::section(folder, &grid, &plan))

@@ -2,20 +2,16 @@
 
 use super::grid::Grid;
 use super::index;
-use crate::catalogue::CATALOGUE;
+use crate::catalogue::{CATALOGUE, Catalogue, write_scripts};
 use crate::error::ReportError;
 use crate::export::{ctrf, deqp, junit, markdown};
-use crate::files::{make, replace};
+use crate::files::Destination;
 use crate::methods::{self, Methods};
 use crate::news::News;
 use etalon_frame::threads::join;
-use etalon_record::{Dead, Run};
+use etalon_record::{Dead, OutputFolder, Run};
 use std::path::{Path, PathBuf};
 
-/// The files that [`write()`] may write into a run folder.
-pub const RUN_FILES: [&str; 5] = [HTML, methods::PAGE, JUNIT, CTRF, SUMMARY];
-/// The folders that [`write()`] writes into a run folder, each with the extension of its files.
-pub const RUN_FOLDERS: [(&str, &str); 2] = [(deqp::FOLDER, "csv"), (CATALOGUE, "js")];
 const HTML: &str = "index.html";
 const JUNIT: &str = "junit.xml";
 const CTRF: &str = "ctrf.json";
@@ -36,6 +32,8 @@ pub struct RunReports {
     pub summary: PathBuf,
     /// deqp-runner's `results.csv`, one per adapter, if asked for.
     pub results: Vec<PathBuf>,
+    /// The pages and scripts, as paths below the folder.
+    pub(crate) views: Vec<String>,
 }
 
 impl RunReports {
@@ -78,98 +76,121 @@ impl OtherFormats {
     }
 }
 
-/// Reads the run in a folder and writes its reports in every format, as [`write_run_with_news`] does.
+/// What the reports of a run are made from.
+#[derive(Clone, Copy, Debug)]
+pub struct RunReport<'a> {
+    /// The run folder, for frames, pictures and dead expectations.
+    pub folder: &'a Path,
+    /// The run. [`News::settle`] gives the one in which what triage settled does not count.
+    pub run: &'a Run,
+    /// The cases, for the pages of single cases; `None` if they are unknown.
+    pub catalogue: Option<&'a Catalogue>,
+    /// The changes since the last run, which the page and the summary tell first.
+    pub news: Option<&'a News>,
+    /// The formats for other test systems.
+    pub formats: OtherFormats,
+}
+
+/// Reads the run in a folder and writes its reports in every format, without pages of single cases.
 ///
 /// # Errors
 /// Returns an error if the folder holds no readable run, or cannot be written to.
 pub fn write(folder: &Path) -> Result<RunReports, ReportError> {
-    write_run_with_news(folder, &Run::read(folder)?, None, OtherFormats::ALL)
+    RunReport {
+        folder,
+        run: &Run::read(folder)?,
+        catalogue: None,
+        news: None,
+        formats: OtherFormats::ALL,
+    }
+    .write()
 }
 
-/// Writes the reports of a run into its folder: `index.html`, `junit.xml`, `summary.md`, `methods.html` if the
-/// run has records of methods, and the other formats that are asked for or already there. Each is written to
-/// a temporary file and then renamed, so that a reader never sees half a report.
-///
-/// The page and the summary of a run that was compared with the last run tell news first. [`News::settle`] gives the run in
-/// which what triage settled does not count.
-///
-/// # Errors
-/// Returns an error if the folder cannot be written to or its list of dead expectations cannot be read. A frame
-/// file that is missing or damaged is not an error: the page names it.
-pub fn write_run_with_news(
-    folder: &Path,
-    run: &Run,
-    news: Option<&News>,
-    formats: OtherFormats,
-) -> Result<RunReports, ReportError> {
-    let found = Methods::of(run);
-    let dead = Dead::read(folder)?;
-    // The page reads frames and takes as long as all others together.
-    let (html, others) = join(
-        || {
-            let page = index::page(folder, run, &dead, found.as_ref(), news);
-            replace(folder, HTML, page.as_bytes())
-        },
-        || {
-            others(
-                folder,
-                run,
-                found.as_ref(),
-                news,
-                formats.with_those_of(folder),
-            )
-        },
-    );
-    Ok(RunReports {
-        html: html?,
-        ..others?
-    })
-}
+impl RunReport<'_> {
+    /// Writes the reports into the run folder: `index.html`, `junit.xml`, `summary.md`, `methods.html` if the run
+    /// has records of methods, scripts of the cases, and the other formats that are asked for or already there.
+    /// Pages and scripts of earlier reports are removed.
+    ///
+    /// # Errors
+    /// Returns an error if the folder cannot be written to or its list of dead expectations cannot be read. A
+    /// frame file that is missing or damaged is not an error: the page names it.
+    pub fn write(&self) -> Result<RunReports, ReportError> {
+        let out = OutputFolder::open(self.folder)?;
+        let written = self.write_to(&out)?;
+        let is_view = |name: &str| name.ends_with(".html") || name.starts_with(CATALOGUE);
+        out.retain(|name| !is_view(name) || written.views.iter().any(|view| view == name))?;
+        Ok(written)
+    }
 
-/// Writes all reports except the page, and returns the page's path too.
-fn others(
-    folder: &Path,
-    run: &Run,
-    found: Option<&Methods<'_>>,
-    news: Option<&News>,
-    formats: OtherFormats,
-) -> Result<RunReports, ReportError> {
-    let methods = match found {
-        Some(found) => {
-            let page = methods::page(folder, run, found);
-            Some(replace(folder, methods::PAGE, page.as_bytes())?)
-        }
-        None => None,
-    };
-    let grid = Grid::new(run);
-    let junit = replace(folder, JUNIT, junit::xml(run, &grid)?.as_bytes())?;
-    let ctrf = if formats.ctrf {
-        Some(replace(folder, CTRF, &ctrf::json(run, &grid)?)?)
-    } else {
-        None
-    };
-    let summary = replace(folder, SUMMARY, markdown::summary(run, news).as_bytes())?;
-    let results = if formats.deqp {
-        lists(folder, run, &grid)?
-    } else {
-        Vec::new()
-    };
-    Ok(RunReports {
-        html: folder.join(HTML),
-        methods,
-        junit,
-        ctrf,
-        summary,
-        results,
-    })
-}
+    /// Writes the reports, as [`RunReport::write`] does.
+    pub(crate) fn write_to(&self, to: &dyn Destination) -> Result<RunReports, ReportError> {
+        let found = Methods::of(self.run);
+        let dead = Dead::read(self.folder)?;
+        let scripts = match self.catalogue {
+            Some(catalogue) => write_scripts(to, catalogue)?,
+            None => Vec::new(),
+        };
+        // The page reads frames and takes as long as all others together.
+        let (html, others) = join(
+            || {
+                let page = index::page(self, &scripts, &dead, found.as_ref());
+                to.write(HTML, page.as_bytes())
+            },
+            || self.others(to, found.as_ref()),
+        );
+        let (html, mut others) = (html?, others?);
+        others.views.push(HTML.to_owned());
+        others
+            .views
+            .extend(scripts.into_iter().map(|(_, path)| path));
+        Ok(RunReports { html, ..others })
+    }
 
-/// deqp-runner's lists, in a folder of their own.
-fn lists(folder: &Path, run: &Run, grid: &Grid<'_>) -> Result<Vec<PathBuf>, ReportError> {
-    let below = folder.join(deqp::FOLDER);
-    make(&below)?;
-    let lists = deqp::lists(folder, run, grid).into_iter();
-    lists
-        .map(|list| replace(&below, &list.name, list.text.as_bytes()))
-        .collect()
+    /// Writes all reports except the page.
+    fn others(
+        &self,
+        to: &dyn Destination,
+        found: Option<&Methods<'_>>,
+    ) -> Result<RunReports, ReportError> {
+        let Self { folder, run, .. } = *self;
+        let formats = self.formats.with_those_of(folder);
+        let mut views = Vec::new();
+        let methods = match found {
+            Some(found) => {
+                let page = methods::page(folder, run, found);
+                views.push(methods::PAGE.to_owned());
+                Some(to.write(methods::PAGE, page.as_bytes())?)
+            }
+            None => None,
+        };
+        let grid = Grid::new(run);
+        let junit = to.write(JUNIT, junit::xml(run, &grid)?.as_bytes())?;
+        let ctrf = if formats.ctrf {
+            Some(to.write(CTRF, &ctrf::json(run, &grid)?)?)
+        } else {
+            None
+        };
+        let summary = to.write(SUMMARY, markdown::summary(run, self.news).as_bytes())?;
+        let results = if formats.deqp {
+            let lists = deqp::lists(folder, run, &grid).into_iter();
+            let write = |list: deqp::List| {
+                to.write(
+                    &format!("{}/{}", deqp::FOLDER, list.name),
+                    list.text.as_bytes(),
+                )
+            };
+            lists.map(write).collect::<Result<_, _>>()?
+        } else {
+            Vec::new()
+        };
+        Ok(RunReports {
+            html: folder.join(HTML),
+            methods,
+            junit,
+            ctrf,
+            summary,
+            results,
+            views,
+        })
+    }
 }

@@ -1,28 +1,28 @@
-//! The recorded folders of a site: their pages, their other files, and their facts on the start page.
+//! The recorded folders of a site: their pages, made from the records, and their facts on the start page.
 
-use crate::catalogue::CATALOGUE;
+use crate::bench::write_bench_to;
+use crate::catalogue::{CATALOGUE, Catalogue};
 use crate::error::ReportError;
-use crate::export::deqp;
-use crate::files::file_name;
+use crate::files::{Destination, file_name};
+use crate::hunt::write_hunt_page;
 use crate::numbers::{count, thousands};
-use etalon_record::{AdapterRecord, Bench, FolderKind, Record, Run, Verdict};
+use crate::run::{OtherFormats, RunReport};
+use crate::staged::Staged;
+use crate::versions::write_versions_page;
+use etalon_record::{AdapterRecord, Bench, FolderKind, Hunt, Record, Run, Verdict, Versions};
 use maud::{Markup, html};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Endings of the files that are copied from a folder: pages, and files for other programs.
-const ENDINGS: [&str; 7] = ["html", "xml", "json", "md", "csv", "svg", "png"];
-/// Subfolders whose files are copied too.
-const FOLDERS: [&str; 2] = [CATALOGUE, deqp::FOLDER];
+/// Returns the cases of the run in a folder, for the pages of single cases.
+pub type CasesOf<'a> = dyn Fn(&Path, &Run) -> Option<Catalogue> + 'a;
 
 /// One recorded folder.
 pub(crate) struct Recorded {
     /// The folder's name in the site.
     pub(crate) name: String,
-    /// The folder itself.
-    pub(crate) folder: PathBuf,
-    /// The copied files, by path below the folder.
+    /// The files, by path below the folder.
     pub(crate) files: BTreeSet<PathBuf>,
     /// The folder's description.
     pub(crate) facts: Facts,
@@ -66,35 +66,47 @@ impl Recorded {
     }
 }
 
-/// Reads the facts and files of recorded folders.
+/// Writes the pages of recorded folders, made anew from their records.
 ///
 /// # Errors
 /// Returns an error if a folder cannot be read or has no page.
-pub(crate) fn collect(folders: &[PathBuf]) -> Result<Vec<Recorded>, ReportError> {
+pub(crate) fn write(
+    site: &Staged,
+    folders: &[PathBuf],
+    cases_of: &CasesOf<'_>,
+) -> Result<Vec<Recorded>, ReportError> {
     let mut taken = BTreeSet::new();
-    folders
-        .iter()
-        .map(|folder| {
-            let files = files(folder)?;
-            let recorded = Recorded {
-                name: name(folder, &mut taken),
-                folder: folder.clone(),
-                facts: facts(folder)?,
-                files,
-            };
-            if recorded.pages().is_empty() {
-                let path = folder.clone();
-                return Err(ReportError::NoPage { path });
-            }
-            Ok(recorded)
+    let write = |folder: &PathBuf| {
+        fs::read_dir(folder).map_err(ReportError::unread(folder))?;
+        let name = name(folder, &mut taken);
+        let to = site.below(Path::new("runs").join(&name));
+        Ok(Recorded {
+            facts: write_pages(folder, &to, cases_of)?,
+            name,
+            files: to.names(),
         })
-        .collect()
+    };
+    folders.iter().map(write).collect()
 }
 
-fn facts(folder: &Path) -> Result<Facts, ReportError> {
+/// Writes the pages of a folder, and the files for other programs. Returns its description.
+fn write_pages(
+    folder: &Path,
+    to: &dyn Destination,
+    cases_of: &CasesOf<'_>,
+) -> Result<Facts, ReportError> {
     Ok(match FolderKind::of(folder) {
         Some(FolderKind::Run) => {
             let run = Run::read(folder)?;
+            let catalogue = cases_of(folder, &run);
+            let report = RunReport {
+                folder,
+                run: &run,
+                catalogue: catalogue.as_ref(),
+                news: None,
+                formats: OtherFormats::default(),
+            };
+            report.write_to(to)?;
             Facts {
                 drawn: scope(run.header.cases, &run.header.adapters),
                 result: result(&run),
@@ -103,7 +115,9 @@ fn facts(folder: &Path) -> Result<Facts, ReportError> {
             }
         }
         Some(FolderKind::Bench) => {
-            let header = Bench::read(folder)?.header;
+            let bench = Bench::read(folder)?;
+            write_bench_to(to, &bench)?;
+            let header = bench.header;
             Facts {
                 drawn: scope(header.cases, &header.adapters),
                 result: html! { "frame times" },
@@ -111,10 +125,26 @@ fn facts(folder: &Path) -> Result<Facts, ReportError> {
                 index: "frame times",
             }
         }
-        _ => Facts {
-            index: "conformance",
-            ..Facts::default()
-        },
+        Some(FolderKind::Versions) => {
+            let versions = Versions::read(folder)?;
+            write_versions_page(to, &versions)?;
+            Facts {
+                started: versions.header.started,
+                ..Facts::default()
+            }
+        }
+        Some(FolderKind::Hunt) => {
+            let hunt = Hunt::read(folder)?;
+            write_hunt_page(to, &hunt)?;
+            Facts {
+                started: hunt.started,
+                ..Facts::default()
+            }
+        }
+        Some(FolderKind::Fuzz) | None => {
+            let path = folder.to_owned();
+            return Err(ReportError::NoPage { path });
+        }
     })
 }
 
@@ -145,30 +175,6 @@ fn result(run: &Run) -> Markup {
         " " (thousands(count_of(&|r| r.verdict == Verdict::Pass))) " of " (thousands(run.records.len() as u64)) " pass"
         @if undrawn > 0 { ", " (thousands(undrawn)) " not supported" }
     }
-}
-
-fn files(folder: &Path) -> Result<BTreeSet<PathBuf>, ReportError> {
-    let mut files = BTreeSet::new();
-    for below in [""].into_iter().chain(FOLDERS) {
-        let path = folder.join(below);
-        if !below.is_empty() && !path.is_dir() {
-            continue;
-        }
-        for entry in fs::read_dir(&path).map_err(ReportError::unread(&path))? {
-            let entry = entry.map_err(ReportError::unread(&path))?;
-            let name = PathBuf::from(entry.file_name());
-            let ending = name.extension().and_then(|e| e.to_str());
-            let takes = match below {
-                CATALOGUE => ending == Some("js"),
-                _ => ending.is_some_and(|e| ENDINGS.contains(&e)),
-            };
-            let hidden = name.to_str().is_none_or(|name| name.starts_with('.'));
-            if takes && !hidden && entry.path().is_file() {
-                files.insert(Path::new(below).join(name));
-            }
-        }
-    }
-    Ok(files)
 }
 
 /// Returns a folder's name in the site, which is unique and has only plain letters.

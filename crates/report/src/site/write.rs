@@ -1,6 +1,6 @@
 //! Writes a site into a temporary folder, and renames the folder when it is complete.
 
-use super::runs;
+use super::runs::{self, CasesOf};
 use super::start::{self, PAGE};
 use crate::error::ReportError;
 use crate::staged::{Kind, Staged, WrittenFolder};
@@ -21,8 +21,8 @@ const FOLDER: Kind = Kind {
 /// The file that shows that a folder is such a page.
 const MODULE: &str = "etalon.wasm";
 
-/// Writes a site of recorded folders, and of a page for the visitor's device if there is one. If `replace` is true, an earlier site in the folder is replaced, unless
-/// an error is returned.
+/// Writes a site of recorded folders, and of a page for the visitor's device if there is one. The pages are made anew
+/// from the records. If `replace` is true, an earlier site in the folder is replaced, unless an error is returned.
 ///
 /// # Errors
 /// Returns an error if a folder has no page, contains the site or is inside it, or if the site's folder has
@@ -31,19 +31,14 @@ pub fn write_site(
     to: &Path,
     folders: &[PathBuf],
     page: Option<&Path>,
+    cases_of: &CasesOf<'_>,
     replace: bool,
 ) -> Result<WrittenFolder, ReportError> {
-    let mut site = Staged::begin(to, &FOLDER, replace)?;
+    let site = Staged::begin(to, &FOLDER, replace)?;
     for folder in folders {
         apart(to, folder)?;
     }
-    let runs = runs::collect(folders)?;
-    for run in &runs {
-        for file in &run.files {
-            let to = Path::new("runs").join(&run.name).join(file);
-            site.write(to, &read(&run.folder.join(file))?)?;
-        }
-    }
+    let runs = runs::write(&site, folders, cases_of)?;
     if let Some(page) = page {
         apart(to, page)?;
         for file in page_files(page)? {

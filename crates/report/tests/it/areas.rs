@@ -3,7 +3,7 @@
 use crate::synthetic::{self, adapter, header};
 use etalon_frame::Api;
 use etalon_record::{Expected, Record, Run, RunWriter, Verdict};
-use etalon_report::{News, NewsEntry, OtherFormats, Since, write, write_run_with_news};
+use etalon_report::{News, NewsEntry, OtherFormats, RunReport, Since, write};
 use roxmltree::{Document, Node};
 use std::fs;
 use std::path::Path;
@@ -220,8 +220,15 @@ fn a_page_tells_what_changed_what_is_new_what_is_known_and_what_was_not_drawn() 
             .collect(),
         ..News::default()
     };
-    let written =
-        write_run_with_news(folder.path(), &run, Some(&news), OtherFormats::default()).unwrap();
+    let written = RunReport {
+        folder: folder.path(),
+        run: &run,
+        catalogue: None,
+        news: Some(&news),
+        formats: OtherFormats::default(),
+    }
+    .write()
+    .unwrap();
     let html = fs::read_to_string(written.html).unwrap();
     let (_, body) = html.split_once("</style>").unwrap();
     let places = ORDER.map(|part| body.find(part).unwrap_or_else(|| panic!("{part}")));

@@ -42,7 +42,7 @@ fn value(files: &BTreeMap<String, String>, name: &str) -> Value {
 fn the_worst_news_come_first_and_what_is_known_last() {
     let folder = tempfile::tempdir().unwrap();
     let to = folder.path().join("page");
-    write_history(&made(folder.path()), &Labels::new(), &to).unwrap();
+    write_history(&made(folder.path()), &Labels::new(), &to, true).unwrap();
     let files = files(&to);
     let news = value(&files, "news");
     let lines = news.as_array().unwrap();
@@ -66,7 +66,7 @@ fn the_worst_news_come_first_and_what_is_known_last() {
 fn every_case_has_its_course_and_every_series_its_changes() {
     let folder = tempfile::tempdir().unwrap();
     let to = folder.path().join("page");
-    write_history(&made(folder.path()), &Labels::new(), &to).unwrap();
+    write_history(&made(folder.path()), &Labels::new(), &to, true).unwrap();
     let files = files(&to);
     let mut ids: Vec<String> = Vec::new();
     for entry in value(&files, "cases").as_array().unwrap() {
@@ -107,7 +107,7 @@ fn equal_histories_make_equal_pages() {
     let history = made(folder.path());
     let files_of = |name: &str| {
         let to = folder.path().join(name);
-        write_history(&history, &Labels::new(), &to).unwrap();
+        write_history(&history, &Labels::new(), &to, true).unwrap();
         files(&to)
     };
     assert!(files_of("a") == files_of("b"));
@@ -118,7 +118,7 @@ fn an_earlier_page_is_replaced_and_nothing_else() {
     let folder = tempfile::tempdir().unwrap();
     let history = made(folder.path());
     let to = folder.path().join("page");
-    let write = || write_history(&history, &Labels::new(), &to);
+    let write = || write_history(&history, &Labels::new(), &to, true);
     write().unwrap();
     write().unwrap();
     let deep = to.join("data/case-99.js");
@@ -146,8 +146,8 @@ fn labels_choose_runs() {
     let history = made(folder.path());
     let to = folder.path().join("page");
     let only = parse_labels(&["branch=other".to_owned()]).unwrap();
-    let error = write_history(&history, &only, &to).unwrap_err();
+    let error = write_history(&history, &only, &to, true).unwrap_err();
     assert!(matches!(error, ReportError::NoRuns { .. }), "{error}");
     let only = parse_labels(&["job=https://example.org/job/1".to_owned()]).unwrap();
-    write_history(&history, &only, &to).unwrap();
+    write_history(&history, &only, &to, true).unwrap();
 }

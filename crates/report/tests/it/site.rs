@@ -80,7 +80,14 @@ fn a_site_of_a_run_has_whole_links() {
     fs::create_dir(&run).unwrap();
     made::write(&run);
     let to = folder.path().join("site");
-    let written = write_site(&to, std::slice::from_ref(&run), None, false).unwrap();
+    let written = write_site(
+        &to,
+        std::slice::from_ref(&run),
+        None,
+        &|_, _| Some(made::catalogue()),
+        false,
+    )
+    .unwrap();
     assert_eq!(written.html, to.join("index.html"));
     assert_eq!(written.files, files(&to).len() as u64);
     assert!(linked(&to) > 10);
@@ -112,7 +119,8 @@ fn a_site_replaces_nothing_but_a_site() {
     made::write(&run);
     let to = folder.path().join("site");
     let write = |to: &Path, from: &Path, force| {
-        write_site(to, &[from.to_owned()], None, force).map_err(|error| error.to_string())
+        write_site(to, &[from.to_owned()], None, &|_, _| None, force)
+            .map_err(|error| error.to_string())
     };
     fs::create_dir(&to).unwrap();
     write(&to, &run, false).expect("an empty folder may be filled");
@@ -142,8 +150,43 @@ fn a_site_replaces_nothing_but_a_site() {
     let empty = folder.path().join("empty");
     fs::create_dir(&empty).unwrap();
     let error = write(&to, &empty, true).unwrap_err();
-    assert!(error.contains("holds no page; `etalon report"), "{error}");
+    assert!(error.contains("holds no page"), "{error}");
     assert_eq!(files(&to), before, "a refusal changes nothing");
     let beside = fs::read_dir(folder.path()).unwrap().count();
     assert_eq!(beside, 3, "nothing is left beside the site");
+}
+
+#[test]
+fn a_site_has_nothing_that_it_did_not_make() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = folder.path().join("run");
+    fs::create_dir(&run).unwrap();
+    made::write(&run);
+    fs::write(folder.path().join("secret"), "the secret").unwrap();
+    for name in [
+        "methods.html",
+        "index.html",
+        "cases/depth.js",
+        "evil.html",
+        "cases/evil.js",
+    ] {
+        fs::write(run.join(name), "<script>evil</script>").unwrap();
+    }
+    #[cfg(unix)]
+    for name in ["a.json", "cases/secret.js", "frames/secret.json"] {
+        fs::create_dir_all(run.join("frames")).unwrap();
+        std::os::unix::fs::symlink(folder.path().join("secret"), run.join(name)).unwrap();
+    }
+    let to = folder.path().join("site");
+    let catalogue = |_: &Path, _: &_| Some(made::catalogue());
+    write_site(&to, &[run], None, &catalogue, false).unwrap();
+    let files = files(&to);
+    assert!(files.contains(Path::new("runs/run/cases/depth.js")));
+    for file in files {
+        let text = fs::read_to_string(to.join(&file)).unwrap();
+        assert!(
+            !text.contains("<script>evil") && !text.contains("the secret"),
+            "{file:?}"
+        );
+    }
 }

@@ -58,7 +58,7 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
         }
         writer
     } else {
-        RunWriter::replace(plan.folder, &plan.header, plan.reports).map_err(RunError::Folder)?
+        RunWriter::create(plan.folder, &plan.header).map_err(RunError::Folder)?
     };
     if let Some(ids) = plan.selection {
         let ids = || ids.iter().map(String::as_str);

@@ -5,7 +5,7 @@ use crate::launch::Launch;
 use crate::worker::Worker;
 use etalon_case::Case;
 use etalon_frame::Frame;
-use etalon_record::{AdapterRecord, Expectations, Header, Record, RecordError, ReportFiles};
+use etalon_record::{AdapterRecord, Expectations, Header, Record, RecordError};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -30,8 +30,6 @@ pub struct Plan<'a> {
     pub expectations: &'a Expectations,
     /// The run folder.
     pub folder: &'a Path,
-    /// The reports that are removed if a run is replaced.
-    pub reports: ReportFiles,
     /// The header of the run.
     pub header: Header,
     /// True to resume the run that the folder holds, false to replace it.

@@ -7,7 +7,7 @@ use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Frame, Limits};
 use etalon_record::{
-    BENCH_FORMAT, Bench, BenchHeader, Expectations, Machine, ReportFiles, ShaderCache, Verdict,
+    BENCH_FORMAT, Bench, BenchHeader, Expectations, Machine, ShaderCache, Verdict,
 };
 use etalon_runner::{BenchEvent, BenchPlan, BenchSummary, Launch, Worker};
 use etalon_scene::Scene;
@@ -119,7 +119,6 @@ fn bench(adapters: Vec<(Launch, Worker)>) -> (Bench, BenchSummary, Vec<String>) 
         resume: false,
         expectations: &Expectations::default(),
         folder: &out,
-        reports: ReportFiles::NONE,
         header,
     };
     let mut events = Vec::new();
@@ -295,7 +294,6 @@ fn a_folder_that_cannot_be_written_to_is_told_before_anything_is_timed() {
         resume: false,
         expectations: &Expectations::default(),
         folder: &blocked,
-        reports: ReportFiles::NONE,
         header: BenchHeader {
             format: BENCH_FORMAT,
             etalon: String::new(),

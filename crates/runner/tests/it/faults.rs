@@ -7,7 +7,7 @@ use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared, Un
 use etalon_case::Library;
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Feature, Frame, Limits, Requirement};
-use etalon_record::{Expectations, Header, Record, ReportFiles, Run, Verdict};
+use etalon_record::{Expectations, Header, Record, Run, Verdict};
 use etalon_runner::{
     Event, Launch, Launcher, Options, Plan, RunSummary, START_TIMEOUT, StartError, Worker,
 };
@@ -303,7 +303,6 @@ fn run_with(launch: Launch, jobs: usize, libraries: &[&Library]) -> (Vec<Record>
         },
         expectations: &Expectations::default(),
         folder: &out,
-        reports: ReportFiles::NONE,
         selection: None,
         resume: false,
         stop: &AtomicBool::new(false),

@@ -5,7 +5,7 @@ use crate::failure::{Failure, INCOMPLETE, USAGE};
 use crate::flags::Format;
 use crate::history_file::{DatabaseArguments, LabelArguments, failure};
 use crate::output::{print_json, say, summarize};
-use crate::saved_run::folder;
+use crate::saved_run::UnpackArguments;
 use clap::Args;
 use etalon_history::{
     Added, HistoryError, Kind, Labels, NewRun, ReleaseDates, RunId, Writer, read_runs,
@@ -36,6 +36,8 @@ pub(crate) struct Arguments {
     /// Also add runs that lack records
     #[arg(long)]
     pub(crate) incomplete: bool,
+    #[command(flatten)]
+    pub(crate) unpack: UnpackArguments,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: Format,
@@ -57,7 +59,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mut codes = Vec::new();
     let mut added = Vec::new();
     for path in &arguments.runs {
-        let runs = match ready(path, &dates, &labels, arguments.incomplete) {
+        let runs = match ready(path, &dates, &labels, arguments) {
             Ok(runs) => runs,
             Err(Failure { code, message }) => {
                 say!("etalon: {message}");
@@ -114,10 +116,14 @@ fn ready(
     path: &Path,
     dates: &ReleaseDates,
     labels: &Labels,
-    incomplete: bool,
+    arguments: &Arguments,
 ) -> Result<Vec<NewRun>, Failure> {
-    let mut runs = read_runs(&folder(path)?, dates).map_err(failure)?;
-    if let Some(run) = runs.iter().find(|run| run.missing > 0 && !incomplete) {
+    let folder = arguments.unpack.folder(path)?;
+    let mut runs = read_runs(&folder, dates).map_err(failure)?;
+    if let Some(run) = runs
+        .iter()
+        .find(|run| run.missing > 0 && !arguments.incomplete)
+    {
         return Err(Failure::incomplete(lacks(path, run)));
     }
     let line = |run: &NewRun| {

@@ -10,9 +10,12 @@ use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Folder for the pages; earlier pages in it are replaced
+    /// Folder for the pages
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
+    /// Replace the pages in the folder
+    #[arg(long)]
+    pub(crate) force: bool,
     #[command(flatten)]
     pub(crate) labels: OnlyArguments,
     #[command(flatten)]
@@ -23,7 +26,7 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let labels = arguments.labels.labels()?;
     let history = History::open_read(&arguments.database.path()).map_err(failure)?;
-    let written = write_history(&history, &labels, &arguments.out);
+    let written = write_history(&history, &labels, &arguments.out, arguments.force);
     let written = written.map_err(|error| match error {
         ReportError::Io { .. } => Failure::incomplete(error),
         ReportError::History(error) => failure(error),

@@ -10,7 +10,7 @@ pub(super) fn news_lead_to_cases_runs_and_back(chromium: &Chromium) {
     history_made::write(&database);
     let to = folder.path().join("page");
     let history = History::open_read(&database).unwrap();
-    let written = etalon_report::write_history(&history, &Labels::new(), &to).unwrap();
+    let written = etalon_report::write_history(&history, &Labels::new(), &to, true).unwrap();
 
     let page = chromium.open(&written.html, "");
     page.wait("performance.getEntriesByName('etalon-ready').length");

@@ -2,8 +2,8 @@
 
 use crate::synthetic::{adapter, header};
 use etalon_frame::{Api, Aspect, ChannelEncoding, Frame, Image, ReadPath};
-use etalon_record::{Expected, LossKind, ProcessEnd, Record, RunWriter, Seconds, Verdict};
-use etalon_report::{Catalogue, CatalogueCase};
+use etalon_record::{Expected, LossKind, ProcessEnd, Record, Run, RunWriter, Seconds, Verdict};
+use etalon_report::{Catalogue, CatalogueCase, OtherFormats, RunReport};
 use std::path::{Path, PathBuf};
 
 pub(crate) const ADAPTERS: [&str; 4] = ["cpu", "gl:llvmpipe", "gl:softpipe", "vulkan:lavapipe"];
@@ -24,12 +24,18 @@ pub(crate) fn write(folder: &Path) -> PathBuf {
         }
     }
     drop(writer);
-    etalon_report::write_catalogue(folder, &catalogue()).unwrap();
-    etalon_report::write(folder).unwrap().html
+    let report = RunReport {
+        folder,
+        run: &Run::read(folder).unwrap(),
+        catalogue: Some(&catalogue()),
+        news: None,
+        formats: OtherFormats::ALL,
+    };
+    report.write().unwrap().html
 }
 
 /// The catalogue of the depth cases, one with a hostile text.
-fn catalogue() -> Catalogue {
+pub(crate) fn catalogue() -> Catalogue {
     let frame = Frame {
         images: vec![Image {
             attachment: "color".to_owned(),

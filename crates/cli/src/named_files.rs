@@ -1,0 +1,84 @@
+//! Files that a command adds to a folder, which can hold other files.
+
+use crate::failure::Failure;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A folder that gets files with given names.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NamedFiles<'a> {
+    pub(crate) folder: &'a Path,
+    /// True to replace files of the same names.
+    pub(crate) force: bool,
+}
+
+impl NamedFiles<'_> {
+    /// Checks that files of these names can be written. Writes nothing.
+    ///
+    /// # Errors
+    /// If a name is taken and must not be replaced, or is no regular file.
+    pub(crate) fn check<N: AsRef<Path>>(
+        self,
+        names: impl IntoIterator<Item = N>,
+    ) -> Result<(), Failure> {
+        for name in names {
+            let path = self.folder.join(name);
+            let shown = path.display();
+            match fs::symlink_metadata(&path) {
+                Err(_) => {}
+                Ok(found) if !found.is_file() => {
+                    return Err(Failure::usage(format!(
+                        "{shown} is a link or no regular file, and nothing is written through it; remove it, or name another folder with --out"
+                    )));
+                }
+                Ok(_) if self.force => {}
+                Ok(_) => {
+                    return Err(Failure::usage(format!(
+                        "{shown} exists; replace it with --force, or name another folder with --out"
+                    )));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks all names, then writes all files and returns their paths.
+    ///
+    /// # Errors
+    /// As [`NamedFiles::check`], or if the system refuses.
+    pub(crate) fn write(self, files: &[(String, Vec<u8>)]) -> Result<Vec<PathBuf>, Failure> {
+        self.check(files.iter().map(|(name, _)| name))?;
+        fs::create_dir_all(self.folder)
+            .map_err(|e| Failure::usage(format!("cannot create {}: {e}", self.folder.display())))?;
+        let write = |(name, bytes): &(String, Vec<u8>)| {
+            let path = self.folder.join(name);
+            replace(&path, bytes)?;
+            Ok(path)
+        };
+        files.iter().map(write).collect()
+    }
+}
+
+/// Writes a file that the user named. A reader sees the old file or the new one. A link stays a link: its target
+/// is replaced.
+///
+/// # Errors
+/// If the system refuses.
+pub(crate) fn replace(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let failed =
+        |e: std::io::Error| Failure::incomplete(format!("cannot write {}: {e}", path.display()));
+    let target = if path.is_symlink() {
+        fs::canonicalize(path).map_err(failed)?
+    } else {
+        path.to_owned()
+    };
+    let mut beside = target.as_os_str().to_owned();
+    beside.push(format!(".{}", std::process::id()));
+    let beside = PathBuf::from(beside);
+    let written = fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, &target));
+    written.map_err(|e| {
+        // The first error is the one to report.
+        let _ = fs::remove_file(&beside);
+        failed(e)
+    })
+}
