@@ -202,7 +202,10 @@ fn place(beside: &Path, folder: &Path) -> io::Result<bool> {
     match Content::of(folder) {
         Ok(Content::Empty) => {
             if folder.exists() {
-                fs::remove_dir_all(folder)?;
+                // Fails if the folder has files of others.
+                OutputFolder::open(folder)
+                    .and_then(|folder| folder.remove_all())
+                    .map_err(io::Error::other)?;
             }
             fs::rename(beside, folder)?;
             Ok(true)
@@ -222,9 +225,13 @@ fn same(folder: &Path, other: &Path) -> io::Result<bool> {
 
 #[cfg(test)]
 mod tests {
+    #[path = "../../../record/tests/spoil/mod.rs"]
+    mod spoil;
+
     use super::*;
     use flate2::Compression;
     use flate2::write::GzEncoder;
+    use std::io::Write;
     use tar::{Builder, Header};
 
     const LINE: &str = "{\"format\":4,\"etalon\":\"1\"}\n";
@@ -321,6 +328,46 @@ mod tests {
         assert!(refused.contains("several folders"), "{refused}");
         fs::write(&path, "no archive").unwrap();
         assert!(DEFAULT.folder(&path).is_err());
+    }
+
+    #[test]
+    fn no_archive_panics_or_hangs_a_reader() {
+        let above = tempfile::tempdir().unwrap();
+        let path = above.path().join("mine.tar.gz");
+        archive(
+            &path,
+            &[
+                RUN,
+                ("frames/", EntryType::Directory, b""),
+                ("frames/a.json", EntryType::Regular, b"{}"),
+                ("cases/a.js", EntryType::Regular, b"x"),
+            ],
+        );
+        let packed = fs::read(&path).unwrap();
+        let mut tar = Vec::new();
+        GzDecoder::new(&*packed).read_to_end(&mut tar).unwrap();
+        let small = UnpackArguments { max_unpacked: 1 };
+        spoil::keep_trying("archives", &[&packed, &tar], |input| {
+            // A spoiled archive inside of the compression reaches the reader of entries.
+            let bytes = if input.starts_with(&[0x1f, 0x8b]) {
+                input.to_owned()
+            } else {
+                let mut packed = GzEncoder::new(Vec::new(), Compression::fast());
+                packed.write_all(input).unwrap();
+                packed.finish().unwrap()
+            };
+            fs::write(&path, bytes).unwrap();
+            if let Ok(folder) = small.folder(&path) {
+                for file in fs::read_dir(&folder).unwrap() {
+                    let name = file.unwrap().file_name();
+                    let name = name.to_str().unwrap();
+                    let top = ["run.jsonl", "frames", "pictures", ".files"];
+                    assert!(top.contains(&name) || FILES.contains(&name), "{name}");
+                }
+                fs::remove_dir_all(folder).unwrap();
+            }
+            assert_eq!(fs::read_dir(above.path()).unwrap().count(), 1);
+        });
     }
 
     #[test]

@@ -17,7 +17,7 @@ use std::path::{Component, Path, PathBuf};
 /// The content of a folder that a command may write to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Content {
-    /// Nothing.
+    /// Nothing, or a folder of etalon without a recording, in which files of others are left alone.
     Empty,
     /// A recording of this kind.
     Recorded(FolderKind),
@@ -39,6 +39,12 @@ impl Content {
         let marked = |kind: &FolderKind| is_marked(&folder.join(kind.file()));
         if let Some(kind) = FolderKind::ALL.into_iter().find(marked) {
             return Ok(Self::Recorded(kind));
+        }
+        // A command that was killed while it replaced a recording leaves the list.
+        let is_file = |path: &Path| fs::symlink_metadata(path).is_ok_and(|found| found.is_file());
+        let is_damaged = FolderKind::of(folder).is_some();
+        if is_file(&folder.join(LIST)) && !is_damaged {
+            return Ok(Self::Empty);
         }
         let foreign = entries.find_map(|entry| match entry {
             Ok(entry) => (!is_remnant(&entry.file_name().to_string_lossy())).then_some(Ok(())),
@@ -71,7 +77,7 @@ fn is_remnant(name: &str) -> bool {
         let hidden = name.strip_prefix('.');
         hidden.is_some_and(|name| name.strip_prefix(kind.file()).is_some_and(is_process))
     };
-    name == LOCK_FILE || name == LIST || FolderKind::ALL.into_iter().any(unfinished)
+    name == LOCK_FILE || FolderKind::ALL.into_iter().any(unfinished)
 }
 
 /// Returns true for the suffix of an unfinished file: a dot and a process id.

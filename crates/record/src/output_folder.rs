@@ -6,6 +6,7 @@
 use crate::content::Content;
 use crate::error::RecordError;
 use crate::folder::FolderKind;
+use crate::lock::LOCK_FILE;
 use crate::paths::{below, lowest_real};
 use crate::unlisted;
 use std::collections::HashSet;
@@ -268,16 +269,32 @@ impl OutputFolder {
         for name in marks.iter().filter(|name| Some(name.as_str()) != kept) {
             self.remove(name)?;
         }
+        // The list stays: it shows that the folder is one of etalon, until there is a marking file again.
         let list = self.folder.join(LIST);
         state.list = None;
         state.real.clear();
         if type_of(&list)?.is_some_and(|found| found.is_file()) {
-            fs::remove_file(&list).map_err(RecordError::io("remove", &list))?;
+            fs::write(&list, "").map_err(RecordError::io("write", &list))?;
         }
         if let Some(kept) = kept.filter(|kept| marks.iter().any(|name| name == kept)) {
             state.listed.insert(kept.to_owned());
             self.append(&mut state, kept)?;
         }
+        Ok(())
+    }
+
+    /// Removes the listed files, the list and the lock, and the folder unless it holds something else.
+    ///
+    /// # Errors
+    /// If a file cannot be removed.
+    pub fn remove_all(&self) -> Result<(), RecordError> {
+        self.clear(None)?;
+        for name in [LIST, LOCK_FILE] {
+            let path = self.folder.join(name);
+            remove_if_there(&path).map_err(RecordError::io("remove", &path))?;
+        }
+        // A folder that holds something else stays.
+        let _ = fs::remove_dir(&self.folder);
         Ok(())
     }
 
@@ -402,7 +419,9 @@ mod tests {
         assert!(folder.join("run.jsonl").exists());
         assert!(!folder.join("index.html").exists() && !folder.join("frames/a/b").exists());
         again.clear(None).unwrap();
-        assert!(!folder.join("run.jsonl").exists() && !folder.join(LIST).exists());
+        assert!(!folder.join("run.jsonl").exists());
+        assert_eq!(text(&folder.join(LIST)), "");
+        assert_eq!(Content::of(folder).unwrap(), Content::Empty);
         for name in ["frames/a/mine.json.gz", "notes.txt", "pictures/mine.png"] {
             assert_eq!(text(&folder.join(name)), "mine", "{name}");
         }
@@ -456,6 +475,7 @@ mod tests {
         assert_eq!(text(&elsewhere.join("x")), "mine");
         assert!(folder.join("index.html").is_symlink());
         // The list itself is not written through a link.
+        fs::remove_file(folder.join(LIST)).unwrap();
         symlink(elsewhere.join("new"), folder.join(LIST)).unwrap();
         let out = OutputFolder::open(&folder).unwrap();
         assert!(out.write("summary.md", b"ours").is_err());

@@ -126,6 +126,9 @@ pub(crate) fn receive<T: DeserializeOwned>(from: &mut impl Read) -> io::Result<O
 
 #[cfg(test)]
 mod tests {
+    #[path = "../../../record/tests/spoil/mod.rs"]
+    mod spoil;
+
     use super::*;
     use etalon_frame::{Aspect, ChannelEncoding, Image, ReadPath};
 
@@ -157,6 +160,33 @@ mod tests {
             let back: Option<BackendError> = receive(&mut pipe.as_slice()).expect("received");
             assert_eq!(back, Some(error));
         }
+    }
+
+    #[test]
+    fn no_message_panics_or_hangs_a_reader() {
+        let frame = Frame {
+            images: vec![image(vec![0, 256, 7]), image(vec![1])],
+            counters: vec![1, u64::MAX],
+        };
+        let done = |outcome| Response::Done {
+            slot: 1,
+            outcome,
+            elapsed: Duration::from_millis(1),
+            messages: vec!["a message".to_owned()],
+        };
+        let answers = [
+            done(Ok(Payload::Frame(Box::new(frame)))),
+            done(Ok(Payload::Submitted(Vec::new()))),
+            done(Err(BackendError::refused("a buffer", "no memory"))),
+        ];
+        let mut corpus: Vec<Vec<u8>> =
+            answers.iter().map(|answer| encode(answer).expect("encoded")).collect();
+        corpus.push(encode(&Request::Submit { slot: 1, times: 2 }).expect("encoded"));
+        let corpus: Vec<&[u8]> = corpus.iter().map(Vec::as_slice).collect();
+        spoil::keep_trying("messages", &corpus, |input| {
+            let _ = receive::<Response>(&mut &*input);
+            let _ = receive::<Request>(&mut &*input);
+        });
     }
 
     fn image(codes: Vec<u32>) -> Image {

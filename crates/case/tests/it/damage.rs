@@ -8,7 +8,7 @@ mod spoil;
 
 use etalon_case::{Library, Profile};
 use proptest::prelude::*;
-use spoil::spoilings;
+use spoil::{keep_trying, spoilings};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -73,6 +73,14 @@ proptest! {
     fn case_files(which in any::<prop::sample::Index>(), spoilt in spoilings()) {
         build(&spoilt.of(which.get::<String>(texts())));
     }
+}
+
+#[test]
+fn no_case_file_panics_or_hangs_a_reader() {
+    let corpus: Vec<&[u8]> = texts().iter().map(|text| text.as_bytes()).collect();
+    keep_trying("case files", &corpus, |input| {
+        build(input);
+    });
 }
 
 /// Returns a file that draws one colour, with further members.

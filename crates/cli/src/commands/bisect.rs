@@ -121,9 +121,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let findings = expectations::built_in()?;
     let outcome = search.run(&mut versions, &mut drawn, &findings, &arguments.out);
     // The file already has everything that an interrupted run holds.
-    let _ = OutputFolder::open(search.folder).and_then(|work| work.clear(None));
-    let _ = std::fs::remove_file(search.folder.join(".lock"));
-    let _ = std::fs::remove_dir(search.folder);
+    let _ = OutputFolder::open(search.folder).and_then(|work| work.remove_all());
     outcome?;
     let written =
         etalon_report::write_versions(&arguments.out, &versions).map_err(Failure::incomplete)?;

@@ -149,7 +149,7 @@ fn a_file_of_our_name_without_our_header_marks_nothing() {
             .success();
         match command {
             "site" => etalon(&["site", "--force"]).arg(&mine).arg(&run).assert(),
-            _ => etalon(&["history", "report", "--db"])
+            _ => etalon(&["history", "report", "--force", "--db"])
                 .arg(&db)
                 .arg("--out")
                 .arg(&mine)
@@ -163,42 +163,6 @@ fn a_file_of_our_name_without_our_header_marks_nothing() {
 #[test]
 fn what_is_replaced_is_what_we_wrote() {
     let work = tempfile::tempdir().unwrap();
-    let out = work.path().join("run");
-    run_into(&out, &[]).success();
-    let mine = [
-        "notes.txt",
-        "cases/notes.json",
-        "results/notes.txt",
-        "frames/a/notes.txt",
-    ];
-    for name in mine {
-        let path = out.join(name);
-        fs::create_dir_all(path.parent().unwrap()).unwrap();
-        fs::write(path, "mine").unwrap();
-    }
-    fs::write(out.join("cases/gone.js"), "ours").unwrap();
-    run_into(&out, &["--force"]).success();
-    assert!(!out.join("cases/gone.js").exists());
-    etalon(&[
-        "fuzz",
-        "--adapter",
-        "cpu",
-        "--count",
-        "1",
-        "--force",
-        "--out",
-    ])
-    .arg(&out)
-    .assert()
-    .success();
-    assert!(!out.join("run.jsonl").exists() && !out.join("index.html").exists());
-    for name in mine {
-        assert_eq!(
-            fs::read_to_string(out.join(name)).unwrap(),
-            "mine",
-            "{name}"
-        );
-    }
     // A foreign file in a folder that would be replaced as a whole is named.
     let site = work.path().join("site");
     let run = work.path().join("other");
@@ -252,4 +216,313 @@ fn the_folder_of_cases_is_apart_from_what_is_written() {
         .arg(beside)
         .assert()
         .success();
+}
+
+/// A file of each kind that a user could have in a recorded folder, with names like those of etalon.
+const MINE: [&str; 9] = [
+    "notes.txt",
+    "cases/mine.js",
+    "pictures/mine.png",
+    "results/mine.csv",
+    "frames/cpu/cull/mine.json.gz",
+    "found/mine.json",
+    "known/mine.json",
+    "work/mine.txt",
+    "data/mine.js",
+];
+
+/// A command that writes into a folder.
+struct Writing {
+    arguments: Vec<String>,
+    /// True if `--force` is a flag of it.
+    takes_force: bool,
+    /// A file at the top that it writes.
+    writes: &'static str,
+    /// True if it adds files to a folder that can hold others.
+    adds: bool,
+}
+
+impl Writing {
+    fn new(writes: &'static str, arguments: &[&str]) -> Self {
+        Self {
+            arguments: arguments.iter().map(|word| (*word).to_owned()).collect(),
+            takes_force: true,
+            writes,
+            adds: false,
+        }
+    }
+
+    fn run(&self, to: &Path, force: bool) -> (i32, String) {
+        let to = to.to_str().unwrap();
+        let words = self.arguments.iter().map(|word| word.replace("OUT", to));
+        let words: Vec<String> = words.collect();
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        let mut command = etalon(&words);
+        if force {
+            command.arg("--force");
+        }
+        let output = command.output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        (output.status.code().unwrap(), said)
+    }
+}
+
+fn copy(from: &Path, to: &Path) {
+    for (path, bytes) in files(from) {
+        let path = to.join(path.strip_prefix(from).unwrap());
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, bytes).unwrap();
+    }
+}
+
+/// Every command that writes a folder; the first seven write one of each kind.
+fn writing(work: &Path) -> Vec<Writing> {
+    let lines = lines(work);
+    let lines = lines.to_str().unwrap();
+    let run = work.join("run");
+    run_into(&run, &[]).success();
+    let run = run.to_str().unwrap();
+    let db = work.join("history.db");
+    let db = db.to_str().unwrap();
+    etalon(&["history", "add", run, "--db", db])
+        .assert()
+        .success();
+    let cpu = ["--adapter", "cpu", "--out", "OUT"];
+    let with = |first: &[&'static str]| [first, &cpu].concat();
+    let bisect = ["bisect", CASE, "--line", "ours", "--adapters", lines];
+    let added = |writes, arguments: &[&str]| Writing {
+        adds: true,
+        ..Writing::new(writes, arguments)
+    };
+    vec![
+        Writing::new("junit.xml", &with(&["run", CASE])),
+        Writing::new(
+            "bencher.json",
+            &with(&[
+                "bench",
+                "perf/matrix/clear/*",
+                "--rounds",
+                "1",
+                "--seconds",
+                "0.001",
+            ]),
+        ),
+        Writing::new("fuzz.jsonl", &with(&["fuzz", "--count", "1"])),
+        Writing::new("versions.html", &[&bisect[..], &["--out", "OUT"]].concat()),
+        Writing::new(
+            "mutants.html",
+            &["mutants", "cull/*", "--case", CASE, "--out", "OUT"],
+        ),
+        Writing::new("index.html", &["site", "OUT", run]),
+        Writing::new(
+            "index.html",
+            &["history", "report", "--db", db, "--out", "OUT"],
+        ),
+        Writing::new("junit.xml", &["merge", run, "--out", "OUT"]),
+        Writing::new(
+            "recall.txt",
+            &["mutants", "cull/*", "--fuzz", "1", "--out", "OUT"],
+        ),
+        Writing {
+            takes_force: false,
+            ..Writing::new(
+                "history.om",
+                &[
+                    "history",
+                    "export",
+                    "--db",
+                    db,
+                    "--format",
+                    "openmetrics",
+                    "OUT",
+                ],
+            )
+        },
+        added("etalon-run.1", &["man", "--out", "OUT"]),
+        added(
+            "fails.txt",
+            &["expectations", "export", "--adapter", "cpu", "--out", "OUT"],
+        ),
+        added(
+            "cull-points-cull-none-front_face-cw.gl-softpipe.json",
+            &["reduce", CASE, "--adapter", "gl:softpipe", "--out", "OUT"],
+        ),
+        added(
+            "cull-points-cull-none-front_face-cw.gl-softpipe.tar.gz",
+            &["bundle", CASE, "--adapter", "gl:softpipe", "--out", "OUT"],
+        ),
+    ]
+}
+
+/// The table: each command into each kind of folder, alone and with files of a user, with and without `--force`.
+#[test]
+fn a_command_replaces_what_etalon_wrote_only_when_forced_and_nothing_else_ever() {
+    let work = tempfile::tempdir().unwrap();
+    let commands = writing(work.path());
+    let mut kinds = Vec::new();
+    for (number, command) in commands.iter().take(7).enumerate() {
+        let to = work.path().join(format!("kind-{number}"));
+        let (code, said) = command.run(&to, false);
+        assert_ne!(code, 64, "{:?}: {said}", command.arguments);
+        assert!(to.join(command.writes).is_file(), "{:?}", command.arguments);
+        kinds.push(to);
+    }
+    let to = work.path().join("to");
+    for command in &commands {
+        // Commands that take long meet two kinds; what they share is tried with the others.
+        let most = if command.arguments.iter().any(|word| word == "gl:softpipe") {
+            2
+        } else {
+            7
+        };
+        for kind in kinds.iter().take(most) {
+            for force in [false, true] {
+                if force && !command.takes_force {
+                    continue;
+                }
+                let what = format!("{:?} into {} {force}", command.arguments, kind.display());
+                copy(kind, &to);
+                for name in MINE {
+                    let path = to.join(name);
+                    fs::create_dir_all(path.parent().unwrap()).unwrap();
+                    fs::write(path, "mine").unwrap();
+                }
+                let before = files(&to);
+                let (code, said) = command.run(&to, force);
+                let after = files(&to);
+                if code == 64 {
+                    let lock = to.join(".lock");
+                    let is_kept = |(path, _): &(&PathBuf, &Vec<u8>)| **path != lock;
+                    let after: Vec<_> = after.iter().filter(is_kept).collect();
+                    let before: Vec<_> = before.iter().filter(is_kept).collect();
+                    assert!(after == before, "{what}: {said}");
+                } else {
+                    assert!(force || command.adds, "{what} was not refused");
+                    assert!(to.join(command.writes).is_file(), "{what}: {said}");
+                }
+                for name in MINE {
+                    let text = fs::read_to_string(to.join(name)).unwrap_or_default();
+                    assert_eq!(text, "mine", "{what}: {name}");
+                }
+                if command.adds {
+                    let lost = before
+                        .iter()
+                        .find(|(path, bytes)| after.get(*path) != Some(*bytes));
+                    assert!(lost.is_none(), "{what}: {lost:?}");
+                }
+                fs::remove_dir_all(&to).unwrap();
+            }
+        }
+    }
+}
+
+#[test]
+fn a_file_of_a_user_under_a_name_of_ours_is_never_replaced() {
+    let work = tempfile::tempdir().unwrap();
+    let run = work.path().join("old");
+    run_into(&run, &[]).success();
+    for command in writing(work.path()) {
+        let to = work.path().join("to");
+        if !command.adds {
+            copy(&run, &to);
+        }
+        fs::create_dir_all(&to).unwrap();
+        fs::write(to.join(".files"), "run.jsonl\ncases.txt\n").unwrap();
+        fs::write(to.join(command.writes), "mine").unwrap();
+        let before = files(&to);
+        let force = command.takes_force && !command.adds;
+        let (code, said) = command.run(&to, force);
+        assert_eq!(code, 64, "{:?}: {said}", command.arguments);
+        let mut after = files(&to);
+        after.remove(&to.join(".lock"));
+        let before: BTreeMap<_, _> = before
+            .into_iter()
+            .filter(|(path, _)| *path != to.join(".lock"))
+            .collect();
+        assert!(after == before, "{:?}: {said}", command.arguments);
+        fs::remove_dir_all(&to).unwrap();
+    }
+}
+
+#[test]
+fn adding_commands_replace_their_own_names_when_forced() {
+    let work = tempfile::tempdir().unwrap();
+    let to = work.path().join("to");
+    for command in writing(work.path()).iter().filter(|command| command.adds) {
+        assert_eq!(command.run(&to, false).0, 0, "{:?}", command.arguments);
+        let (code, said) = command.run(&to, false);
+        assert!(
+            code == 64 && said.contains("--force"),
+            "{:?}: {said}",
+            command.arguments
+        );
+        assert_eq!(command.run(&to, true).0, 0, "{:?}", command.arguments);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn links_in_a_folder_are_neither_written_through_nor_copied() {
+    use std::os::unix::fs::symlink;
+    let work = tempfile::tempdir().unwrap();
+    let secret = work.path().join("secret");
+    fs::write(&secret, "the secret").unwrap();
+    let out = work.path().join("run");
+    let failing = |more: &[&str]| {
+        etalon(&[
+            "run",
+            CASE,
+            "--adapter",
+            "gl:softpipe",
+            "--expect-only",
+            "--out",
+        ])
+        .arg(&out)
+        .args(more)
+        .assert()
+    };
+    for name in [
+        "index.html",
+        "junit.xml",
+        "frames",
+        "cases",
+        "run.jsonl",
+        ".files",
+        ".lock",
+    ] {
+        failing(&["--force"]).code(1);
+        let path = out.join(name);
+        if path.is_dir() {
+            fs::remove_dir_all(&path).unwrap();
+        } else {
+            fs::remove_file(&path).unwrap();
+        }
+        symlink(&secret, &path).unwrap();
+        failing(&["--force"]).code(64).stderr(contains("run"));
+        assert_eq!(fs::read_to_string(&secret).unwrap(), "the secret", "{name}");
+        fs::remove_dir_all(&out).unwrap();
+    }
+    failing(&[]).code(1);
+    symlink(work.path(), out.join("results")).unwrap();
+    etalon(&["report", "--deqp"]).arg(&out).assert().code(64);
+    assert!(!work.path().join("gl_softpipe.csv").exists());
+    fs::remove_file(out.join("results")).unwrap();
+    let frame = files(&out)
+        .into_keys()
+        .find(|path| path.to_string_lossy().ends_with(".json.gz"))
+        .unwrap();
+    fs::remove_file(&frame).unwrap();
+    symlink(&secret, &frame).unwrap();
+    symlink(&secret, out.join("secret.json")).unwrap();
+    let merged = work.path().join("merged");
+    let ended = etalon(&["merge", "--out"]).arg(&merged).arg(&out).assert();
+    ended.stderr(contains("is a link"));
+    let site = work.path().join("site");
+    etalon(&["site"]).arg(&site).arg(&out).assert().code(0);
+    for folder in [&merged, &site] {
+        for (path, bytes) in files(folder) {
+            let text = String::from_utf8_lossy(&bytes);
+            assert!(!text.contains("the secret"), "{}", path.display());
+        }
+    }
 }

@@ -3,12 +3,15 @@
 //! `PROPTEST_CASES` sets the number of inputs of each test; a million of each take some minutes in a
 //! release build.
 
-use crate::spoil::{Spoiling, spoilings};
+use crate::spoil::{Spoiling, keep_trying, spoilings};
 use etalon_record::{Bench, Expectations, FolderKind, Merge, Run, RunWriter, read_cases};
+use flate2::Compression;
+use flate2::write::GzEncoder;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use serde_json::{Value, json};
 use std::fs;
+use std::io::Write;
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -97,10 +100,7 @@ proptest! {
 
     #[test]
     fn frame_files(spoilt in spoilings()) {
-        let text = r#"{"case":"a/b","adapter":"cpu","about":"x","spec":["y"],"images":[{"attachment":"color",
-            "aspect":"color","size":[1,1],"samples":1,"channels":[{"unorm":8}],"low":[0],"high":[1],
-            "actual":[2],"wrong":[2]}]}"#;
-        let folder = folder_with("frame.json", &spoilt.of(text));
+        let folder = folder_with("frame.json", &spoilt.of(FRAME));
         match Run::read_frame(folder.path(), "frame.json") {
             Err(error) => told(&error),
             Ok(file) => {
@@ -142,6 +142,48 @@ proptest! {
             prop_assert!(!error.to_string().contains("secret"));
         }
     }
+}
+
+const FRAME: &str = r#"{"case":"a/b","adapter":"cpu","about":"x","spec":["y"],"images":[{"attachment":"color",
+    "aspect":"color","size":[1,1],"samples":1,"channels":[{"unorm":8}],"low":[0],"high":[1],
+    "actual":[2],"wrong":[2]}]}"#;
+
+/// Reads a folder as every command does.
+fn read_all(folder: &Path) {
+    let _ = FolderKind::of(folder);
+    let _ = Bench::read(folder).map_err(|e| told(&e));
+    let _ = Merge::read(&[folder.to_owned()]).map_err(|e| told(&e));
+    let Ok(run) = Run::read(folder) else { return };
+    for file in run.records.iter().flat_map(|record| record.files()) {
+        let _ = Run::read_frame(folder, file).map_err(|e| told(&e));
+        let _ = Run::read_picture(folder, file, 1 << 20).map_err(|e| told(&e));
+    }
+    // What can be read can be replaced.
+    RunWriter::create(folder, &run.header).unwrap();
+}
+
+#[test]
+fn no_run_panics_or_hangs_a_reader() {
+    let [run, bench] = [run_text(), bench_text()].map(str::as_bytes);
+    keep_trying("runs and benches", &[run, bench], |input| {
+        let folder = folder_with("run.jsonl", input);
+        fs::write(folder.path().join("bench.jsonl"), input).unwrap();
+        read_all(folder.path());
+    });
+}
+
+#[test]
+fn no_frame_panics_or_hangs_a_reader() {
+    let mut packed = GzEncoder::new(Vec::new(), Compression::default());
+    packed.write_all(FRAME.as_bytes()).unwrap();
+    let packed = packed.finish().unwrap();
+    keep_trying("frames", &[FRAME.as_bytes(), &packed], |input| {
+        for name in ["frame.json", "frame.json.gz"] {
+            let folder = folder_with(name, input);
+            let read = Run::read_frame(folder.path(), name).map_err(|e| told(&e));
+            let _ = read.map(|file| file.images.iter().filter(|image| image.is_whole()).count());
+        }
+    });
 }
 
 /// Absurd sizes, counts and nesting are refused with a message, at once.

@@ -2,6 +2,10 @@
 
 use proptest::prelude::*;
 use proptest::sample::Index;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::{Config, TestRunner};
+use std::io::{self, Write};
+use std::time::{Duration, Instant};
 
 /// Replacements of a token.
 const WORDS: [&str; 40] = [
@@ -118,11 +122,11 @@ fn tokens(text: &[u8]) -> Vec<(usize, usize)> {
 
 impl Spoiling {
     /// The spoilt text.
-    pub(crate) fn of(&self, text: &str) -> Vec<u8> {
+    pub(crate) fn of(&self, text: impl AsRef<[u8]>) -> Vec<u8> {
         if let Some(noise) = &self.noise {
             return noise.clone();
         }
-        let mut bytes = text.as_bytes().to_vec();
+        let mut bytes = text.as_ref().to_vec();
         for change in &self.changes {
             change.apply(&mut bytes);
         }
@@ -178,4 +182,38 @@ impl Change {
             }
         }
     }
+}
+
+/// The seconds for which [`keep_trying`] tries, and with `ETALON_TESTS=all`: six formats take ten minutes.
+const SECONDS: [u64; 2] = [4, 100];
+/// The time after which an input counts as a hang.
+const HANG: Duration = Duration::from_secs(20);
+/// The memory that a reader of small files may take.
+const MOST_KIB: u64 = 1 << 20;
+
+/// Tries spoiled copies of a corpus for some seconds, and prints their number. A panic, a hang or more than 1 GiB
+/// fails the test.
+pub(crate) fn keep_trying(format: &str, corpus: &[&[u8]], read: impl Fn(&[u8])) {
+    let is_all = std::env::var("ETALON_TESTS").is_ok_and(|value| value == "all");
+    let until = Instant::now() + Duration::from_secs(SECONDS[usize::from(is_all)]);
+    let mut runner = TestRunner::new(Config::default());
+    let spoilings = spoilings();
+    let mut inputs = 0;
+    while Instant::now() < until {
+        let spoiling = spoilings
+            .new_tree(&mut runner)
+            .expect("any spoiling")
+            .current();
+        let input = spoiling.of(corpus[inputs % corpus.len()]);
+        let begun = Instant::now();
+        read(&input);
+        assert!(begun.elapsed() < HANG, "{spoiling:?}");
+        inputs += 1;
+    }
+    // Linux only; other systems do not have the file.
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let peak = peak.and_then(|text| text.trim().trim_end_matches(" kB").parse::<u64>().ok());
+    assert!(peak.is_none_or(|peak| peak < MOST_KIB), "{peak:?} KiB");
+    let _ = writeln!(io::stdout(), "{format}: {inputs} inputs");
 }

@@ -117,7 +117,10 @@ impl RunReport<'_> {
     pub fn write(&self) -> Result<RunReports, ReportError> {
         let out = OutputFolder::open(self.folder)?;
         let written = self.write_to(&out)?;
-        let is_view = |name: &str| name.ends_with(".html") || name.starts_with(CATALOGUE);
+        let is_view = |name: &str| {
+            let in_catalogue = name.strip_prefix(CATALOGUE);
+            name.ends_with(".html") || in_catalogue.is_some_and(|rest| rest.starts_with('/'))
+        };
         out.retain(|name| !is_view(name) || written.views.iter().any(|view| view == name))?;
         Ok(written)
     }

@@ -5,10 +5,12 @@
 #[path = "../../../record/tests/spoil/mod.rs"]
 mod spoil;
 
+use crate::history_made;
+use etalon_history::{History, Labels};
 use etalon_record::{Bench, Run};
-use etalon_report::{TableOptions, table, write};
+use etalon_report::{TableOptions, table, write, write_history};
 use proptest::prelude::*;
-use spoil::spoilings;
+use spoil::{keep_trying, spoilings};
 use std::fs;
 use std::path::Path;
 use std::sync::OnceLock;
@@ -47,4 +49,22 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn no_history_panics_or_hangs_a_reader() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("history.db");
+    history_made::write(&path);
+    let whole = fs::read(&path).unwrap();
+    keep_trying("histories", &[&whole], |input| {
+        let path = folder.path().join("spoiled.db");
+        fs::write(&path, input).unwrap();
+        let to = folder.path().join("pages");
+        if let Ok(history) = History::open_read(&path)
+            && let Err(error) = write_history(&history, &Labels::new(), &to, true)
+        {
+            assert!(!error.to_string().is_empty());
+        }
+    });
 }
