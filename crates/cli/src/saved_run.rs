@@ -17,6 +17,10 @@ use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 use tar::{Archive, EntryType};
 
+#[cfg(test)]
+#[path = "../../record/tests/spoil/mod.rs"]
+mod spoil;
+
 /// The end of a saved run's name.
 const EXTENSION: &str = ".tar.gz";
 /// The files that are taken from an archive.
@@ -225,9 +229,6 @@ fn same(folder: &Path, other: &Path) -> io::Result<bool> {
 
 #[cfg(test)]
 mod tests {
-    #[path = "../../../record/tests/spoil/mod.rs"]
-    mod spoil;
-
     use super::*;
     use flate2::Compression;
     use flate2::write::GzEncoder;

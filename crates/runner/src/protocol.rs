@@ -9,6 +9,10 @@ use std::borrow::Cow;
 use std::io::{self, Read, Write};
 use std::time::Duration;
 
+#[cfg(test)]
+#[path = "../../record/tests/spoil/mod.rs"]
+mod spoil;
+
 /// The longest message in bytes; a longer one is garbage.
 const MAX_MESSAGE: u32 = 1 << 30;
 
@@ -126,9 +130,6 @@ pub(crate) fn receive<T: DeserializeOwned>(from: &mut impl Read) -> io::Result<O
 
 #[cfg(test)]
 mod tests {
-    #[path = "../../../record/tests/spoil/mod.rs"]
-    mod spoil;
-
     use super::*;
     use etalon_frame::{Aspect, ChannelEncoding, Image, ReadPath};
 
@@ -179,8 +180,10 @@ mod tests {
             done(Ok(Payload::Submitted(Vec::new()))),
             done(Err(BackendError::refused("a buffer", "no memory"))),
         ];
-        let mut corpus: Vec<Vec<u8>> =
-            answers.iter().map(|answer| encode(answer).expect("encoded")).collect();
+        let mut corpus: Vec<Vec<u8>> = answers
+            .iter()
+            .map(|answer| encode(answer).expect("encoded"))
+            .collect();
         corpus.push(encode(&Request::Submit { slot: 1, times: 2 }).expect("encoded"));
         let corpus: Vec<&[u8]> = corpus.iter().map(Vec::as_slice).collect();
         spoil::keep_trying("messages", &corpus, |input| {
