@@ -13,6 +13,7 @@
 
 mod adapter;
 mod bench;
+mod change;
 mod clear;
 mod conflict;
 mod content;
@@ -45,6 +46,7 @@ mod run;
 mod selection;
 mod shader_cache;
 mod shorten;
+mod standing;
 mod verdict;
 mod versions;
 mod writer;
@@ -55,6 +57,7 @@ pub use bench::{
     Counted, Done, Ended, Enough, InstructionCounter, Measure, Picture, ProcessorLimits, Round,
     Time, cell,
 };
+pub use change::{CaseResult, Change};
 pub use clear::clear;
 pub use content::{Content, is_marked, overlap};
 pub use dead::{Dead, DeadKind};
@@ -85,8 +88,7 @@ pub use report_files::ReportFiles;
 pub use run::Run;
 pub use selection::{read_cases, selection_digest, shard_of};
 pub use shader_cache::ShaderCache;
+pub use standing::Standing;
 pub use verdict::Verdict;
-pub use versions::{
-    CaseVersions, ReleaseRecord, Standing, VERSIONS_FORMAT, Versions, VersionsHeader,
-};
+pub use versions::{CaseVersions, ReleaseRecord, VERSIONS_FORMAT, Versions, VersionsHeader};
 pub use writer::RunWriter;
