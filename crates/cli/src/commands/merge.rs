@@ -2,13 +2,13 @@
 
 use crate::cases::{build_named, library};
 use crate::catalogue::{Pictures, catalogue};
-use crate::failure::{Failure, IMPROVED, UNEXPECTED};
+use crate::failure::{Failure, IMPROVED, INCOMPLETE, UNEXPECTED};
 use crate::flags::Format;
 use crate::news::{NewsArguments, shown};
 use crate::out_folder::Out;
 use crate::output::{print_json, say, summarize, table_options};
 use crate::saved_run::folders;
-use crate::{provenance, report_files};
+use crate::{idle, provenance, report_files};
 use clap::Args;
 use etalon_record::{FolderKind, MISSING_FILE, Merge, Merged, Run};
 use etalon_report::{News, OtherFormats};
@@ -73,8 +73,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     }
     arguments.news.tell_how_to_add(out);
     let unexpected = news.map_or(merged.unexpected, |news| news.counted());
+    let idle = idle::report(&run);
     Ok(if unexpected > 0 {
         UNEXPECTED
+    } else if idle {
+        INCOMPLETE
     } else if merged.improvements > 0 {
         IMPROVED
     } else {
