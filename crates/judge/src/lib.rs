@@ -11,6 +11,8 @@ mod grade;
 mod judge;
 mod judgement_cache;
 mod kept;
+#[cfg(test)]
+mod limits_test;
 mod line_gap;
 mod measure;
 mod pictures;

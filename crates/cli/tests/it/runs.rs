@@ -738,3 +738,37 @@ fn what_a_version_requires_is_blocked_and_not_unsupported() {
     let drawn = run.records.iter().filter(|r| r.area() == "depth");
     assert!(drawn.clone().count() > 0 && drawn.clone().all(|r| r.verdict == Verdict::Pass));
 }
+
+#[test]
+fn a_grid_that_is_too_fine_is_judged_as_the_finest_that_can_be() {
+    let folder = folder();
+    for bits in [13, 25, 63, 64, 65, 128, 192, 255] {
+        let adapter = format!("cpu:limit=sub-pixel-bits-{bits}");
+        let given = ["depth/compare", "scissor/rect", "--adapter", &adapter];
+        let out = folder.path().join(bits.to_string());
+        run(&out, &given).code(0);
+        assert_eq!(whole(&out).header.adapters[0].limits.sub_pixel_bits, 12);
+    }
+}
+
+#[test]
+fn an_adapter_with_an_impossible_limit_is_refused_with_it() {
+    let folder = folder();
+    let given = ["cull/points", "--adapter", "cpu:limit=sample-outside"];
+    run(&folder.path().join("out"), &given)
+        .code(64)
+        .stderr(contains("reports sample 0 of 1 at 640/256, 128/256"));
+    // A run that was recorded with one is damaged.
+    let out = folder.path().join("cpu");
+    run(&out, &["cull/points", "--adapter", "cpu"]).code(0);
+    let path = out.join("run.jsonl");
+    let text = fs::read_to_string(&path).unwrap();
+    let spoilt = text.replacen("[[128,128]]", "[[640,128]]", 1);
+    assert_ne!(spoilt, text);
+    fs::write(&path, spoilt).unwrap();
+    etalon(&["report"])
+        .arg(&out)
+        .assert()
+        .code(64)
+        .stderr(contains("run.jsonl:1: ").and(contains("outside the texel")));
+}
