@@ -93,7 +93,7 @@ pub struct Record {
     /// alone, the case has a better verdict.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub after: Vec<String>,
-    /// The failed round trips that prevented drawing a `Blocked` case.
+    /// The failed cases that prevented drawing a `Blocked` case: round trips, or what the API's version requires.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub blocked_by: Vec<String>,
 }

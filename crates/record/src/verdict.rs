@@ -23,7 +23,7 @@ state_enum! {
         Measured = "measured",
         /// The adapter lacks something that the scene needs.
         NotSupported = "not-supported",
-        /// Not drawn, because a round trip failed that the case depends on.
+        /// Not drawn, because a case failed that it depends on: a round trip, or what the API's version requires.
         Blocked = "blocked",
         /// The expectations forbid drawing the case on this adapter.
         Skipped = "skipped",
