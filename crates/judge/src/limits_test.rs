@@ -2,7 +2,7 @@
 
 use crate::Judge;
 use etalon_backend::Backend;
-use etalon_case::{Case, Library, Profile};
+use etalon_case::{Case, Library};
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Api, Frame, Limits};
 use etalon_record::Verdict;
