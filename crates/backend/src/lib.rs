@@ -21,7 +21,8 @@ mod recording;
 
 pub use blits::{Blit, Blits, Piece, doubled};
 pub use fault::{
-    CallFault, DrawNumbers, Fault, FaultyCalls, FaultyScenes, OpenQuery, ProcessFault, ReadFault,
+    CallFault, DrawNumbers, Fault, FaultyCalls, FaultyScenes, LimitFault, OpenQuery, ProcessFault,
+    ReadFault,
 };
 pub use halves::halves;
 pub use recording::{

@@ -83,10 +83,13 @@ impl Case {
         requirements.into_iter().collect()
     }
 
+    /// The start of the ids of cases for which [`is_requirement`](Self::is_requirement) is true.
+    pub const REQUIREMENTS: &str = "capabilities/required/";
+
     /// Returns true if the case draws what some version of an API requires of every adapter. An adapter that
     /// denies what its version requires then fails.
     pub fn is_requirement(&self) -> bool {
-        self.id.starts_with("capabilities/required/")
+        self.id.starts_with(Self::REQUIREMENTS)
     }
 
     /// Returns the first part of the id.

@@ -10,7 +10,7 @@ use crate::output::say;
 use etalon_case::{Case, CaseRef, Library, Profile, build, select};
 use etalon_diagnose::{Group, Groups, KnownBugs, Match, Symptom};
 use etalon_explore::Candidate;
-use etalon_record::{AdapterRecord, Expectations, Expected, Record, Run};
+use etalon_record::{AdapterRecord, Expectation, Expectations, Expected, Record, Run};
 use etalon_runner::{Launch, Reducer, confirm};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -47,6 +47,7 @@ impl Looks<'_> {
         let cases: HashMap<String, CaseRef<'_>> = self.library.named(&ids).collect();
         let built_in = Library::built_in();
         for adapter in &run.header.adapters {
+            let seen = self.seen(&run.records, adapter);
             let of_adapter = |r: &&mut Record| {
                 r.adapter == adapter.name && r.unexpected() && r.verdict.is_violation()
             };
@@ -60,19 +61,39 @@ impl Looks<'_> {
                     "{}: failures to compare with findings: {count}",
                     adapter.name
                 );
-                self.mark_all(failing, &cases, adapter, launch, built_in)?;
+                self.mark_all(failing, &cases, adapter, &seen, launch, built_in)?;
             }
         }
         run.replace_in(folder).map_err(Failure::incomplete)?;
         Ok(unexpected(&run))
     }
 
-    /// Marks an adapter's failures that findings explain.
+    /// Returns the names of the findings that records of an adapter show.
+    fn seen(&self, records: &[Record], adapter: &AdapterRecord) -> BTreeSet<String> {
+        let records = records
+            .iter()
+            .filter(|r| r.adapter == adapter.name && r.verdict.is_bad() && r.expected.is_some());
+        let names = records.filter_map(|record| {
+            let shown = record.shown();
+            match self
+                .expectations
+                .look_up_record(adapter, &record.case, shown)
+            {
+                Expectation::Agrees(known) => Some(known.name()),
+                _ => None,
+            }
+        });
+        names.collect()
+    }
+
+    /// Marks an adapter's failures that findings explain, if its records show these findings too. A reduced
+    /// scene can lack what its finding is about, so a finding that the run does not show proves nothing.
     fn mark_all(
         &self,
         failing: Vec<&mut Record>,
         cases: &HashMap<String, CaseRef<'_>>,
         adapter: &AdapterRecord,
+        seen: &BTreeSet<String>,
         launch: &Launch,
         built_in: &Library,
     ) -> Result<(), Failure> {
@@ -103,13 +124,23 @@ impl Looks<'_> {
             } else {
                 None
             };
-            if let Some(like) = found.as_ref().filter(|found| !found.is_exact()) {
-                say!("{name}: {} of them: {}", group.count, match_sentence(like));
+            match &found {
+                Some(like) if !like.is_exact() => {
+                    say!("{name}: {} of them: {}", group.count, match_sentence(like));
+                }
+                Some(like) if !seen.contains(&like.finding) => say!(
+                    "{name}: {} of them look like {}, but no record of this run shows its finding: {}",
+                    group.count,
+                    like.case,
+                    like.title
+                ),
+                _ => {}
             }
             matches.push(found);
         }
         for (record, number) in failing.into_iter().zip(numbers) {
-            if let Some(known) = matches[number].as_ref().filter(|known| known.is_exact()) {
+            let is_known = |known: &&Match| known.is_exact() && seen.contains(&known.finding);
+            if let Some(known) = matches[number].as_ref().filter(is_known) {
                 let reason = known.title.clone();
                 record.expected = Some(Expected { reason });
                 record.look = Some(known.case.clone());

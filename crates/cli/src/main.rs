@@ -27,6 +27,7 @@ mod failure_groups;
 mod flags;
 mod group_text;
 mod history_file;
+mod idle;
 mod interruption;
 mod known_look;
 mod match_text;

@@ -27,6 +27,7 @@ mod format;
 mod grade;
 mod image;
 mod legal;
+mod limit_error;
 mod limits;
 mod message;
 mod names;
@@ -62,6 +63,7 @@ pub use legal::{
     AspectStatistics, CodeInterval, ImageInfo, LegalSet, LegalSetBuilder, SampleGroup, TexelSet,
     WorldBox,
 };
+pub use limit_error::{LimitError, MAX_SUB_PIXEL_BITS};
 pub use limits::{FormatSupport, Limits, Requirement};
 pub use message::{shortened, without_mark};
 pub use operation::Operation;

@@ -79,6 +79,8 @@ pub(crate) struct Caps {
     /// `GL_TIME_ELAPSED` queries work.
     pub(crate) timer: bool,
     pub(crate) max_color_targets: usize,
+    /// Samples that renderbuffers of every required format have, except integers.
+    pub(crate) max_samples: u32,
     /// Sub-pixel bits of viewports; `None` if viewports are integers.
     pub(crate) viewport_bits: Option<u32>,
     pub(crate) max_viewport: [i32; 2],
@@ -111,7 +113,7 @@ impl Caps {
         let storage = storage && integer(glow::MAX_FRAGMENT_SHADER_STORAGE_BLOCKS) > 0;
         let storage_alignment = storage.then(|| {
             let alignment = integer(glow::SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT);
-            usize::try_from(alignment).unwrap_or(0).max(1)
+            usize::try_from(alignment).unwrap_or(0)
         });
         let mut max_viewport = [0; 2];
         // SAFETY: the context is current, and the array has room for both values.
@@ -165,6 +167,7 @@ impl Caps {
                 || (!es && has("GL_ARB_pipeline_statistics_query")),
             timer: since(ALWAYS, NEVER) || has("GL_EXT_disjoint_timer_query"),
             max_color_targets: usize::try_from(targets).unwrap_or(0),
+            max_samples: u32::try_from(integer(glow::MAX_SAMPLES)).unwrap_or(0),
             viewport_bits,
             max_viewport,
         }

@@ -7,6 +7,7 @@ use crate::entry_points::EntryPoints;
 use crate::options::{Options, Profile, Tuning};
 use crate::planted;
 use crate::recording;
+use crate::sanity;
 use etalon_backend::{BackendError, Fault, Unavailable};
 use glow::HasContext;
 use std::ffi::{CStr, c_char};
@@ -52,12 +53,17 @@ impl Context {
         if version < if es { (3, 0) } else { (3, 3) } {
             return Err(unusable("GL_VERSION"));
         }
+        sanity::check_context(&egl)?;
         // SAFETY: the context is current, reports a version in the documented form, and stays
         // current on this thread whenever the functions are called.
         let gl = unsafe { glow::Context::from_loader_function_cstr(|name| egl.proc_address(name)) };
         let known = gl.supported_extensions();
         let entry_points = EntryPoints::load(&egl, es, version, known);
         let mut caps = Caps::query(&gl, es, version);
+        if let Some(value) = caps.storage_alignment {
+            let value = i32::try_from(value).unwrap_or(i32::MAX);
+            sanity::alignment("GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT", value)?;
+        }
         caps.clip_control = entry_points.clip_control.is_some() && tuning.clip_control;
         if options.debug && entry_points.debug_callback.is_none() {
             return Err(Unavailable::new(
@@ -288,12 +294,15 @@ fn error_name(code: u32) -> String {
     }
 }
 
-/// Returns the first two numbers of `GL_VERSION`.
+/// Returns the first two numbers of `GL_VERSION`; `None` if the text is not in the documented form, which `glow`
+/// requires too.
 fn parse_version(text: &str) -> Option<(u32, u32)> {
     let text = text.trim_start_matches("OpenGL ES ");
-    let (major, rest) = text.split_once('.')?;
-    let minor = rest.split(|c: char| !c.is_ascii_digit()).next()?;
-    Some((major.parse().ok()?, minor.parse().ok()?))
+    if text.contains(char::REPLACEMENT_CHARACTER) {
+        return None;
+    }
+    let mut numbers = text.split(' ').next()?.split('.');
+    Some((numbers.next()?.parse().ok()?, numbers.next()?.parse().ok()?))
 }
 
 #[cfg(test)]
@@ -315,6 +324,8 @@ mod tests {
             assert_eq!(parse_version(text), Some(numbers));
             assert_eq!(names(text).driver_version(), driver);
         }
-        assert_eq!(parse_version("none"), None);
+        for text in ["none", "4", "4.x", "4.6-pre", "4.6 \u{fffd}"] {
+            assert_eq!(parse_version(text), None, "{text}");
+        }
     }
 }

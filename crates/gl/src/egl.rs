@@ -577,6 +577,11 @@ impl EglContext {
         self.driver.as_deref()
     }
 
+    /// Returns true if the driver has a function, recorded or not.
+    pub(crate) fn has_function(&self, name: &CStr) -> bool {
+        !self.egl.proc_address(name).is_null()
+    }
+
     /// See [`Egl::proc_address`].
     pub(crate) fn proc_address(&self, name: &CStr) -> *const c_void {
         recording::address(name, planted::address(name, self.egl.proc_address(name)))

@@ -36,6 +36,7 @@ mod program;
 mod query;
 mod read;
 mod recording;
+mod sanity;
 mod state;
 mod support;
 mod surface;

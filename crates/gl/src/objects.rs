@@ -6,6 +6,7 @@ use crate::pool::Pool;
 use crate::probe::{self, Probed};
 use crate::program::Programs;
 use crate::recording;
+use crate::sanity;
 use crate::support::Support;
 use etalon_backend::{Phase, Unavailable};
 use etalon_frame::TextureFormat;
@@ -55,7 +56,7 @@ impl Objects {
                 timer,
             )
         };
-        let alignment = usize::try_from(alignment).unwrap_or(0).max(1);
+        let alignment = sanity::alignment("GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT", alignment)?;
         recording::end();
         let objects = Self {
             formats: probed.formats.clone(),

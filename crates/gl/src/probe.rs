@@ -17,6 +17,8 @@ use glow::HasContext;
 use std::collections::{BTreeMap, BTreeSet};
 
 const SAMPLE_COUNTS: [u32; 4] = [2, 4, 8, 16];
+/// The least value of `GL_MAX_SAMPLES`.
+const REQUIRED_SAMPLES: u32 = 4;
 /// The width and height of probed surfaces.
 const SIZE: [u32; 2] = [16, 16];
 
@@ -56,6 +58,12 @@ pub(crate) fn probe(context: &Context) -> Probed {
         support.fetched_exactly = fetch_is_exact(&support) && stencil_is_fetched(context, format);
         let more = sample_counts(context, format, &support, &mut probed.positions);
         support.limits.samples.extend(more);
+        let offered = &support.limits.samples;
+        if context.caps.max_samples >= REQUIRED_SAMPLES && !offered.contains(&REQUIRED_SAMPLES) {
+            // Renderbuffers have as many, but their samples cannot be read.
+            let samples = Requirement::Samples(format, REQUIRED_SAMPLES);
+            probed.exempt.insert(samples);
+        }
         probed.formats.insert(format, support);
     }
     for feature in features::features(context) {

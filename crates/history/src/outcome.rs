@@ -5,7 +5,7 @@
 //! outcome.
 
 use etalon_frame::{Aspect, Distance, TexelCounts};
-use etalon_record::{Measured, Record, Standing, Verdict};
+use etalon_record::{CaseResult, Measured, Record, Standing, Verdict};
 use serde::{Deserialize, Serialize};
 
 /// The part of a record that the history keeps.
@@ -97,9 +97,7 @@ impl Outcome {
 
     /// Returns true if the record counts against its run, as in [`Record::unexpected`].
     pub fn unexpected(&self) -> bool {
-        let mut record = Record::new("", "", self.verdict);
-        record.due_fail = self.due_fail;
-        self.expected.is_none() && record.unexpected()
+        CaseResult::from(self).unexpected()
     }
 
     /// Returns true if the verdict is better than expected.
@@ -110,13 +108,7 @@ impl Outcome {
     /// Returns the standing of the driver. A selftest that fails as it must is good, and one that does not
     /// fail is bad.
     pub fn standing(&self) -> Standing {
-        match self.verdict {
-            violation if self.due_fail && violation.is_violation() => Standing::Good,
-            verdict => match Standing::from(verdict) {
-                Standing::Good if self.due_fail => Standing::Bad,
-                standing => standing,
-            },
-        }
+        Standing::of(self.verdict, self.due_fail)
     }
 
     /// Returns the asserted share of the channels of all aspects, 0 to 1; `None` without channels.
@@ -126,6 +118,16 @@ impl Outcome {
         };
         let channels = sum(|a| a.channels);
         (channels > 0.0).then(|| sum(|a| a.asserted) / channels)
+    }
+}
+
+impl From<&Outcome> for CaseResult {
+    fn from(outcome: &Outcome) -> Self {
+        Self {
+            verdict: outcome.verdict,
+            due_fail: outcome.due_fail,
+            expected: outcome.expected.is_some(),
+        }
     }
 }
 

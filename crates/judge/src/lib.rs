@@ -4,12 +4,15 @@
 //! Legal sets come from `reference`, and `truth` has the pictures that methods are compared with. Records and frame
 //! files go to `record`. Nothing here draws, waits or writes, so the crate also compiles for WebAssembly.
 
+mod denial;
 mod expected_values;
 mod frame_file;
 mod grade;
 mod judge;
 mod judgement_cache;
 mod kept;
+#[cfg(test)]
+mod limits_test;
 mod line_gap;
 mod measure;
 mod pictures;

@@ -7,10 +7,7 @@ use etalon_reference::rules::required::denied;
 
 /// Fails an adapter that denies a requirement of its API's version.
 pub fn note_requirement(record: &mut Record, case: &Case, limits: &Limits) {
-    let version = match limits.version {
-        ApiVersion::UNKNOWN => limits.api.to_string(),
-        version => format!("{} {version}", limits.api),
-    };
+    let version = version_text(limits);
     match denied(limits, &case.requirements()) {
         Some((needed, required)) => {
             record.verdict = Verdict::Fail;
@@ -20,6 +17,14 @@ pub fn note_requirement(record: &mut Record, case: &Case, limits: &Limits) {
             );
         }
         None => record.message = format!("{}; no requirement of {version}", record.message),
+    }
+}
+
+/// Returns the API and its version, if it has one.
+pub(crate) fn version_text(limits: &Limits) -> String {
+    match limits.version {
+        ApiVersion::UNKNOWN => limits.api.to_string(),
+        version => format!("{} {version}", limits.api),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Cases that are not drawn, and what expectations say about a record.
 
+use crate::denial::note_denial;
 use crate::judge::is_due_to_fail;
 use crate::requirement::note_requirement;
 use crate::round_trips::RoundTrips;
@@ -26,6 +27,8 @@ pub fn undrawn(
         record.message = missing.to_string();
         if case.is_requirement() {
             note_requirement(&mut record, case, &adapter.limits);
+        } else {
+            note_denial(&mut record, case, adapter, expectations);
         }
         record
     } else {

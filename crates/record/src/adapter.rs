@@ -1,7 +1,8 @@
 //! The adapters of a run or bench, and the adapters that it could not use.
 
 use etalon_frame::{DeviceOffer, Limits};
-use serde::{Deserialize, Serialize};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// An adapter of a run or bench.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -31,7 +32,16 @@ pub struct AdapterRecord {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub offer: Option<DeviceOffer>,
     /// The adapter's limits and features.
+    #[serde(deserialize_with = "checked_limits")]
     pub limits: Limits,
+}
+
+/// Reads limits that can be judged by.
+fn checked_limits<'de, D: Deserializer<'de>>(from: D) -> Result<Limits, D::Error> {
+    let limits = Limits::deserialize(from)?;
+    limits
+        .checked()
+        .map_err(|error| D::Error::custom(format!("an adapter with {error}")))
 }
 
 /// A release of a driver.

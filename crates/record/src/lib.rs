@@ -13,6 +13,7 @@
 
 mod adapter;
 mod bench;
+mod change;
 mod conflict;
 mod content;
 mod date;
@@ -44,6 +45,7 @@ mod run;
 mod selection;
 mod shader_cache;
 mod shorten;
+mod standing;
 mod unlisted;
 mod verdict;
 mod versions;
@@ -55,6 +57,7 @@ pub use bench::{
     Counted, Done, Ended, Enough, InstructionCounter, Measure, Picture, ProcessorLimits, Round,
     Time, cell,
 };
+pub use change::{CaseResult, Change};
 pub use content::{Content, is_marked, overlap};
 pub use dead::{Dead, DeadKind};
 pub use driver_version::version_of;
@@ -86,8 +89,7 @@ pub use record::{
 pub use run::Run;
 pub use selection::{read_cases, selection_digest, shard_of};
 pub use shader_cache::ShaderCache;
+pub use standing::Standing;
 pub use verdict::Verdict;
-pub use versions::{
-    CaseVersions, ReleaseRecord, Standing, VERSIONS_FORMAT, Versions, VersionsHeader,
-};
+pub use versions::{CaseVersions, ReleaseRecord, VERSIONS_FORMAT, Versions, VersionsHeader};
 pub use writer::RunWriter;

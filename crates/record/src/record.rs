@@ -1,6 +1,7 @@
 //! A line of a run: the result of a case on an adapter.
 
 use crate::adapter::AdapterRecord;
+use crate::change::CaseResult;
 use crate::expectations::{Expectation, Expectations};
 use crate::expected_symptom::Shown;
 use crate::measured::Measured;
@@ -92,7 +93,7 @@ pub struct Record {
     /// alone, the case has a better verdict.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub after: Vec<String>,
-    /// The failed round trips that prevented drawing a `Blocked` case.
+    /// The failed cases that prevented drawing a `Blocked` case: round trips, or what the API's version requires.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub blocked_by: Vec<String>,
 }
@@ -221,15 +222,7 @@ impl Record {
     /// Returns true if the record counts against the run: a bad verdict that no expectation names, or a
     /// selftest that had to fail and did not.
     pub fn unexpected(&self) -> bool {
-        if self.expected.is_some() {
-            return false;
-        }
-        if self.due_fail {
-            let undrawn = matches!(self.verdict, Verdict::NotSupported | Verdict::Skipped);
-            !undrawn && !self.verdict.is_violation()
-        } else {
-            self.verdict.is_bad()
-        }
+        CaseResult::from(self).unexpected()
     }
 
     /// Returns the reason why a wrong picture is expected: for a selftest that is due to fail, its case
@@ -255,6 +248,14 @@ impl Record {
         self.improves.is_some() && !self.unexpected()
     }
 
+    /// Returns true if drawing the case was tried, whatever came of it.
+    pub fn is_drawn(&self) -> bool {
+        !matches!(
+            self.verdict,
+            Verdict::NotSupported | Verdict::Skipped | Verdict::Blocked
+        )
+    }
+
     /// Returns true if anything about the frame was checked.
     pub fn asserts(&self) -> bool {
         let judged = self.verdict.is_judged() && self.verdict != Verdict::Open;
@@ -270,6 +271,16 @@ impl Record {
     /// Returns the id without its axis values, which is the same for all cases of one case file.
     pub fn case_file(&self) -> &str {
         case_file(&self.case)
+    }
+}
+
+impl From<&Record> for CaseResult {
+    fn from(record: &Record) -> Self {
+        Self {
+            verdict: record.verdict,
+            due_fail: record.due_fail,
+            expected: record.expected.is_some(),
+        }
     }
 }
 

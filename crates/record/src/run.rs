@@ -9,6 +9,7 @@ use crate::json_lines::JsonLines;
 use crate::paths::{below, open_below};
 use crate::record::{MAX_LINE, Record};
 use flate2::read::GzDecoder;
+use std::collections::HashSet;
 use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
@@ -112,6 +113,23 @@ impl Run {
         self.header
             .expected_records()
             .saturating_sub(self.records.len() as u64)
+    }
+
+    /// Returns the adapters that drew no case, in the order of the header.
+    pub fn idle_adapters(&self) -> Vec<&str> {
+        let drawn: HashSet<&str> = self
+            .records
+            .iter()
+            .filter(|record| record.is_drawn())
+            .map(|record| record.adapter.as_str())
+            .collect();
+        let names = self.header.adapters.iter().map(|a| a.name.as_str());
+        names.filter(|name| !drawn.contains(name)).collect()
+    }
+
+    /// Returns true if no adapter drew a case.
+    pub fn is_idle(&self) -> bool {
+        !self.records.iter().any(Record::is_drawn)
     }
 
     /// Reads a frame file by the path in a record. Earlier versions wrote frames uncompressed.

@@ -23,7 +23,7 @@ state_enum! {
         Measured = "measured",
         /// The adapter lacks something that the scene needs.
         NotSupported = "not-supported",
-        /// Not drawn, because a round trip failed that the case depends on.
+        /// Not drawn, because a case failed that it depends on: a round trip, or what the API's version requires.
         Blocked = "blocked",
         /// The expectations forbid drawing the case on this adapter.
         Skipped = "skipped",
@@ -92,8 +92,9 @@ impl Verdict {
         )
     }
 
-    /// Returns how bad the verdict is, for choosing the worst of several verdicts of one case. Larger is
-    /// worse; `Fail` is the worst, because it is a proof.
+    /// Returns how much the verdict weighs, for choosing which of several drawings of a case a record shows,
+    /// and the order of lists. `Fail` weighs most, because it is a proof. What a step from one run to another
+    /// means is decided by [`Change`](crate::Change) instead.
     pub fn severity(self) -> u8 {
         match self {
             Self::Skipped => 0,

@@ -9,6 +9,7 @@ use crate::json::json_line;
 use crate::json_lines::JsonLines;
 use crate::machine::Machine;
 use crate::output_folder::OutputFolder;
+use crate::standing::Standing;
 use crate::verdict::Verdict;
 use serde::{Deserialize, Serialize};
 use std::fs::File;
@@ -66,40 +67,6 @@ pub struct CaseVersions {
     pub finding: Option<String>,
     /// The verdict by release; `None` if the case was not drawn.
     pub verdicts: Vec<Option<Verdict>>,
-}
-
-/// The meaning of a verdict for a release.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Standing {
-    /// The case is drawn correctly.
-    Good,
-    /// The case is drawn wrong, or the driver fails to draw it.
-    Bad,
-    /// The case is drawn correctly only some of the time.
-    Flaky,
-    /// The case is not drawn, or nothing is asserted.
-    Unknown,
-}
-
-impl From<Verdict> for Standing {
-    fn from(verdict: Verdict) -> Self {
-        match verdict {
-            Verdict::Pass | Verdict::Imprecise | Verdict::Measured => Self::Good,
-            Verdict::Fail
-            | Verdict::RequiredByCts
-            | Verdict::Disputed
-            | Verdict::Crash
-            | Verdict::Timeout
-            | Verdict::DeviceLost
-            | Verdict::ResourceError => Self::Bad,
-            Verdict::Flaky => Self::Flaky,
-            Verdict::Open
-            | Verdict::NotSupported
-            | Verdict::Blocked
-            | Verdict::Skipped
-            | Verdict::InternalError => Self::Unknown,
-        }
-    }
 }
 
 impl CaseVersions {

@@ -18,11 +18,13 @@ const LISTED: usize = 20;
 pub struct News {
     /// Each adapter with the run that it was compared with, in words.
     pub since: Vec<Since>,
-    /// Records that became unexpected, the most serious first.
+    /// Unexpected records that became worse, the most serious first.
     pub broken: Vec<NewsEntry>,
-    /// Records that are no longer unexpected.
+    /// Records that are no longer unexpected, and better.
     pub fixed: Vec<NewsEntry>,
-    /// Records that are still unexpected.
+    /// Records that are no longer unexpected, and not better: now expected, unsupported or skipped.
+    pub undecided: Vec<NewsEntry>,
+    /// Records that are still unexpected, and not worse.
     pub old: Vec<NewsEntry>,
     /// Unexpected records that triage settled as real or ignored. They do not count.
     pub triaged: Vec<NewsEntry>,
@@ -78,10 +80,11 @@ impl News {
     }
 
     /// Returns the kinds of entries in the order of reports, each with its title.
-    pub(crate) fn sections(&self) -> [(&'static str, &[NewsEntry]); 4] {
+    pub(crate) fn sections(&self) -> [(&'static str, &[NewsEntry]); 5] {
         [
             ("broken since the last run", &self.broken),
             ("fixed since the last run", &self.fixed),
+            ("no longer counted, but not fixed", &self.undecided),
             ("unexpected as before", &self.old),
             ("settled by triage, not counted", &self.triaged),
         ]
@@ -99,7 +102,7 @@ pub fn news_table(news: &News, options: TableOptions) -> String {
         });
     }
     for (number, (title, entries)) in news.sections().into_iter().enumerate() {
-        let color = ["31", "32", "0", "0"][number];
+        let color = ["31", "32", "0", "0", "0"][number];
         let head = format!("{} {title}", entries.len());
         if entries.is_empty() && number > 1 {
             continue;

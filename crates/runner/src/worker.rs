@@ -6,7 +6,7 @@ use crate::loss::Failure;
 use crate::outcome::outcome;
 use crate::process::{Wait, WorkerProcess};
 use crate::protocol::{Hello, Payload, Request, Response};
-use etalon_backend::{BackendError, Recording};
+use etalon_backend::{BackendError, Recording, Unavailable};
 use etalon_case::Case;
 use etalon_frame::Frame;
 use etalon_record::{Record, Release};
@@ -35,7 +35,7 @@ impl Worker {
         let mut process = WorkerProcess::spawn(launch)?;
         match process.response(launch.patience) {
             Ok(Response::Hello(Ok(hello))) => Ok(Self {
-                hello: *hello,
+                hello: checked(*hello)?,
                 release: launch.release.clone(),
                 opening: begun.elapsed(),
                 process,
@@ -111,6 +111,17 @@ impl Worker {
             Failure::Lost(loss) => DrawError::Lost(self.process.exit_report(loss).message),
         }
     }
+}
+
+/// Returns an adapter whose limits can be judged by.
+fn checked(hello: Hello) -> Result<Hello, StartError> {
+    let Hello { info, limits } = hello;
+    let limits = limits.checked().map_err(|error| {
+        let reason = format!("{} {} reports {error}", info.driver, info.driver_version);
+        let remedy = "nothing that it draws could be judged: use another version of the driver";
+        StartError::Unavailable(Unavailable::new(reason, remedy))
+    })?;
+    Ok(Hello { info, limits })
 }
 
 /// A scene that was drawn once.

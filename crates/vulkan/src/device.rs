@@ -3,6 +3,7 @@
 use crate::error::{Check, describe};
 use crate::instance::{INSTANCE_VERSION, Instance};
 use crate::recording;
+use crate::sanity;
 use crate::single_state::SingleState;
 use ash::vk;
 use etalon_backend::{AdapterInfo, BackendError, Unavailable};
@@ -467,6 +468,7 @@ impl Device {
         let promises = promises(api, physical);
         // SAFETY: as above.
         let memory = unsafe { api.get_physical_device_memory_properties(physical) };
+        sanity::check_numbers(&memory, &properties.limits)?;
         recording::memory_types(&memory);
 
         let priorities = [1.0];
@@ -562,6 +564,14 @@ impl Device {
                 ),
                 "check that this user may open the device (/dev/dri, /dev/nvidia*)",
             )
+        })?;
+        // A recording hides the functions that it does not record.
+        let hides = recording::is_installed();
+        sanity::check_functions(|name| {
+            // SAFETY: the device lives, and the name is zero-terminated.
+            let address =
+                unsafe { (api.fp_v1_0().get_device_proc_addr)(raw.handle(), name.as_ptr()) };
+            hides || address.is_some()
         })?;
         // SAFETY: the device was created with one queue of this family.
         let queue = unsafe { raw.get_device_queue(index, 0) };

@@ -44,6 +44,7 @@ mod resolves;
 mod role;
 mod samplers;
 mod samples;
+mod sanity;
 mod shader;
 mod single;
 mod single_state;

@@ -10,6 +10,9 @@ use std::collections::BTreeSet;
 /// Words in the names of software rasterizers.
 const SOFTWARE: [&str; 4] = ["swiftshader", "llvmpipe", "warp", "basic render"];
 
+/// The largest alignment of an offset in a buffer that a device can need.
+const MAX_ALIGNMENT: u32 = 256;
+
 /// Returns the adapter of a page.
 pub fn info(name: &str, hello: &Hello) -> AdapterInfo {
     let adapter = &hello.adapter;
@@ -48,13 +51,21 @@ pub fn info(name: &str, hello: &Hello) -> AdapterInfo {
     }
 }
 
-/// Returns the facts about a device that lowering uses, or the reason if a limit is missing.
+/// Returns the facts about a device that lowering uses, or the reason if a limit is missing or
+/// impossible.
 pub fn device(offer: &DeviceOffer) -> Result<Device, String> {
     let has = |name: &str| offer.features.iter().any(|feature| feature == name);
     let limit = |name: &str| {
         let value = offer.limits.get(name);
         let value = value.and_then(|value| u32::try_from(*value).ok());
         value.ok_or_else(|| format!("the device does not report the limit {name}"))
+    };
+    // WebGPU: Limits. An alignment is a power of two, and the largest is the default.
+    let alignment = |name: &str| match limit(name)? {
+        value if value.is_power_of_two() && value <= MAX_ALIGNMENT => Ok(value),
+        value => Err(format!(
+            "the device reports {value} as the limit {name}, which must be a power of two up to {MAX_ALIGNMENT}"
+        )),
     };
     let storage = limit("maxStorageBuffersInFragmentStage")
         .or_else(|_| limit("maxStorageBuffersPerShaderStage"))?;
@@ -80,8 +91,8 @@ pub fn device(offer: &DeviceOffer) -> Result<Device, String> {
             texture_3d: limit("maxTextureDimension3D")?,
             color_attachments: limit("maxColorAttachments")?,
             color_bytes_per_sample: limit("maxColorAttachmentBytesPerSample")?,
-            uniform_alignment: limit("minUniformBufferOffsetAlignment")?,
-            storage_alignment: limit("minStorageBufferOffsetAlignment")?,
+            uniform_alignment: alignment("minUniformBufferOffsetAlignment")?,
+            storage_alignment: alignment("minStorageBufferOffsetAlignment")?,
         },
     }))
 }
@@ -102,4 +113,38 @@ fn features(core: bool, has: impl Fn(&str) -> bool, storage: bool) -> BTreeSet<F
     ];
     let found = found.into_iter().filter(|(_, has)| *has);
     found.map(|(feature, _)| feature).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn offer(alignment: u64) -> DeviceOffer {
+        let limits = [
+            ("maxStorageBuffersPerShaderStage", 8),
+            ("maxTextureDimension2D", u64::from(u32::MAX)),
+            ("maxTextureDimension3D", 2048),
+            ("maxColorAttachments", 8),
+            ("maxColorAttachmentBytesPerSample", 32),
+            ("minUniformBufferOffsetAlignment", alignment),
+            ("minStorageBufferOffsetAlignment", 256),
+        ];
+        DeviceOffer {
+            compatibility: false,
+            features: Vec::new(),
+            limits: limits.map(|(name, value)| (name.to_owned(), value)).into(),
+        }
+    }
+
+    #[test]
+    fn an_impossible_alignment_is_an_error_that_names_it() {
+        for alignment in [1, 32, 256] {
+            assert!(device(&offer(alignment)).is_ok(), "{alignment}");
+        }
+        for alignment in [0, 3, 512, 1 << 31] {
+            let error = device(&offer(alignment)).err().unwrap_or_default();
+            let words = format!("reports {alignment} as the limit minUniformBufferOffsetAlignment");
+            assert!(error.contains(&words), "{error}");
+        }
+    }
 }

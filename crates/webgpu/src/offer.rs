@@ -127,7 +127,7 @@ fn limits(offer: Offer) -> Limits {
         features.extend(BEYOND_COMPATIBILITY);
     }
     // WebGPU limits a viewport to twice the largest texture size (setViewport).
-    if 2 * max_size > VIEWPORT_REACH {
+    if max_size > VIEWPORT_REACH / 2 {
         features.insert(Feature::ViewportOutside);
     }
     let most_of_bytes = offer.limits.color_bytes_per_sample / MOST_TEXEL_BYTES;

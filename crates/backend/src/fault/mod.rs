@@ -7,11 +7,13 @@
 
 mod call;
 mod calls;
+mod limit;
 mod process;
 mod read;
 
 pub use call::CallFault;
 pub use calls::{DrawNumbers, FaultyCalls, OpenQuery};
+pub use limit::LimitFault;
 pub use process::{FaultyScenes, ProcessFault};
 pub use read::ReadFault;
 
@@ -28,6 +30,8 @@ pub enum Fault {
     Read(ReadFault),
     /// The process that draws, for some of the scenes: `fault=abort`, `fault=abort@scissor`.
     Process(ProcessFault, FaultyScenes),
+    /// A limit that the adapter reports: `limit=sub-pixel-bits-64`.
+    Limit(LimitFault),
     /// The time of each frame, increased by this many per cent: `slower=5%`.
     Slower(f64),
 }
@@ -44,6 +48,10 @@ impl Fault {
                 Some(fault) => Self::Process(named(fault)?, FaultyScenes::Scissor),
                 None => Self::Process(named(fault)?, FaultyScenes::ByHash),
             },
+            "limit" => Self::Limit(match fault.strip_prefix("sub-pixel-bits-") {
+                Some(bits) => LimitFault::SubPixelBits(bits.parse().ok()?),
+                None => named(fault)?,
+            }),
             "slower" => {
                 let percent = fault.strip_suffix('%')?.parse().ok()?;
                 (0.0..=1000.0)
@@ -111,6 +119,19 @@ mod tests {
         for other in ["cpu", "cpu:fault=", "cpu:fault=Abort", "cpu:fault=abort@"] {
             assert_eq!(Fault::in_name(other), None, "{other}");
         }
+    }
+
+    #[test]
+    fn the_name_says_which_limit_is_reported() {
+        let limit = |name: &str| Fault::in_name(name).map(|(_, fault)| fault);
+        for (name, fault) in [
+            ("cpu:limit=sub-pixel-bits-64", LimitFault::SubPixelBits(64)),
+            ("cpu:limit=sample-outside", LimitFault::SampleOutside),
+            ("cpu:limit=one-sample", LimitFault::OneSample),
+        ] {
+            assert_eq!(limit(name), Some(Fault::Limit(fault)));
+        }
+        assert_eq!(limit("cpu:limit=sub-pixel-bits-256"), None);
     }
 
     #[test]

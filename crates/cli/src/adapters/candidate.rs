@@ -329,7 +329,9 @@ fn fits(fault: Fault, backend: BackendName) -> bool {
         ) => fault.is_in(Api::WebGpu),
         (Fault::Call(_), BackendName::Cpu) => false,
         (Fault::Read(_), backend) => backend != BackendName::Cpu,
-        (Fault::Process(..) | Fault::Slower(_), backend) => backend == BackendName::Cpu,
+        (Fault::Process(..) | Fault::Limit(_) | Fault::Slower(_), backend) => {
+            backend == BackendName::Cpu
+        }
     }
 }
 

@@ -25,6 +25,7 @@ const MISREAD: TextureFormat = TextureFormat::Rgb10a2Unorm;
 pub(crate) struct Faulty {
     inner: CpuBackend,
     info: AdapterInfo,
+    limits: Limits,
     fault: Fault,
     /// The pipe to the parent.
     pipe: RefCell<File>,
@@ -39,12 +40,14 @@ impl Faulty {
     pub(crate) fn new(name: &str, fault: Fault, pipe: File) -> Self {
         let inner = CpuBackend::spans(name);
         let mut info = inner.adapter().clone();
+        let mut limits = inner.limits().clone();
         match fault {
             Fault::Process(ProcessFault::Start, _) => {
                 say!("the planted driver does not start");
                 std::process::exit(9);
             }
             Fault::Process(ProcessFault::Mute, _) => sleep_endlessly(),
+            Fault::Limit(fault) => fault.apply(&mut limits),
             // Keeps the rasterizer's name, so that `etalon diff` compares the two.
             Fault::Slower(percent) => {
                 "cpu".clone_into(&mut info.name);
@@ -55,6 +58,7 @@ impl Faulty {
         Self {
             inner,
             info,
+            limits,
             fault,
             pipe: RefCell::new(pipe),
             messages: RefCell::default(),
@@ -147,7 +151,7 @@ impl Backend for Faulty {
     }
 
     fn limits(&self) -> &Limits {
-        self.inner.limits()
+        &self.limits
     }
 
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {

@@ -1,8 +1,8 @@
 //! `etalon diff`.
 
-use crate::failure::{Failure, IMPROVED, UNEXPECTED};
+use crate::failure::{Failure, IMPROVED, INCOMPLETE, UNEXPECTED};
 use crate::flags::Format;
-use crate::output::{print, print_json, table_options};
+use crate::output::{print, print_json, say, table_options};
 use crate::saved_run::UnpackArguments;
 use clap::{Args, ValueEnum};
 use etalon_record::{Bench, FolderKind, Time};
@@ -112,10 +112,17 @@ fn of_runs(arguments: &Arguments, folders: [&Path; 2]) -> Result<u8, Failure> {
     Ok(code(&diff))
 }
 
-/// Returns 1 if anything is worse, 2 if there are only improvements, 0 otherwise.
+/// Returns 1 if anything is worse, 3 if a run is incomplete, 2 if there are only improvements, 0
+/// otherwise.
 fn code(diff: &RunDiff) -> u8 {
     if diff.worse() {
         UNEXPECTED
+    } else if !diff.incomplete.is_empty() {
+        say!(
+            "{}; what is missing cannot be compared",
+            diff.incomplete.join("; ")
+        );
+        INCOMPLETE
     } else if diff.only_better() {
         IMPROVED
     } else {

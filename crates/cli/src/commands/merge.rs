@@ -1,13 +1,13 @@
 //! `etalon merge`.
 
 use crate::catalogue::{catalogue_of, draws_built_in};
-use crate::failure::{Failure, IMPROVED, UNEXPECTED};
+use crate::failure::{Failure, IMPROVED, INCOMPLETE, UNEXPECTED};
 use crate::flags::Format;
 use crate::news::{NewsArguments, shown};
 use crate::out_folder::Out;
 use crate::output::{print_json, say, summarize, table_options};
-use crate::provenance;
 use crate::saved_run::UnpackArguments;
+use crate::{idle, provenance};
 use clap::Args;
 use etalon_record::{FolderKind, MISSING_FILE, Merge, Merged, Run};
 use etalon_report::{Catalogue, News, OtherFormats, RunReport};
@@ -72,8 +72,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     }
     arguments.news.tell_how_to_add(out);
     let unexpected = news.map_or(merged.unexpected, |news| news.counted());
+    let idle = idle::report(&run);
     Ok(if unexpected > 0 {
         UNEXPECTED
+    } else if idle {
+        INCOMPLETE
     } else if merged.improvements > 0 {
         IMPROVED
     } else {

@@ -5,7 +5,7 @@ use crate::blessing::{bless, to_bless};
 use crate::cases::{chosen, leave_measured, left_out, library, round_trips};
 use crate::catalogue::{Pictures, catalogue};
 use crate::expectations::{ExpectArguments, counting};
-use crate::failure::{Failure, IMPROVED, UNEXPECTED};
+use crate::failure::{Failure, IMPROVED, INCOMPLETE, UNEXPECTED};
 use crate::flags::{AdapterFileArguments, CaseArguments, Format, parse_timeout};
 use crate::interruption::{how_to_resume, listen};
 use crate::known_look::{self, Looks};
@@ -15,7 +15,7 @@ use crate::output::{print_json, say, summarize, table_options};
 use crate::processors::processors;
 use crate::progress::progress;
 use crate::worth::sort_by_worth;
-use crate::{dead, provenance, shard};
+use crate::{dead, idle, provenance, shard};
 use clap::{Args, ValueEnum};
 use etalon_case::Case;
 use etalon_history::FrameTimes;
@@ -113,7 +113,7 @@ pub(crate) struct Arguments {
     pub(crate) shader_cache: CacheState,
     /// Compare unexpected failures with the findings about the driver, by reducing both on it. A failure that
     /// reduces to the same states and violation as a finding's case is known by its look and counts as
-    /// expected. For your own cases
+    /// expected, if another record of this adapter shows the finding. For your own cases
     #[arg(long, conflicts_with = "history")]
     pub(crate) known_by_look: bool,
     /// Failures whose complete frames are kept. Except with `all`, one case per finding and adapter keeps the story
@@ -489,8 +489,11 @@ impl<'a> Results<'a> {
         });
         let news = self.news.as_ref();
         let unexpected = news.map_or(self.summary.unexpected, News::counted);
+        let idle = idle::report(&self.run);
         if unexpected > 0 || !asserted || strict && !self.dead.is_empty() {
             UNEXPECTED
+        } else if idle {
+            INCOMPLETE
         } else if self.summary.improvements > 0 {
             IMPROVED
         } else {

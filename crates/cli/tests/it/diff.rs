@@ -157,6 +157,55 @@ fn runs_that_are_worse_give_one_better_two_and_others_nothing() {
 }
 
 #[test]
+fn a_failure_that_becomes_a_crash_is_worse_and_the_reverse_better() {
+    use Verdict::{Crash, DeviceLost, Fail, NotSupported, Open, Timeout};
+    let folder = tempfile::tempdir().unwrap();
+    let made = |verdict: Verdict| {
+        let path = folder.path().join(verdict.name());
+        run(&path, "cpu", &[verdict]);
+        path
+    };
+    let fail = made(Fail);
+    for lost in [Crash, Timeout, DeviceLost] {
+        let lost = made(lost);
+        diff(&fail, &lost).assert().code(1);
+        diff(&lost, &fail).assert().code(2);
+    }
+    // Nothing is known about the driver any more.
+    for unknown in [Open, NotSupported] {
+        diff(&fail, &made(unknown)).assert().code(0);
+    }
+}
+
+#[test]
+fn an_incomplete_run_is_no_basis_of_a_comparison() {
+    let folder = tempfile::tempdir().unwrap();
+    let made = |name: &str, verdicts: &[Verdict]| {
+        let path = folder.path().join(name);
+        run(&path, "cpu", verdicts);
+        path
+    };
+    let whole = made("whole", &[Verdict::Pass; 2]);
+    let empty = made("empty", &[]);
+    let part = made("part", &[Verdict::Pass; 2]);
+    let records = part.join("run.jsonl");
+    let text = std::fs::read_to_string(&records).unwrap();
+    let first: Vec<&str> = text.split_inclusive('\n').take(2).collect();
+    std::fs::write(&records, first.concat()).unwrap();
+    for (before, words) in [
+        (&part, "1 of 2 records are missing"),
+        (&empty, "no case was run"),
+    ] {
+        diff(before, &whole)
+            .assert()
+            .code(3)
+            .stderr(contains("the first run is incomplete: ").and(contains(words)));
+    }
+    // What is lost is worse.
+    diff(&whole, &part).assert().code(1);
+}
+
+#[test]
 fn runs_are_written_as_json_and_as_a_page() {
     let folder = tempfile::tempdir().unwrap();
     let (a, b) = (folder.path().join("a"), folder.path().join("b"));

@@ -61,7 +61,7 @@ fn what_is_skipped_is_not_drawn_and_is_no_pass() {
     let work = Work::new();
     let file = work.path("e.json");
     write(&file, &[entry("cull/*", "skipped", json!({}))]);
-    work.run(&CRASHING, &file).code(0);
+    work.run(&CRASHING, &file).code(3);
     for record in work.records() {
         assert_eq!(record.verdict, Verdict::Skipped);
         assert!(record.message.contains("it is a test"));

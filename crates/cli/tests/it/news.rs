@@ -271,3 +271,33 @@ fn a_file_that_is_no_history_is_refused_before_anything_is_drawn() {
         .stderr(contains("branch"));
     assert!(!place.path("run").exists());
 }
+
+#[test]
+fn a_failure_that_became_a_crash_is_news_and_a_crash_that_is_not_drawn_is_not_fixed() {
+    let place = Place::new();
+    run(&place, "now", &[]).code(1);
+    let bad = before(&place, "now", "then", "2025-01-01T00:00:00Z", "fail");
+    let n = bad.len();
+    add(&place, "then", "main");
+    compared(&place, "second", &[])
+        .code(1)
+        .stdout(contains(format!("{n} broken since the last run")).and(contains("fail before")));
+    before(
+        &place,
+        "now",
+        "gone",
+        "2026-01-01T00:00:00Z",
+        "not-supported",
+    );
+    before(&place, "now", "crashed", "2025-06-01T00:00:00Z", "crash");
+    add(&place, "crashed", "main");
+    let mut command = etalon(&["merge", "--label", "branch=main", "--history"]);
+    command
+        .arg(place.db())
+        .arg("--out")
+        .arg(place.path("merged"));
+    command.arg(place.path("gone")).assert().code(0).stdout(
+        contains("0 fixed since the last run")
+            .and(contains(format!("{n} no longer counted, but not fixed"))),
+    );
+}

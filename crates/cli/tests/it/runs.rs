@@ -653,3 +653,122 @@ fn a_time_limit_does_not_go_with_an_order_or_a_resume() {
             .stderr(contains("--within"));
     }
 }
+
+#[test]
+fn a_run_that_draws_nothing_is_incomplete() {
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name);
+    let expect = path("expect.json");
+    let entries = json!([expectation("skipped", "cull/points/*")]);
+    fs::write(&expect, json!({ "entries": entries }).to_string()).unwrap();
+    let adapters = ["--adapter", "cpu", "--adapter", "cpu:slower=1%"];
+    let skipped = |out: &str, more: &[&str]| {
+        let given = ["cull/points", "--expect", expect.to_str().unwrap()];
+        run(&path(out), &[&given, &adapters[..2], more].concat())
+    };
+    let line = format!("nothing was drawn: {} skipped\n", count(&["cull/points"]));
+    skipped("whole", &[]).code(3).stderr(contains(&*line));
+    // A shard leaves the decision to the merged run.
+    for shard in ["1/2", "2/2"] {
+        let out = shard.replace('/', "-");
+        skipped(&out, &["--shard", shard])
+            .code(0)
+            .stderr(contains("nothing was drawn").not());
+    }
+    let mut merge = etalon(&["merge", "--out"]);
+    let merge = merge.arg(path("merged")).args([path("1-2"), path("2-2")]);
+    merge.assert().code(3).stderr(contains(&*line));
+    // One case that is drawn suffices.
+    let given = [
+        "cull/points",
+        "cull/lines",
+        "--expect",
+        expect.to_str().unwrap(),
+    ];
+    run(&path("more"), &[&given, &adapters[..2]].concat())
+        .code(0)
+        .stderr(contains("drew no case").not());
+}
+
+#[test]
+fn softpipe_draws_no_multisampling_and_the_run_says_so() {
+    let folder = folder();
+    let softpipe = ["multisample/*", "--adapter", "gl:softpipe"];
+    let assert = run(&folder.path().join("alone"), &softpipe).code(3);
+    let text = String::from_utf8(assert.get_output().stderr.clone()).unwrap();
+    let last = text.lines().last().unwrap();
+    assert!(last.starts_with("nothing was drawn: "), "{text}");
+    let blocked = |record: &&Record| record.verdict == Verdict::Blocked;
+    let alone = whole(&folder.path().join("alone"));
+    let record = alone.records.iter().find(blocked).unwrap();
+    assert!(!record.unexpected(), "{record:?}");
+    let by = &record.blocked_by[0];
+    assert!(by.starts_with("capabilities/required/samples/"), "{by}");
+    // Without the finding, it is news.
+    let unknown = [&softpipe[..], &["--expect-only"]].concat();
+    run(&folder.path().join("unknown"), &unknown).code(1);
+    // With another adapter, the run has drawn something.
+    let two = [&softpipe[..], &["--adapter", "cpu"]].concat();
+    run(&folder.path().join("two"), &two)
+        .code(0)
+        .stderr(contains("gl:softpipe drew no case: ").and(contains("nothing was drawn").not()));
+}
+
+#[test]
+fn what_a_version_requires_is_blocked_and_not_unsupported() {
+    let folder = folder();
+    let out = folder.path().join("out");
+    let given = [
+        "multisample/mask",
+        "depth/compare",
+        "--adapter",
+        "cpu:limit=one-sample",
+    ];
+    run(&out, &given).code(1);
+    let run = whole(&out);
+    let blocked = run.records.iter().filter(|r| r.verdict == Verdict::Blocked);
+    let blocked: Vec<&Record> = blocked.collect();
+    assert!(!blocked.is_empty());
+    for record in blocked {
+        assert!(record.unexpected(), "{record:?}");
+        let words = "denies 4 samples of";
+        assert!(record.message.contains(words), "{}", record.message);
+        assert!(!record.blocked_by.is_empty(), "{record:?}");
+    }
+    let drawn = run.records.iter().filter(|r| r.area() == "depth");
+    assert!(drawn.clone().count() > 0 && drawn.clone().all(|r| r.verdict == Verdict::Pass));
+}
+
+#[test]
+fn a_grid_that_is_too_fine_is_judged_as_the_finest_that_can_be() {
+    let folder = folder();
+    for bits in [13, 25, 63, 64, 65, 128, 192, 255] {
+        let adapter = format!("cpu:limit=sub-pixel-bits-{bits}");
+        let given = ["depth/compare", "scissor/rect", "--adapter", &adapter];
+        let out = folder.path().join(bits.to_string());
+        run(&out, &given).code(0);
+        assert_eq!(whole(&out).header.adapters[0].limits.sub_pixel_bits, 12);
+    }
+}
+
+#[test]
+fn an_adapter_with_an_impossible_limit_is_refused_with_it() {
+    let folder = folder();
+    let given = ["cull/points", "--adapter", "cpu:limit=sample-outside"];
+    run(&folder.path().join("out"), &given)
+        .code(64)
+        .stderr(contains("reports sample 0 of 1 at 640/256, 128/256"));
+    // A run that was recorded with one is damaged.
+    let out = folder.path().join("cpu");
+    run(&out, &["cull/points", "--adapter", "cpu"]).code(0);
+    let path = out.join("run.jsonl");
+    let text = fs::read_to_string(&path).unwrap();
+    let spoilt = text.replacen("[[128,128]]", "[[640,128]]", 1);
+    assert_ne!(spoilt, text);
+    fs::write(&path, spoilt).unwrap();
+    etalon(&["report"])
+        .arg(&out)
+        .assert()
+        .code(64)
+        .stderr(contains("run.jsonl:1: ").and(contains("outside the texel")));
+}

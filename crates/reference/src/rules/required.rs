@@ -31,6 +31,16 @@ pub fn denied(limits: &Limits, requirements: &[Requirement]) -> Option<(Requirem
         .find_map(|needed| Some((*needed, row(limits, *needed)?)))
 }
 
+/// Returns the requirements that the limits deny, if the adapter lacks nothing else; empty if it lacks something
+/// that it is allowed to lack, or nothing at all.
+pub fn only_denied(limits: &Limits, requirements: &[Requirement]) -> Vec<(Requirement, Required)> {
+    let lacking = requirements
+        .iter()
+        .filter(|needed| limits.missing(&[**needed]).is_some());
+    let rows = lacking.map(|needed| denied(limits, &[*needed]));
+    rows.collect::<Option<_>>().unwrap_or_default()
+}
+
 /// Returns the row that requires something of an adapter.
 fn row(limits: &Limits, needed: Requirement) -> Option<Required> {
     let binds = |required: &Required| {
@@ -165,7 +175,7 @@ fn vulkan(rows: &mut Vec<Required>) {
 }
 
 fn opengl(rows: &mut Vec<Required>) {
-    use Requirement::{ColorAttachments, Drawing, Feature as Has, Size};
+    use Requirement::{ColorAttachments, Drawing, Feature as Has, Samples, Size};
     let since = (Api::OpenGl, ApiVersion::new(3, 3));
     let formats = "OpenGL 3.3: 3.8.1, Required Texture Formats";
     let wide = [
@@ -178,6 +188,17 @@ fn opengl(rows: &mut Vec<Required>) {
     add(rows, since, formats, BYTES.map(Drawing));
     add(rows, since, formats, wide.map(Drawing));
     add(rows, since, formats, DEPTH.map(Drawing));
+    let counts = "OpenGL 3.3: 4.4.2, Required Renderbuffer Formats, with up to MAX_SAMPLES samples, which is at least 4; integers have fewer";
+    let four = |format| Samples(format, 4);
+    let floats = [
+        TextureFormat::Rgb10a2Unorm,
+        TextureFormat::Rg11b10Ufloat,
+        TextureFormat::Rgba16Float,
+        TextureFormat::Rgba32Float,
+    ];
+    add(rows, since, counts, BYTES.map(four));
+    add(rows, since, counts, floats.map(four));
+    add(rows, since, counts, DEPTH.map(four));
     add(
         rows,
         since,
@@ -215,7 +236,7 @@ fn opengl(rows: &mut Vec<Required>) {
 }
 
 fn opengl_es(rows: &mut Vec<Required>) {
-    use Requirement::{ColorAttachments, Drawing, Feature as Has, Size};
+    use Requirement::{ColorAttachments, Drawing, Feature as Has, Samples, Size};
     let since = (Api::OpenGlEs, ApiVersion::new(3, 0));
     let formats =
         "OpenGL ES 3.0: 3.8.3.1, Required Texture Formats; 4.4.2.2, Required Renderbuffer Formats";
@@ -229,6 +250,13 @@ fn opengl_es(rows: &mut Vec<Required>) {
     add(rows, since, formats, SHORT.map(Drawing));
     add(rows, since, formats, more.map(Drawing));
     add(rows, since, formats, DEPTH.map(Drawing));
+    let counts = "OpenGL ES 3.0: 4.4.2.2, Required Renderbuffer Formats, with up to MAX_SAMPLES samples, which is at least 4; integers have fewer";
+    let four = |format| Samples(format, 4);
+    let more = [TextureFormat::Rgb10a2Unorm, TextureFormat::Stencil8];
+    add(rows, since, counts, BYTES.map(four));
+    add(rows, since, counts, SHORT.map(four));
+    add(rows, since, counts, more.map(four));
+    add(rows, since, counts, DEPTH.map(four));
     add(
         rows,
         since,

@@ -3,20 +3,13 @@
 //!
 //! Records are matched by case and adapter. `etalon diff` exits with 1 if anything is *worse*:
 //!
-//! - a record is unexpected and its partner in the first run is not;
-//! - a right verdict (Pass, Imprecise, Measured; for a selftest that is due to fail: Fail) became a wrong one
-//!   (all bad verdicts, including Open), or a wrong one became one of a greater
-//!   [`Verdict::severity`](etalon_record::Verdict::severity), expected or not;
-//! - a case was drawn, right or wrong, and is now Blocked;
-//! - a case was right and is no longer supported;
+//! - a case changed for the worse, by the table of [`Change`](etalon_record::Change::between);
 //! - both runs select a case, by their lists of cases, and the second has no record of it;
 //! - the second run lacks an adapter of the first, unless the pair to compare was named.
 //!
-//! *Better* is the reverse: wrong to right or to a smaller severity, not supported to right. All else is
-//! neither: Pass to Imprecise, which is legal; Blocked to wrong, which might have been wrong before; wrong to
-//! not supported; right to skipped, which is intended; a case that one run does not select; and other pixels,
-//! counters or distances under the same verdict. Times decide nothing, because a run takes each once and
-//! while doing other work.
+//! If nothing is worse, and a run is empty or incomplete, the exit code is 3: what it lacks can be worse. *Better* and *other* are by the same table. A case that one run does not select is neither, and so are
+//! other pixels, counters or distances under the same verdict. Times decide nothing, because a run takes each
+//! once and while doing other work.
 
 mod compare;
 mod data;
@@ -68,6 +61,7 @@ pub fn diff(
         warnings: warnings(&runs, same_selection),
         facts: facts::of_headers(&runs[0].header, &runs[1].header),
         untold: untold(&runs),
+        incomplete: untold(&runs),
         unpaired: pairs::unpaired(first, second, &chosen, adapters.is_some()),
         ..RunDiff::default()
     };

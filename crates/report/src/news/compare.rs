@@ -5,7 +5,7 @@ use etalon_history::{
     AdapterRun, History, HistoryError, Kind, Labels, Outcome, RunInfo, Subject, TriageEntry,
     TriageState, TriageStates, format_time, parse_time,
 };
-use etalon_record::{Record, Run, Standing, Verdict};
+use etalon_record::{Change, Record, Run, Standing, Verdict};
 use std::cmp::Reverse;
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -76,7 +76,6 @@ impl News {
             };
             for record in records {
                 let was = old.get(&*record.case);
-                let was_bad = was.is_some_and(|was| was.unexpected());
                 let entry = |note: String| NewsEntry {
                     case: record.case.clone(),
                     adapter: record.adapter.clone(),
@@ -84,9 +83,12 @@ impl News {
                     note,
                 };
                 if !record.unexpected() {
-                    if was_bad {
-                        let was = was.map_or("", |was| was.verdict.name());
-                        news.fixed.push(entry(format!("{was} before")));
+                    if let Some(was) = was.filter(|was| was.unexpected()) {
+                        let entry = entry(format!("{} before", was.verdict.name()));
+                        match Change::between(&**was, record) {
+                            Change::Better => news.fixed.push(entry),
+                            _ => news.undecided.push(entry),
+                        }
                     }
                     continue;
                 }
@@ -100,7 +102,7 @@ impl News {
                     continue;
                 }
                 match was {
-                    Some(was) if was_bad => {
+                    Some(was) if Change::between(&**was, record) != Change::Worse => {
                         let note = if was.verdict == record.verdict {
                             "as before".to_owned()
                         } else {

@@ -87,7 +87,7 @@ pub(crate) fn meaning(verdict: Verdict) -> &'static str {
         Verdict::Fail => "A texel lies outside what the API's text allows.",
         Verdict::RequiredByCts => "The text is open, but a Khronos mustpass case forbids a texel.",
         Verdict::Disputed => "Only a contested reading of the text forbids a texel.",
-        Verdict::Blocked => "Not drawn: a round trip that the case leans on failed.",
+        Verdict::Blocked => "Not drawn: a case that it depends on failed.",
         Verdict::Open => "Nothing could be asserted.",
         Verdict::Measured => "Measured, not judged.",
         Verdict::NotSupported => "The adapter lacks something that the scene needs.",

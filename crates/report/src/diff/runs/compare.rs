@@ -1,57 +1,14 @@
 //! Compares two records of a case.
 
-use super::data::{Change, Detail, Direction};
+use super::data::{Change, Detail};
 use super::pairs::Folder;
 use super::pixels;
 use crate::words::{channel_of, headline};
 use etalon_frame::{Accuracy, WrongTexel};
-use etalon_record::{MAX_WRONG_TEXELS, Record, Verdict};
+use etalon_record::{MAX_WRONG_TEXELS, Record};
 use serde::Serialize;
 use serde_json::json;
 use std::collections::{BTreeMap, HashMap};
-
-/// True if a record is right, false if it is wrong; `None` if it decides neither.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Standing {
-    Right,
-    /// Wrong, with the verdict's severity.
-    Wrong(u8),
-    NotSupported,
-    Skipped,
-}
-
-impl Standing {
-    fn of(record: &Record) -> Self {
-        match record.verdict {
-            Verdict::NotSupported => Self::NotSupported,
-            Verdict::Skipped => Self::Skipped,
-            bad if record.due_fail && bad.is_violation() => Self::Right,
-            // A selftest whose fault was missed is as grave as a failure.
-            good if record.due_fail && !good.is_bad() => Self::Wrong(Verdict::Fail.severity()),
-            bad if bad.is_bad() => Self::Wrong(bad.severity()),
-            _ => Self::Right,
-        }
-    }
-}
-
-/// Returns the direction from one record to the other, as the documentation of [`runs`](super) defines it.
-fn direction(before: &Record, after: &Record) -> Direction {
-    if after.unexpected() && !before.unexpected() {
-        return Direction::Worse;
-    }
-    use Standing::{NotSupported, Right, Wrong};
-    match (Standing::of(before), Standing::of(after)) {
-        (Right, Wrong(_) | NotSupported) => Direction::Worse,
-        (Wrong(_) | NotSupported, Right) => Direction::Better,
-        // Nothing is known about a case that was not drawn. If only the second run lacks it, that is worse;
-        // if the second run adds it as a failure, the failure can be old.
-        (Wrong(_), Wrong(_)) if before.verdict == Verdict::Blocked => Direction::Other,
-        (Wrong(_), Wrong(_)) if after.verdict == Verdict::Blocked => Direction::Worse,
-        (Wrong(old), Wrong(new)) if new > old => Direction::Worse,
-        (Wrong(old), Wrong(new)) if new < old => Direction::Better,
-        _ => Direction::Other,
-    }
-}
 
 /// Returns the differences of two records of a case, or `None` if only times differ.
 pub(super) fn change(
@@ -88,7 +45,7 @@ pub(super) fn change(
         case: before.case.clone(),
         case_file: before.case_file().to_owned(),
         adapter: adapter.map(str::to_owned),
-        direction: direction(before, after),
+        direction: etalon_record::Change::between(before, after).into(),
         what,
         verdict: both.map(|r| r.verdict),
         unexpected: both.map(Record::unexpected),
@@ -255,85 +212,5 @@ fn accuracy(found: &mut Details, before: &[Accuracy], after: &[Accuracy]) {
         };
         found.add("accuracy", format!("{aspect} mean"), old.mean, new.mean);
         found.add("accuracy", format!("{aspect} largest"), old.max, new.max);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use etalon_record::Expected;
-
-    fn record(verdict: Verdict, expected: bool, due_fail: bool) -> Record {
-        let mut record = Record::new("a/b", "cpu", verdict);
-        record.due_fail = due_fail;
-        record.expected = expected.then(|| Expected {
-            reason: "known".to_owned(),
-        });
-        record
-    }
-
-    fn every() -> impl Iterator<Item = Record> {
-        let kinds = [(false, false), (true, false), (false, true)];
-        Verdict::ALL
-            .into_iter()
-            .flat_map(move |v| kinds.map(|(expected, due_fail)| record(v, expected, due_fail)))
-    }
-
-    #[test]
-    fn nothing_is_worse_or_better_than_itself() {
-        for r in every() {
-            assert_eq!(direction(&r, &r), Direction::Other, "{r:?}");
-        }
-    }
-
-    #[test]
-    fn no_way_is_better_both_ways() {
-        for b in every() {
-            for a in every() {
-                let ways = [direction(&b, &a), direction(&a, &b)];
-                assert_ne!(ways, [Direction::Better; 2], "{b:?} {a:?}");
-                if ways[0] == Direction::Better {
-                    assert!(!a.unexpected() || b.unexpected(), "{b:?} {a:?}");
-                }
-                if a.unexpected() && !b.unexpected() {
-                    assert_eq!(ways[0], Direction::Worse);
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn right_to_wrong_is_worse_and_imprecise_is_right() {
-        let plain = |verdict| record(verdict, false, false);
-        let go = |b, a| direction(&plain(b), &plain(a));
-        for right in [Verdict::Pass, Verdict::Imprecise, Verdict::Measured] {
-            for wrong in Verdict::ALL.into_iter().filter(|v| v.is_bad()) {
-                assert_eq!(go(right, wrong), Direction::Worse);
-                assert_eq!(go(wrong, right), Direction::Better);
-            }
-            assert_eq!(go(right, Verdict::NotSupported), Direction::Worse);
-            assert_eq!(go(Verdict::NotSupported, right), Direction::Better);
-            assert_eq!(go(right, Verdict::Skipped), Direction::Other);
-        }
-        assert_eq!(go(Verdict::Pass, Verdict::Imprecise), Direction::Other);
-        assert_eq!(go(Verdict::Open, Verdict::Fail), Direction::Worse);
-        assert_eq!(go(Verdict::Fail, Verdict::Timeout), Direction::Better);
-        assert_eq!(go(Verdict::Fail, Verdict::NotSupported), Direction::Other);
-    }
-
-    #[test]
-    fn expectations_and_selftests_have_their_own_way() {
-        let fail = |expected| record(Verdict::Fail, expected, false);
-        assert_eq!(direction(&fail(true), &fail(false)), Direction::Worse);
-        assert_eq!(direction(&fail(false), &fail(true)), Direction::Other);
-        let caught = |verdict| record(verdict, false, true);
-        assert_eq!(
-            direction(&caught(Verdict::Fail), &caught(Verdict::Pass)),
-            Direction::Worse
-        );
-        assert_eq!(
-            direction(&caught(Verdict::Pass), &caught(Verdict::Fail)),
-            Direction::Better
-        );
     }
 }

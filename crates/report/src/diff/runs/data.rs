@@ -15,6 +15,8 @@ pub struct RunDiff {
     pub warnings: Vec<String>,
     /// The undecided rest of the comparison: missing records, unknown selections, unreadable frames.
     pub untold: Vec<String>,
+    /// For each run that is empty or incomplete, the reason.
+    pub incomplete: Vec<String>,
     /// The headers side by side.
     pub facts: Vec<Fact>,
     /// Adapters without a counterpart.
@@ -86,6 +88,16 @@ impl Direction {
             Self::Worse => "worse",
             Self::Better => "better",
             Self::Other => "other",
+        }
+    }
+}
+
+impl From<etalon_record::Change> for Direction {
+    fn from(change: etalon_record::Change) -> Self {
+        match change {
+            etalon_record::Change::Worse => Self::Worse,
+            etalon_record::Change::Better => Self::Better,
+            etalon_record::Change::Other | etalon_record::Change::Same => Self::Other,
         }
     }
 }

@@ -25,6 +25,7 @@ pub(super) fn section(news: &News) -> Markup {
             @if news.broken.is_empty() && news.fixed.is_empty() { p { "Nothing broke, and nothing was fixed." } }
             (kind("broken", &news.broken))
             (kind("fixed", &news.fixed))
+            (kind("no longer counted, but not fixed", &news.undecided))
             details {
                 summary { "Compared with" }
                 ul { @for (run, adapters) in grouped(runs) {

@@ -1,0 +1,186 @@
+//! Cases that cannot be drawn only because an adapter denies what its API's version requires.
+
+use crate::requirement::{note_requirement, version_text};
+use etalon_case::{Case, Library};
+use etalon_frame::{Limits, Requirement};
+use etalon_record::{AdapterRecord, Expectations, Expected, Record, Verdict};
+use etalon_reference::rules::required::{denied, only_denied};
+use std::mem::discriminant;
+use std::sync::LazyLock;
+
+/// The built-in cases that draw what some version of an API requires, with their requirements.
+static REQUIRED: LazyLock<Vec<(Case, Vec<Requirement>)>> = LazyLock::new(|| {
+    let cases = Library::built_in().cases_that_begin(Case::REQUIREMENTS);
+    let built = cases.filter_map(|case| case.build().ok());
+    built
+        .map(|case| {
+            let requirements = case.requirements();
+            (case, requirements)
+        })
+        .collect()
+});
+
+/// Makes an unsupported case `Blocked` if the adapter lacks nothing for it but what its API's version requires.
+///
+/// The record names the cases of `capabilities/required` that fail for the same reason, whether they are
+/// selected or not. If these failures are expected, so is the record. If the expectations skip one of them,
+/// it was not checked, and the case stays unsupported.
+pub(crate) fn note_denial(
+    record: &mut Record,
+    case: &Case,
+    adapter: &AdapterRecord,
+    expectations: &Expectations,
+) {
+    let limits = &adapter.limits;
+    let missing = only_denied(limits, &case.requirements());
+    let Some((needed, required)) = missing.first() else {
+        return;
+    };
+    let mut failing: Vec<Option<&Case>> = Vec::new();
+    for (needed, row) in &missing {
+        let case = first_denied(limits, *needed, row.citation);
+        if !failing
+            .iter()
+            .any(|other| other.map(|c| &c.id) == case.map(|c| &c.id))
+        {
+            failing.push(case);
+        }
+    }
+    let skipped = |case: &&Case| expectations.skips(adapter, &case.id).is_some();
+    if failing.iter().flatten().any(skipped) {
+        return;
+    }
+    record.verdict = Verdict::Blocked;
+    record.message = format!(
+        "not drawn: the adapter denies {needed}, which {} requires ({})",
+        version_text(limits),
+        required.citation
+    );
+    record.blocked_by = failing.iter().flatten().map(|c| c.id.clone()).collect();
+    let reasons = failing.iter().map(|failing| {
+        let case = (*failing)?;
+        let mut failed = Record::new(&case.id, &adapter.name, Verdict::NotSupported);
+        note_requirement(&mut failed, case, limits);
+        failed.expect(expectations, adapter);
+        Some(format!("{}: {}", case.id, failed.expected?.reason))
+    });
+    let reasons: Option<Vec<String>> = reasons.collect();
+    record.expected = reasons.map(|reasons| Expected {
+        reason: reasons.join("; "),
+    });
+}
+
+/// Returns the case of `capabilities/required` that fails on an adapter because it denies this requirement, or
+/// else a case with a requirement of the same kind and section. Of several, it is the case that lacks least.
+fn first_denied(limits: &Limits, needed: Requirement, citation: &str) -> Option<&'static Case> {
+    let lacking = |requirements: &[Requirement]| {
+        let missing = requirements
+            .iter()
+            .filter(|r| limits.missing(&[**r]).is_some());
+        missing.count()
+    };
+    let denials = REQUIRED.iter().filter_map(|(case, requirements)| {
+        limits.missing(requirements)?;
+        let (other, row) = denied(limits, requirements)?;
+        let alike = discriminant(&other) == discriminant(&needed) && row.citation == citation;
+        alike.then(|| ((other != needed, lacking(requirements)), case))
+    });
+    let nearest = denials.min_by_key(|(distance, _)| *distance);
+    nearest.map(|(_, case)| case)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_backend::Backend;
+    use etalon_cpu::CpuBackend;
+    use etalon_frame::{Api, ApiVersion, Feature};
+    use std::path::Path;
+
+    /// An adapter of OpenGL 3.3 with one sample.
+    fn adapter() -> AdapterRecord {
+        let mut limits = CpuBackend::new("cpu").limits().clone();
+        (limits.api, limits.version) = (Api::OpenGl, ApiVersion::new(3, 3));
+        for support in limits.formats.values_mut() {
+            support.samples.retain(|n| *n == 1);
+        }
+        AdapterRecord {
+            name: "gl:test".to_owned(),
+            backend: "gl".to_owned(),
+            device: String::new(),
+            driver: String::new(),
+            driver_version: String::new(),
+            driver_id: String::new(),
+            api_version: String::new(),
+            software: true,
+            release: None,
+            offer: None,
+            limits,
+        }
+    }
+
+    fn noted(id: &str, adapter: &AdapterRecord, expectations: &str) -> Record {
+        let mut cases = Library::built_in().cases_that_begin(id);
+        let case = cases
+            .next()
+            .and_then(|case| case.build().ok())
+            .expect("a case");
+        let expectations = Expectations::parse(expectations, Path::new("e.json"));
+        let mut record = Record::new(&case.id, &adapter.name, Verdict::NotSupported);
+        note_denial(
+            &mut record,
+            &case,
+            adapter,
+            &expectations.expect("they parse"),
+        );
+        record
+    }
+
+    fn entry(verdict: &str) -> String {
+        format!(
+            r#"[{{ "adapter": "*", "driver": "*", "case": "capabilities/required/samples/*",
+                "verdict": "{verdict}", "reason": "one sample", "evidence": "none" }}]"#
+        )
+    }
+
+    const FOUR: &str = "multisample/mask/mask=first/samples=4";
+
+    #[test]
+    fn a_case_that_lacks_only_what_is_required_is_blocked() {
+        let record = noted(FOUR, &adapter(), "");
+        assert_eq!(record.verdict, Verdict::Blocked);
+        assert_eq!(
+            record.blocked_by,
+            ["capabilities/required/samples/format=rgba8unorm"]
+        );
+        assert_eq!(record.expected, None);
+        let words = "the adapter denies 4 samples of rgba8unorm, which opengl 3.3 requires";
+        assert!(record.message.contains(words), "{}", record.message);
+    }
+
+    #[test]
+    fn a_known_denial_excuses_what_it_blocks() {
+        let record = noted(FOUR, &adapter(), &entry("fail"));
+        assert_eq!(record.verdict, Verdict::Blocked);
+        let reason = record.expected.map(|e| e.reason);
+        let by = "capabilities/required/samples/format=rgba8unorm: one sample";
+        assert_eq!(reason.as_deref(), Some(by));
+        // What is skipped is not checked.
+        let record = noted(FOUR, &adapter(), &entry("skipped"));
+        assert_eq!(record.verdict, Verdict::NotSupported);
+    }
+
+    #[test]
+    fn a_case_that_lacks_something_else_is_not_supported() {
+        let mut exempt = adapter();
+        let formats: Vec<_> = exempt.limits.formats.keys().copied().collect();
+        let samples = formats.into_iter().map(|f| Requirement::Samples(f, 4));
+        exempt.limits.exempt.extend(samples);
+        assert_eq!(noted(FOUR, &exempt, "").verdict, Verdict::NotSupported);
+        // OpenGL 3.3 has no sample shading.
+        let mut less = adapter();
+        less.limits.features.remove(&Feature::SampleShading);
+        let record = noted("multisample/sample-index/mask=all/samples=4", &less, "");
+        assert_eq!(record.verdict, Verdict::NotSupported);
+    }
+}
