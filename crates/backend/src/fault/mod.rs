@@ -81,6 +81,8 @@ mod tests {
             "abort",
             "segv",
             "exit",
+            "child",
+            "close",
             "panic",
             "hang",
             "spin",

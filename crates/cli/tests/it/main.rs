@@ -16,6 +16,7 @@ mod commands;
 mod diff;
 mod driven;
 mod driver_releases;
+mod ends;
 mod etalon;
 mod expectations;
 mod findings;

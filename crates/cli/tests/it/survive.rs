@@ -82,6 +82,23 @@ fn a_crash_records_its_signal_and_its_last_words() {
 }
 
 #[test]
+fn a_driver_that_leaves_a_child_with_its_pipe_has_crashed() {
+    let begun = Instant::now();
+    for record in lost(
+        "child",
+        Verdict::Crash,
+        LossKind::Died,
+        &["--timeout", "20"],
+    ) {
+        let end = record.process.unwrap();
+        assert_eq!((end.signal, end.exit), (Some(6), None));
+        assert!(end.seconds < 10.0, "the child is not waited for");
+        assert_eq!(end.stderr, "planted");
+    }
+    assert!(begun.elapsed() < Duration::from_secs(60));
+}
+
+#[test]
 fn a_hang_costs_its_time_and_nothing_else() {
     for fault in ["hang", "spin"] {
         for record in lost(
