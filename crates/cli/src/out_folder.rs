@@ -39,13 +39,11 @@ impl Claim<'_> {
         let Out { folder, kind, .. } = self.out;
         match Content::writable(folder).map_err(Failure::usage)? {
             Content::Recorded(other) if other != kind => {
-                clear(folder, other, report_files::of(other)).map_err(Failure::usage)?;
+                clear(folder, other, report_files::of(other)).map_err(Failure::of)?;
             }
             // A continued run or bench keeps its reports; a replaced one loses them with its records.
             Content::Recorded(FolderKind::Fuzz | FolderKind::Versions | FolderKind::Hunt) => {
-                report_files::of(kind)
-                    .remove(folder)
-                    .map_err(Failure::usage)?;
+                report_files::of(kind).remove(folder).map_err(Failure::of)?;
             }
             _ => {}
         }
@@ -83,7 +81,7 @@ impl<'a> Out<'a> {
     }
 
     fn lock(self) -> Result<FolderLock, Failure> {
-        FolderLock::acquire(self.folder).map_err(Failure::usage)
+        FolderLock::acquire(self.folder).map_err(Failure::of)
     }
 
     /// Returns true if the command continues the folder's records.

@@ -1,5 +1,7 @@
 //! The names of the files in a recorded folder, and the folder's kind.
 
+use std::fs::{self, File};
+use std::io;
 use std::path::Path;
 
 /// The file of a run folder that holds the header and the records.
@@ -74,5 +76,14 @@ impl FolderKind {
     pub fn of(folder: &Path) -> Option<Self> {
         let mut kinds = Self::ALL.into_iter();
         kinds.find(|kind| folder.join(kind.file()).is_file())
+    }
+}
+
+/// Opens a file of a recorded folder. It must be a regular file: opening a pipe waits until another process writes to it.
+pub(crate) fn open(path: &Path) -> io::Result<File> {
+    if fs::metadata(path)?.is_file() {
+        File::open(path)
+    } else {
+        Err(io::Error::other("it is not a regular file"))
     }
 }

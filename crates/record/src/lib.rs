@@ -12,6 +12,7 @@
 )]
 
 mod adapter;
+mod bad_end;
 mod bench;
 mod clear;
 mod conflict;
@@ -50,6 +51,7 @@ mod versions;
 mod writer;
 
 pub use adapter::{AbsentAdapter, AdapterRecord, Release};
+pub use bad_end::{BAD_ENDS_FILE, BadEnd};
 pub use bench::{
     BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchRecord, BenchSettings, BenchWriter, CellRate,
     Counted, Done, Ended, Enough, InstructionCounter, Measure, Picture, ProcessorLimits, Round,

@@ -1,8 +1,9 @@
 //! Merging several runs into one: shards of a selection, or adapters that ran elsewhere.
 
+use crate::bad_end::BadEnd;
 use crate::dead::Dead;
 use crate::error::RecordError;
-use crate::folder::{CASES_FILE, MISSING_FILE};
+use crate::folder::{CASES_FILE, MISSING_FILE, open};
 use crate::header::{FORMAT, Header, Settings};
 use crate::paths::below;
 use crate::record::Record;
@@ -26,6 +27,7 @@ pub struct Merge {
     merged: Merged,
     /// The dead expectations that all parts have in common.
     dead: Vec<Dead>,
+    bad_ends: Vec<BadEnd>,
 }
 
 /// The counts of a merge.
@@ -71,10 +73,12 @@ impl Merge {
         let ids = selection(&parts)?;
         let header = header(first, &parts)?;
         let mut dead = Dead::read(first)?;
+        let mut bad_ends = Vec::new();
         for (folder, _) in &parts {
             let also = Dead::read(folder)?;
             // An expectation that matched nothing in this part can match in another part.
             dead.retain(|entry| also.contains(entry));
+            BadEnd::add(&mut bad_ends, BadEnd::read(folder)?);
         }
         let mut merge = Self {
             header,
@@ -82,6 +86,7 @@ impl Merge {
             records: HashMap::new(),
             merged,
             dead,
+            bad_ends,
         };
         for (folder, run) in parts {
             merge.take(folder, run)?;
@@ -163,6 +168,7 @@ impl Merge {
         }
         writer.sync()?;
         Dead::write(out, &self.dead)?;
+        BadEnd::write(out, &self.bad_ends)?;
         if !merged.missing.is_empty() {
             let lines = merged.missing.iter();
             let text: String = lines.map(|(a, c)| format!("{a} {c}\n")).collect();
@@ -359,7 +365,7 @@ fn copy(from: &Path, to: &Path, file: &str) -> Result<(), RecordError> {
     if let Some(parent) = to.parent() {
         fs::create_dir_all(parent).map_err(RecordError::io("create", parent))?;
     }
-    match fs::copy(&from, &to) {
+    match open(&from).and_then(|_| fs::copy(&from, &to)) {
         Err(e) if e.kind() != ErrorKind::NotFound => Err(RecordError::io("copy", &from)(e)),
         _ => Ok(()),
     }

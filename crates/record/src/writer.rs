@@ -1,5 +1,6 @@
 //! Writing a run folder.
 
+use crate::bad_end::BAD_ENDS_FILE;
 use crate::conflict::resume_conflict;
 use crate::content::Content;
 use crate::error::RecordError;
@@ -34,7 +35,7 @@ const SYNC_EVERY: Duration = Duration::from_secs(1);
 pub(crate) const BESIDE: ReportFiles = ReportFiles {
     // Earlier versions wrote frames uncompressed.
     folders: &[(FRAMES, "gz"), (FRAMES, "json"), (PICTURES, "png")],
-    files: &[MISSING_FILE, DEAD_FILE, CASES_FILE],
+    files: &[MISSING_FILE, DEAD_FILE, BAD_ENDS_FILE, CASES_FILE],
 };
 
 impl Run {

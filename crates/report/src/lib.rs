@@ -55,8 +55,8 @@ pub use methods::methods_html;
 pub use news::{News, NewsEntry, Since, news_table};
 pub use picture::{Ringed, Thumbnails, ringed_pictures};
 pub use run::{
-    OtherFormats, RUN_FILES, RUN_FOLDERS, RecordLine, RunReports, dead_lines, record_html, table,
-    write, write_run_with_news,
+    OtherFormats, RUN_FILES, RUN_FOLDERS, RecordLine, RunReports, bad_end_lines, dead_lines,
+    record_html, table, write, write_run_with_news,
 };
 pub use site::{SITE_FILE, write_site};
 pub use staged::WrittenFolder;

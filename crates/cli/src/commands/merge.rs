@@ -10,7 +10,7 @@ use crate::output::{print_json, say, summarize, table_options};
 use crate::saved_run::folders;
 use crate::{provenance, report_files};
 use clap::Args;
-use etalon_record::{FolderKind, MISSING_FILE, Merge, Merged, Run};
+use etalon_record::{BadEnd, FolderKind, MISSING_FILE, Merge, Merged, Run};
 use etalon_report::{News, OtherFormats};
 use serde_json::json;
 use std::collections::BTreeSet;
@@ -68,12 +68,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let news = arguments.news.news(&run)?;
     print(arguments, &merged, &run, news.as_ref())?;
     print_overlap(&merged);
+    let bad_ends = BadEnd::read(out).map_err(Failure::incomplete)?;
+    if !bad_ends.is_empty() {
+        say!("{}", etalon_report::bad_end_lines(&bad_ends));
+    }
     if !merged.missing.is_empty() || !merged.empty.is_empty() {
         return Err(Failure::incomplete(holes(&merged, out)));
     }
     arguments.news.tell_how_to_add(out);
     let unexpected = news.map_or(merged.unexpected, |news| news.counted());
-    Ok(if unexpected > 0 {
+    Ok(if unexpected > 0 || !bad_ends.is_empty() {
         UNEXPECTED
     } else if merged.improvements > 0 {
         IMPROVED

@@ -57,7 +57,7 @@ fn of_run(folder: &Path, arguments: &Arguments, options: TableOptions) -> Result
     let shown = shown(&run, news.as_ref());
     let formats = arguments.formats();
     let written = etalon_report::write_run_with_news(folder, &shown, news.as_ref(), formats)
-        .map_err(Failure::usage)?;
+        .map_err(Failure::of)?;
     if let Some(news) = &news {
         summarize(&etalon_report::news_table(news, options));
     }
@@ -85,7 +85,7 @@ fn of_run(folder: &Path, arguments: &Arguments, options: TableOptions) -> Result
 
 fn bench(folder: &Path, options: TableOptions) -> Result<u8, Failure> {
     let bench = Bench::read(folder).map_err(Failure::usage)?;
-    let written = etalon_report::write_bench(folder).map_err(Failure::usage)?;
+    let written = etalon_report::write_bench(folder).map_err(Failure::of)?;
     summarize(&etalon_report::bench_table(&bench, options));
     summarize(&etalon_report::matrix_table(&bench, options));
     let matrix = written.matrix.into_iter().flatten();
