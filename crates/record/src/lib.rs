@@ -39,6 +39,7 @@ mod lock;
 mod machine;
 mod measured;
 mod merge;
+mod parts;
 mod paths;
 mod record;
 mod report_files;
