@@ -1,7 +1,7 @@
 //! Reading a run folder.
 
 use crate::error::RecordError;
-use crate::folder::RUN_FILE;
+use crate::folder::{RUN_FILE, open};
 use crate::frame_file::FrameFile;
 use crate::header::{FORMAT, Header};
 use crate::json::without_position;
@@ -9,7 +9,6 @@ use crate::json_lines::JsonLines;
 use crate::paths::below;
 use crate::record::{MAX_LINE, Record};
 use flate2::read::GzDecoder;
-use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 
@@ -56,7 +55,7 @@ impl Run {
     /// Like [`Run::read`], and also returns the length of the header and the whole records in bytes.
     pub(crate) fn read_prefix(folder: &Path) -> Result<(Self, u64), RecordError> {
         let path = folder.join(RUN_FILE);
-        let file = File::open(&path).map_err(|e| match e.kind() {
+        let file = open(&path).map_err(|e| match e.kind() {
             ErrorKind::NotFound => RecordError::NoRun {
                 path: folder.to_owned(),
             },
@@ -107,7 +106,7 @@ impl Run {
         let path = folder.join(below(frame)?);
         let mut bytes = Vec::new();
         let packed = path.extension().is_some_and(|extension| extension == "gz");
-        File::open(&path)
+        open(&path)
             .and_then(|file| {
                 let contents: Box<dyn Read> = if packed {
                     Box::new(GzDecoder::new(file))
@@ -137,7 +136,7 @@ impl Run {
     ) -> Result<Option<Vec<u8>>, RecordError> {
         let path = folder.join(below(picture)?);
         let mut bytes = Vec::new();
-        File::open(&path)
+        open(&path)
             .and_then(|file| file.take(most.saturating_add(1)).read_to_end(&mut bytes))
             .map_err(RecordError::io("read", &path))?;
         let is_picture = bytes.len() as u64 <= most && bytes.starts_with(PNG);

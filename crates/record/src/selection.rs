@@ -3,12 +3,12 @@
 //! The digest lets runs that have only some of the records prove that they are parts of one run.
 
 use crate::error::RecordError;
-use crate::folder::CASES_FILE;
+use crate::folder::{CASES_FILE, open};
 use crate::hash::fnv;
 use crate::header::Header;
 use etalon_frame::without_mark;
 use std::collections::BTreeSet;
-use std::fs::{self, File};
+use std::fs;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 
@@ -43,7 +43,7 @@ pub fn shard_of(id: &str, count: u32) -> u32 {
 pub fn read_cases(folder: &Path, header: &Header) -> Result<Option<Vec<String>>, RecordError> {
     let path = folder.join(CASES_FILE);
     let mut text = String::new();
-    let file = match File::open(&path) {
+    let file = match open(&path) {
         Ok(file) => file,
         Err(e) if e.kind() == ErrorKind::NotFound => return Ok(None),
         Err(e) => return Err(RecordError::io("read", &path)(e)),

@@ -4,13 +4,13 @@
 //! neighbours if both have the same, and a release in the middle of each such span is drawn to check this.
 
 use crate::error::RecordError;
-use crate::folder::VERSIONS_FILE;
+use crate::folder::{VERSIONS_FILE, open};
 use crate::json::json_line;
 use crate::json_lines::JsonLines;
 use crate::machine::Machine;
 use crate::verdict::Verdict;
 use serde::{Deserialize, Serialize};
-use std::fs::{self, File};
+use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -182,7 +182,7 @@ impl Versions {
     /// If the file does not exist or is damaged.
     pub fn read(folder: &Path) -> Result<Self, RecordError> {
         let path = folder.join(VERSIONS_FILE);
-        let file = File::open(&path).map_err(RecordError::io("open", &path))?;
+        let file = open(&path).map_err(RecordError::io("open", &path))?;
         Self::parse(&path, file)
     }
 

@@ -13,6 +13,7 @@ mod check;
 mod ci_files;
 mod circles;
 mod commands;
+mod damaged_history;
 mod diff;
 mod driven;
 mod driver_releases;
