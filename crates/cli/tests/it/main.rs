@@ -24,6 +24,7 @@ mod findings;
 mod folders;
 mod fuzz;
 mod help;
+mod hidden;
 mod history;
 mod history_export;
 mod house;
