@@ -47,7 +47,7 @@ impl Failure {
         }
     }
 
-    /// Returns the failure of an error in what the user gave; a disk without space is none.
+    /// Returns the failure of an error in what the user gave; a full disk is incomplete.
     pub(crate) fn of(error: impl Error + 'static) -> Self {
         if is_full(&error) {
             Self::incomplete(error)

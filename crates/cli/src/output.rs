@@ -64,7 +64,7 @@ fn json_escape(c: char) -> String {
     units.map(|unit| format!("\\u{unit:04x}")).collect()
 }
 
-/// Returns a text whose hidden characters, except those that make lines, are escaped.
+/// Returns a text whose hidden characters, except tabs and ends of lines, are escaped.
 fn escaped(text: &str, escape: impl Fn(char) -> String) -> String {
     let mut result = String::with_capacity(text.len());
     for c in text.chars() {

@@ -14,8 +14,8 @@ pub fn shortened(text: &str) -> String {
     format!("{head} […] {tail}")
 }
 
-/// Returns true if a terminal obeys a character instead of showing it, or if nobody sees it: control characters, and
-/// those that change the direction of reading, break lines or have no width.
+/// Returns true if a terminal obeys a character instead of showing it, or if it cannot be seen: control characters, and
+/// characters that change the direction of reading, break lines or have no width.
 pub fn is_hidden(c: char) -> bool {
     c.is_control()
         || matches!(c,

@@ -11,7 +11,7 @@ struct Reached {
     open: Vec<usize>,
 }
 
-/// Returns true if the steps, none of which is a jump, take the whole text.
+/// Returns true if the steps take the whole text. No step is a jump.
 pub(crate) fn is_match_without_jumps(steps: &[Step], text: &str) -> bool {
     let (mut at, mut rest) = (0, text);
     // The step after the last star, and the text at which it was tried last. An earlier star never has to take more.

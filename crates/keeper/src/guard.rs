@@ -1,13 +1,12 @@
-//! The guard of a program: a process between the program and the one that needs it.
+//! The guard of a program: a process between the program and its user.
 //!
-//! The two are in one process group. The guard's standard input is a pipe from the process that needs the program. When
-//! that ends, even by SIGKILL and before the program has done anything, the guard kills the group.
+//! Guard and program are in one process group. The guard's standard input is a pipe from the process that uses the
+//! program. When that process ends, even by SIGKILL and before the program has done anything, the guard kills the group.
 
+use etalon_process::Parent;
 use std::ffi::OsString;
 use std::io;
 use std::process::{Command, ExitStatus, Stdio};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
@@ -29,17 +28,15 @@ pub fn guard(words: &[OsString], input: bool) -> io::Result<ExitStatus> {
     }
     // A guard that is killed takes the program along.
     etalon_process::end_with_thread(&mut command);
-    let has_ended = Arc::new(AtomicBool::new(false));
-    let ended = Arc::clone(&has_ended);
-    thread::Builder::new().spawn(move || {
+    let parent = Parent::now();
+    thread::Builder::new().spawn(|| {
         etalon_process::wait_for_end_of_input();
-        ended.store(true, Ordering::SeqCst);
         thread::sleep(GRACE);
         etalon_process::end_group()
     })?;
     let status = command.spawn()?.wait()?;
-    if has_ended.load(Ordering::SeqCst) {
-        // The program might have left children.
+    if parent.has_ended() {
+        // Nothing else ends children that the program has left.
         etalon_process::end_group()
     }
     Ok(status)

@@ -97,7 +97,7 @@ impl Dead {
 
 /// The most comparisons of a glob with an id, or of one expectation with another, that the search for dead expectations
 /// makes: about as many as a second takes.
-const MOST_COMPARISONS: u64 = 10_000_000;
+const MOST_COMPARISONS: u64 = 5_000_000;
 
 impl Expectations {
     /// Returns the dead expectations, sorted by kind and then in the order of their files. `ids` returns all
@@ -241,7 +241,7 @@ struct Excuses<'r> {
 /// What became of the cases of an expectation.
 #[derive(Clone, Copy, Default)]
 struct Outcome {
-    /// True if it can be told from a run whether an expectation is needed.
+    /// True if a run can show whether the expectation is needed.
     tells: bool,
     /// True if it excused a verdict.
     excused: bool,

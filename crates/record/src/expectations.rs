@@ -17,7 +17,7 @@ use etalon_glob::{Glob, GlobIndex};
 use semver::VersionReq;
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File};
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
@@ -255,7 +255,7 @@ pub enum Expectation<'a> {
     Differs(&'a Known),
 }
 
-/// The maximum number of bytes of a file that are read; a longer file does not parse.
+/// The maximum number of bytes of a file.
 const MAX_BYTES: u64 = 64 << 20;
 const REMEDY: &str = "each entry needs adapter, driver, case, verdict, reason and evidence";
 
@@ -630,9 +630,15 @@ impl Expectations {
 
 fn text_of(path: &Path) -> Result<String, RecordError> {
     let mut text = String::new();
-    File::open(path)
-        .and_then(|file| file.take(MAX_BYTES).read_to_string(&mut text))
-        .map_err(RecordError::io("read", path))?;
+    let read = File::open(path).and_then(|file| {
+        file.take(MAX_BYTES + 1).read_to_string(&mut text)?;
+        if text.len() as u64 > MAX_BYTES {
+            let message = format!("it is longer than {} MiB", MAX_BYTES >> 20);
+            return Err(io::Error::other(message));
+        }
+        Ok(())
+    });
+    read.map_err(RecordError::io("read", path))?;
     Ok(without_mark(&text).to_owned())
 }
 

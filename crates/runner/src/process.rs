@@ -322,8 +322,13 @@ impl WorkerProcess {
     /// exit.
     pub(crate) fn bad_end(mut self) -> Option<ExitReport> {
         self.requests = None;
-        let status = self.wait(CLOSE_TIMEOUT)?;
-        if status.success() {
+        let Some(status) = self.wait(CLOSE_TIMEOUT) else {
+            self.kill();
+            return None;
+        };
+        // A launcher has a status of its own.
+        let is_bad = etalon_process::signal(status).is_some() || !self.launched;
+        if status.success() || !is_bad {
             return None;
         }
         let words = self.stderr.text(LAST_WORDS);

@@ -131,7 +131,7 @@ fn names_in_records_lists_and_commands_are_printable() {
         &["diff", &before, &after],
         &["diff", &before, &after, "--format", "json"],
         &["merge", &after, "--out", &path("merged")],
-        &["site", &after, "--out", &path("site")],
+        &["site", &path("site"), &after],
         &["history", "add", &before, &after, "--db", &db],
         &["history", "show", &case, "--db", &db],
         &["history", "triage", "--db", &db],

@@ -418,7 +418,7 @@ fn a_pipe_in_place_of_a_frame_is_named_and_not_waited_for() {
     let out = out.to_str().unwrap();
     ended(&["report", run]);
     ended(&["diff", run, run]);
-    ended(&["site", run, "--out", &format!("{out}-site")]);
+    ended(&["site", &format!("{out}-site"), run]);
     let merged = ended(&["merge", run, "--out", &format!("{out}-merged")]);
     let explained = ended(&["explain", &record.case, "--texel", "0,0", "--run", run]);
     let bundled = ended(&[
@@ -468,7 +468,7 @@ fn a_file_that_may_not_grow_is_told_with_the_code_of_a_full_disk() {
         format!("merge {run} --out {out}-4"),
         format!("report {run}"),
         format!("history add {run} --db {out}-5.db"),
-        format!("site {run} --out {out}-6"),
+        format!("site {out}-6 {run}"),
         format!("run cull/lines --adapter cpu --force --out {run}"),
     ] {
         let script = format!("ulimit -f 0; exec \"$0\" {words}");

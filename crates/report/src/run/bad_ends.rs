@@ -4,8 +4,8 @@ use crate::numbers::count;
 use crate::words::plain;
 use etalon_record::BadEnd;
 
-/// Returns the workers that failed after their last case for a terminal, one line each; empty if there are none. The text
-/// does not end in a newline.
+/// Returns the workers that failed after their last case for a terminal, one line each. The text does not end in a
+/// newline.
 pub fn bad_end_lines(ends: &[BadEnd]) -> String {
     let lines = ends.iter().map(|end| {
         let workers = count(end.workers, "worker");
