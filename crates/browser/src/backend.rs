@@ -198,7 +198,9 @@ impl PreparedScene<'_> {
                 read,
             };
             let contents = if new { self.contents.as_slice() } else { &[] };
-            let answer = backend.session.ask(&request, contents)?;
+            let bytes = if read { self.list.reading.bytes } else { 0 };
+            let bytes = usize::try_from(bytes).unwrap_or(usize::MAX);
+            let answer = backend.session.ask(&request, contents, bytes)?;
             let Some((answer, bytes)) = answer else {
                 if !backend.session.comes_back() {
                     backend.session.give_up();

@@ -2,23 +2,29 @@
 
 use crate::page::{FILES, SOCKET};
 use crate::request_head::{MAX_BYTES, RequestHead};
+use std::collections::VecDeque;
 use std::io::{self, Read, Write};
-use std::net::{SocketAddr, TcpListener, TcpStream};
-use std::sync::Arc;
+use std::net::{Shutdown, SocketAddr, TcpListener, TcpStream};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 use tungstenite::WebSocket;
 use tungstenite::handshake::server::{Request, Response};
 use tungstenite::protocol::WebSocketConfig;
 
-/// The longest wait for the head of a request: browsers open connections before they need them.
-const HEAD_TIMEOUT: Duration = Duration::from_secs(20);
+/// The longest wait for the head of a request. A browser that opens a connection before it needs one opens another.
+const HEAD_TIMEOUT: Duration = Duration::from_secs(2);
+/// The longest wait for a reader.
+const ANSWER_TIMEOUT: Duration = Duration::from_secs(20);
 /// The pause between checks of an incomplete head.
-const PAUSE: Duration = Duration::from_millis(1);
-/// The largest message of a page in bytes.
-const MAX_MESSAGE: usize = 1 << 30;
+const PAUSE: Duration = Duration::from_millis(10);
+/// The number of connections whose heads are awaited at the same time. One more ends the oldest. Addresses do not count:
+/// behind a proxy all have the same.
+const MOST_WAITING: usize = 16;
+/// The largest greeting of a page in bytes.
+pub(crate) const MAX_GREETING: usize = 1 << 20;
 
 /// The headers of every answer. The last two give the page's clock a resolution of 5 µs instead of 100.
 const HEADERS: &str = "Cache-Control: no-store\r\n\
@@ -35,9 +41,46 @@ pub(crate) struct Socket {
     taken: Arc<AtomicBool>,
 }
 
+impl Socket {
+    /// Refuses later messages that are longer than `most` bytes.
+    pub(crate) fn limit(&mut self, most: usize) {
+        self.socket.set_config(|config| {
+            config.max_message_size = Some(most);
+            config.max_frame_size = Some(most);
+        });
+    }
+}
+
 impl Drop for Socket {
     fn drop(&mut self) {
         self.taken.store(false, Ordering::SeqCst);
+    }
+}
+
+/// The connections whose heads have not come yet, the oldest first.
+#[derive(Default)]
+struct Waiting {
+    streams: VecDeque<(u64, TcpStream)>,
+    next: u64,
+}
+
+impl Waiting {
+    /// Adds a connection and returns its number. Ends the oldest if there are too many.
+    fn add(&mut self, stream: &TcpStream) -> io::Result<u64> {
+        let number = self.next;
+        self.next += 1;
+        self.streams.push_back((number, stream.try_clone()?));
+        if self.streams.len() > MOST_WAITING
+            && let Some((_, oldest)) = self.streams.pop_front()
+        {
+            // The other side can have ended it.
+            let _ = oldest.shutdown(Shutdown::Both);
+        }
+        Ok(number)
+    }
+
+    fn remove(&mut self, number: u64) {
+        self.streams.retain(|(other, _)| *other != number);
     }
 }
 
@@ -59,13 +102,21 @@ impl Server {
         let (sender, sockets) = channel();
         let token: Arc<str> = token.into();
         let taken = Arc::new(AtomicBool::new(false));
+        let waiting = Arc::<Mutex<Waiting>>::default();
         thread::Builder::new().spawn(move || {
             for stream in listener.incoming().flatten() {
                 let (token, taken, sender) =
                     (Arc::clone(&token), Arc::clone(&taken), sender.clone());
+                let waiting = Arc::clone(&waiting);
+                let Ok(number) = lock(&waiting).add(&stream) else {
+                    continue;
+                };
                 // A connection without a request must not make others wait. Its errors affect nothing else.
-                let _ =
-                    thread::Builder::new().spawn(move || serve(stream, &token, &taken, &sender));
+                let _ = thread::Builder::new().spawn(move || {
+                    let head = awaited_head(&stream);
+                    lock(&waiting).remove(number);
+                    serve(stream, head?, &token, &taken, &sender)
+                });
             }
         })?;
         Ok(Self { address, sockets })
@@ -87,17 +138,27 @@ impl Server {
     }
 }
 
+fn lock(waiting: &Mutex<Waiting>) -> MutexGuard<'_, Waiting> {
+    waiting.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Waits for the head of a connection's request; see [`peek_head`].
+fn awaited_head(stream: &TcpStream) -> io::Result<Option<RequestHead>> {
+    stream.set_nodelay(true)?;
+    stream.set_read_timeout(Some(HEAD_TIMEOUT))?;
+    stream.set_write_timeout(Some(ANSWER_TIMEOUT))?;
+    peek_head(stream)
+}
+
 /// Answers the request of a connection.
 fn serve(
     mut stream: TcpStream,
+    head: Option<RequestHead>,
     token: &str,
     taken: &Arc<AtomicBool>,
     sockets: &Sender<Socket>,
 ) -> io::Result<()> {
-    stream.set_nodelay(true)?;
-    stream.set_read_timeout(Some(HEAD_TIMEOUT))?;
-    stream.set_write_timeout(Some(HEAD_TIMEOUT))?;
-    let Some(head) = peek_head(&stream)? else {
+    let Some(head) = head else {
         return answer(&mut stream, "400 Bad Request", "text/plain", "");
     };
     let path = head.path_behind(token);
@@ -113,8 +174,8 @@ fn serve(
         }
         let taken = Arc::clone(taken);
         let mut config = WebSocketConfig::default();
-        config.max_message_size = Some(MAX_MESSAGE);
-        config.max_frame_size = Some(MAX_MESSAGE);
+        config.max_message_size = Some(MAX_GREETING);
+        config.max_frame_size = Some(MAX_GREETING);
         #[expect(clippy::result_large_err, reason = "the signature is tungstenite's")]
         let admit = |_: &Request, response: Response| Ok(response);
         match tungstenite::accept_hdr_with_config(stream, admit, Some(config)) {

@@ -12,6 +12,10 @@ use tungstenite::{Error, Message};
 const SILENCE: Duration = Duration::from_secs(10);
 /// The time in which a page must send its greeting.
 const GREETING: Duration = Duration::from_secs(40);
+/// The largest header of an answer in bytes, without the times of its frames.
+const MAX_HEADER: usize = 1 << 20;
+/// The largest text of the times of a frame in bytes.
+const MAX_TIMES: usize = 256;
 
 /// A server, its page and the browser that shows it.
 pub(crate) struct Session {
@@ -39,8 +43,23 @@ impl Session {
     }
 
     /// Waits for a page until `deadline`. Returns the description of its device, or the reason why no page
-    /// came.
+    /// came. A person can close the page before its greeting, and open it again.
     pub(crate) fn greeting(&self, deadline: Instant) -> Result<Hello, String> {
+        loop {
+            match self.next_greeting(deadline)? {
+                Some(hello) => return Ok(hello),
+                None if self.comes_back() => {}
+                None => {
+                    return Err(
+                        "the page closed its connection before sending a greeting".to_owned()
+                    );
+                }
+            }
+        }
+    }
+
+    /// Returns the greeting of the next page, or `None` if it closed its connection before.
+    fn next_greeting(&self, deadline: Instant) -> Result<Option<Hello>, String> {
         let lives = || {
             let mut kept = self.kept.borrow_mut();
             kept.as_mut().is_none_or(Kept::lives)
@@ -56,9 +75,7 @@ impl Session {
         let text = match message {
             Ok(Message::Text(text)) => text,
             Ok(_) => return Err("the page's first message is not a greeting".to_owned()),
-            Err(_) => {
-                return Err("the page closed its connection before sending a greeting".to_owned());
-            }
+            Err(_) => return Ok(None),
         };
         let greeting: Greeting = serde_json::from_str(&text)
             .map_err(|error| format!("the page's first message is not a greeting: {error}"))?;
@@ -74,7 +91,7 @@ impl Session {
         }
         let hello = hello?;
         self.socket.replace(Some(socket));
-        Ok(hello)
+        Ok(Some(hello))
     }
 
     /// Returns true if a person opened the page, who can open it again.
@@ -83,7 +100,7 @@ impl Session {
     }
 
     /// Sends a request and returns the header and the bytes of the answer, or `None` if the connection ended
-    /// first.
+    /// first. The answer has at most `bytes` bytes after its header.
     ///
     /// # Errors
     /// If the request cannot be sent, or the page's message is not its answer.
@@ -91,13 +108,18 @@ impl Session {
         &self,
         request: &Request<'_>,
         contents: &[Vec<u8>],
+        bytes: usize,
     ) -> Result<Option<(Answer, Vec<u8>)>, BackendError> {
         let message = packed(request, contents.iter().map(Vec::as_slice));
         let message =
             message.map_err(|error| BackendError::internal_of("a list is not sent", error))?;
         let mut socket = self.socket.borrow_mut();
         let answer = match socket.as_mut() {
-            Some(socket) => exchange(socket, message),
+            Some(socket) => {
+                let times = MAX_TIMES.saturating_mul(request.frames as usize);
+                socket.limit(MAX_HEADER.saturating_add(times).saturating_add(bytes));
+                exchange(socket, message)
+            }
             None => Err(Gone::Closed),
         };
         match answer {

@@ -2,7 +2,9 @@
 
 use crate::failure::Failure;
 use crate::output::say;
+use crate::worker::guard;
 use etalon_bundle::{File, Language, Program};
+use etalon_process::Group;
 use etalon_runner::Launch;
 use std::fs;
 use std::io;
@@ -165,31 +167,41 @@ fn place() -> Option<PathBuf> {
 /// Runs the program in a folder with the environment of a driver.
 fn run(folder: &Path, launch: &Launch, timeout: Duration) -> io::Result<ProgramRun> {
     let out = folder.join("out");
-    let mut command = Command::new(folder.join("repro"));
+    let program = folder.join("repro");
+    // Windows ends the program by its job object.
+    let mut command = if cfg!(unix) {
+        let mut guard = guard(false)?;
+        guard.arg(program);
+        guard
+    } else {
+        Command::new(program)
+    };
     for (name, value) in &launch.environment {
         match value {
             Some(value) => command.env(name, value),
             None => command.env_remove(name),
         };
     }
-    let mut child = command
+    command
         .current_dir(folder)
-        .stdin(Stdio::null())
+        // The end of this pipe shows that this process ended.
+        .stdin(Stdio::piped())
         .stdout(fs::File::create(&out)?)
-        .stderr(Stdio::null())
-        .spawn()?;
+        .stderr(Stdio::null());
+    let (mut child, group) = Group::start(&mut command)?;
     let begun = Instant::now();
     let ended = loop {
         if let Some(status) = child.try_wait()? {
             break Some(status);
         }
         if begun.elapsed() >= timeout {
-            child.kill()?;
+            group.kill();
             child.wait()?;
             break None;
         }
         sleep(PAUSE);
     };
+    group.kill();
     let text = fs::read(&out)?;
     let text = String::from_utf8_lossy(&text);
     Ok(ProgramRun {

@@ -1,7 +1,8 @@
 //! Errors of commands: a message and an exit code.
 
+use std::error::Error;
 use std::fmt::Display;
-use std::io;
+use std::io::{self, ErrorKind};
 
 /// Wrong usage or bad input.
 pub(crate) const USAGE: u8 = 64;
@@ -13,6 +14,21 @@ pub(crate) const INCOMPLETE: u8 = 3;
 pub(crate) const IMPROVED: u8 = 2;
 /// An unexpected bad result.
 pub(crate) const UNEXPECTED: u8 = 1;
+
+/// Returns true if the disk is full, or a file or a user may not become larger.
+fn is_full(error: &(dyn Error + 'static)) -> bool {
+    let mut error = Some(error);
+    while let Some(cause) = error {
+        let kind = cause.downcast_ref().map(io::Error::kind);
+        if let Some(ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge) =
+            kind
+        {
+            return true;
+        }
+        error = cause.source();
+    }
+    false
+}
 
 /// The error that ended a command early.
 #[derive(Debug)]
@@ -28,6 +44,15 @@ impl Failure {
         Self {
             code: USAGE,
             message: message.to_string(),
+        }
+    }
+
+    /// Returns the failure of an error in what the user gave; a full disk is incomplete.
+    pub(crate) fn of(error: impl Error + 'static) -> Self {
+        if is_full(&error) {
+            Self::incomplete(error)
+        } else {
+            Self::usage(error)
         }
     }
 

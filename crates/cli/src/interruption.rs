@@ -3,19 +3,43 @@
 use crate::failure::{Failure, INCOMPLETE};
 use crate::output::say;
 use crate::provenance;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// Returns a flag that the first SIGINT or SIGTERM sets; a second one ends the process immediately.
+/// The number of [`Opening`]s.
+static OPENING: AtomicUsize = AtomicUsize::new(0);
+
+/// Returns a flag that the first SIGINT or SIGTERM sets; a second one ends the process immediately, and so does the
+/// first while adapters are opened.
 pub(crate) fn listen() -> Result<&'static AtomicBool, Failure> {
     static STOP: AtomicBool = AtomicBool::new(false);
     ctrlc::set_handler(|| {
-        if STOP.swap(true, Ordering::Relaxed) {
+        let is_opening = OPENING.load(Ordering::Relaxed) > 0;
+        if is_opening {
+            say!("\ninterrupted while adapters are opened");
+        }
+        if is_opening || STOP.swap(true, Ordering::Relaxed) {
             std::process::exit(i32::from(INCOMPLETE));
         }
         say!("\nstopping; interrupt again to stop immediately");
     })
     .map_err(|e| Failure::incomplete(format!("cannot handle signals: {e}")))?;
     Ok(&STOP)
+}
+
+/// Exists while adapters are opened, which can take minutes and leaves nothing to finish.
+pub(crate) struct Opening(());
+
+impl Opening {
+    pub(crate) fn begin() -> Self {
+        OPENING.fetch_add(1, Ordering::Relaxed);
+        Self(())
+    }
+}
+
+impl Drop for Opening {
+    fn drop(&mut self) {
+        OPENING.fetch_sub(1, Ordering::Relaxed);
+    }
 }
 
 /// Returns the command that resumes this run, quoted for a shell.

@@ -43,8 +43,8 @@ impl Claim<'_> {
         let kept = matches!(kind, FolderKind::Run | FolderKind::Bench).then_some(kind);
         match Content::writable(folder).map_err(Failure::usage)? {
             Content::Recorded(held) if Some(held) != kept => {
-                let out = OutputFolder::open(folder).map_err(Failure::usage)?;
-                out.clear(None).map_err(Failure::usage)?;
+                let out = OutputFolder::open(folder).map_err(Failure::of)?;
+                out.clear(None).map_err(Failure::of)?;
             }
             _ => {}
         }
@@ -85,7 +85,7 @@ impl<'a> Out<'a> {
     }
 
     fn lock(self) -> Result<FolderLock, Failure> {
-        FolderLock::acquire(self.folder).map_err(Failure::usage)
+        FolderLock::acquire(self.folder).map_err(Failure::of)
     }
 
     /// Returns true if the command continues the folder's records.

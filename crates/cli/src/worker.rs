@@ -7,10 +7,13 @@ use etalon_backend::{Backend, Unavailable};
 use etalon_browser::Source;
 use etalon_cpu::CpuBackend;
 use etalon_keeper::Served;
+use etalon_process::Parent;
 use etalon_runner::Setup;
+use std::ffi::OsString;
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, ErrorKind, Write};
 use std::process::Command;
+use std::thread;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -23,14 +26,30 @@ pub(crate) struct Arguments {
     /// Keep the program that standard input names
     #[arg(long)]
     pub(crate) keep: bool,
+    /// Guard the program that these words start
+    #[arg(long, num_args = 1.., allow_hyphen_values = true, value_name = "WORD")]
+    pub(crate) guard: Vec<OsString>,
+    /// The guarded program does not read standard input
+    #[arg(long, requires = "guard")]
+    pub(crate) no_input: bool,
 }
 
 /// Serves one adapter, or prints the devices of a backend.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     if arguments.keep {
-        etalon_keeper::keep(BufReader::new(io::stdin()))?;
+        // Windows ends a program by its job object.
+        let guard = if cfg!(unix) {
+            Some(guard(false)?)
+        } else {
+            None
+        };
+        etalon_keeper::keep(BufReader::new(io::stdin()), guard)?;
         return Ok(0);
     }
+    if !arguments.guard.is_empty() {
+        return guarded(&arguments.guard, !arguments.no_input);
+    }
+    let parent = Parent::now();
     let text = match arguments.open.as_deref() {
         Some(FROM_INPUT) => Some(set_up()?),
         other => other.map(str::to_owned),
@@ -38,6 +57,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     // The driver's own output goes to standard error.
     let mut output = etalon_process::private_output()?;
     if let Some(name) = &arguments.enumerate {
+        end_with_input()?;
         let name: BackendName = parse(&format!("\"{name}\""))?;
         let found = enumerate(name).unwrap_or_default();
         let text = serde_json::to_string(&found).map_err(Failure::usage)?;
@@ -59,11 +79,57 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         server.iter_mut().for_each(Served::connected);
         opened
     };
-    match etalon_runner::serve(open, input, &mut output) {
+    let served = etalon_runner::serve(open, input, &mut output);
+    drop(server);
+    if parent.has_ended() {
+        // Nothing else ends what the driver has started.
+        etalon_process::end_group()
+    }
+    match served {
         // The parent wants no more.
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(0),
         served => Ok(served.map(|()| 0)?),
     }
+}
+
+/// Returns the command of a guard, without the words of its program.
+pub(crate) fn guard(input: bool) -> io::Result<Command> {
+    let mut guard = Command::new(std::env::current_exe()?);
+    guard.arg("worker");
+    if !input {
+        guard.arg("--no-input");
+    }
+    guard.arg("--guard");
+    Ok(guard)
+}
+
+/// Guards a program, and ends as it ends.
+fn guarded(words: &[OsString], input: bool) -> Result<u8, Failure> {
+    // A request to end is the program's, which has the same group.
+    ctrlc::set_handler(|| {}).map_err(Failure::usage)?;
+    let name = words.first().map(|word| word.to_string_lossy());
+    let name = name
+        .as_deref()
+        .unwrap_or_default()
+        .escape_debug()
+        .to_string();
+    match etalon_keeper::guard(words, input) {
+        Ok(status) => etalon_process::end_like(status),
+        Err(error) if input => Err(Failure::usage(format!(
+            "the launcher `{name}` cannot be started: {error}"
+        ))),
+        Err(error) => Err(Failure::usage(format!("{name}: {error}"))),
+    }
+}
+
+/// Ends this process when standard input ends.
+fn end_with_input() -> io::Result<()> {
+    thread::Builder::new().spawn(|| {
+        // Nothing is sent; only the end matters.
+        let _ = io::copy(&mut io::stdin().lock(), &mut io::sink());
+        etalon_process::end_group()
+    })?;
+    Ok(())
 }
 
 /// Returns the request that the parent sends through a launcher. If the launcher dropped environment

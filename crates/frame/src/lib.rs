@@ -65,7 +65,7 @@ pub use legal::{
 };
 pub use limit_error::{LimitError, MAX_SUB_PIXEL_BITS};
 pub use limits::{FormatSupport, Limits, Requirement};
-pub use message::{shortened, without_mark};
+pub use message::{is_hidden, printable, shortened, without_mark};
 pub use operation::Operation;
 pub use path::{
     PathArea, PathClears, PathClip, PathColors, PathCommands, PathDraws, PathEnd, PathLayers,

@@ -13,6 +13,8 @@ pub struct Glob {
     steps: Vec<Step>,
     /// The text with which everything that matches ends.
     suffix: String,
+    /// True if a step is a jump.
+    has_jumps: bool,
 }
 
 impl Glob {
@@ -44,6 +46,7 @@ impl Glob {
         steps.truncate(steps.len() - suffix.len());
         Ok(Self {
             prefix,
+            has_jumps: steps.iter().any(|step| matches!(step, Step::Jump(_))),
             steps,
             suffix: suffix.into_iter().rev().collect(),
         })
@@ -59,7 +62,46 @@ impl Glob {
     pub fn is_match(&self, text: &str) -> bool {
         let rest = text.strip_prefix(&self.prefix);
         let middle = rest.and_then(|rest| rest.strip_suffix(&self.suffix));
-        middle.is_some_and(|middle| matching::is_match(&self.steps, middle))
+        middle.is_some_and(|middle| {
+            if self.has_jumps {
+                matching::is_match(&self.steps, middle)
+            } else {
+                matching::is_match_without_jumps(&self.steps, middle)
+            }
+        })
+    }
+
+    /// Returns the only text that matches, if the glob has no wildcard.
+    pub fn only_match(&self) -> Option<&str> {
+        // Without a wildcard, all of the text is the prefix.
+        (self.steps.is_empty() && self.suffix.is_empty()).then_some(self.prefix.as_str())
+    }
+
+    /// Returns the text with which everything that matches begins.
+    pub fn prefix(&self) -> &str {
+        &self.prefix
+    }
+
+    /// Returns texts that are in everything that matches.
+    pub fn literals(&self) -> Vec<String> {
+        let mut literals = vec![self.prefix.clone()];
+        let mut run = String::new();
+        // Steps before the last target of a jump can be left out.
+        let mut joined = 0;
+        for (number, step) in self.steps.iter().enumerate() {
+            if let Step::Jump(targets) = step {
+                joined = targets
+                    .iter()
+                    .fold(joined, |last, target| last.max(*target));
+            }
+            match step {
+                Step::Char(c) if number >= joined => run.push(*c),
+                _ => literals.push(std::mem::take(&mut run)),
+            }
+        }
+        literals.push(run + &self.suffix);
+        literals.retain(|literal| !literal.is_empty());
+        literals
     }
 }
 
@@ -164,6 +206,36 @@ mod tests {
         assert_eq!(error("{a,{b}"), GlobError::OpenBrace);
         assert_eq!(error("a}"), GlobError::ClosedBrace);
         assert_eq!(error("a\\"), GlobError::Backslash);
+    }
+
+    #[test]
+    fn literals_are_in_everything_that_matches() {
+        let literals = |glob: &str| Glob::new(glob).expect("a glob").literals();
+        assert_eq!(literals("a/b*cd?e*f"), ["a/b", "cd", "e", "f"]);
+        assert_eq!(literals("x{a,bc}yz"), ["x", "yz"]);
+        assert_eq!(literals("**/a"), ["a"]);
+        assert_eq!(literals("*[ab]c{d{e,f},g}h*i"), ["c", "h", "i"]);
+        assert_eq!(literals("{a,b}*"), [""; 0]);
+    }
+
+    #[test]
+    fn with_and_without_jumps_the_same_matches() {
+        let mut random = 1_u32;
+        let mut below = |most: u32| {
+            random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (random >> 16) % most
+        };
+        for _ in 0..20_000 {
+            let mut word = |letters: &[u8], most: u32| -> String {
+                let length = below(most);
+                let letters = (0..length).map(|_| letters[below(letters.len() as u32) as usize]);
+                letters.map(char::from).collect()
+            };
+            let (glob, text) = (word(b"ab*?*", 8), word(b"ab", 10));
+            let (before, after) = (Glob::new(&glob), Glob::new(&format!("{glob}{{,x}}")));
+            let matches = [before, after].map(|glob| glob.expect("a glob").is_match(&text));
+            assert_eq!(matches[0], matches[1], "{glob}: {text}");
+        }
     }
 
     #[test]

@@ -14,9 +14,11 @@
 //! Matching takes time in proportion to the lengths of glob and text, whatever the glob.
 
 mod glob;
+mod index;
 mod matching;
 mod parsing;
 mod step;
 
 pub use glob::{Glob, escape};
+pub use index::GlobIndex;
 pub use parsing::GlobError;

@@ -1,4 +1,4 @@
-//! Matching: all steps that a text can have reached, character by character.
+//! Matching: all steps that a text can have reached, character by character. Steps without a jump need only one of them.
 
 use crate::step::Step;
 
@@ -9,6 +9,43 @@ struct Reached {
     marks: Vec<usize>,
     /// Steps that are not added yet.
     open: Vec<usize>,
+}
+
+/// Returns true if the steps take the whole text. No step is a jump.
+pub(crate) fn is_match_without_jumps(steps: &[Step], text: &str) -> bool {
+    let (mut at, mut rest) = (0, text);
+    // The step after the last star, and the text at which it was tried last. An earlier star never has to take more.
+    let mut last: Option<(usize, &str)> = None;
+    loop {
+        let mut chars = rest.chars();
+        match (steps.get(at), chars.next()) {
+            (Some(Step::Star), _) => {
+                at += 1;
+                last = Some((at, rest));
+                continue;
+            }
+            (None, None) => return true,
+            (Some(_), None) => return false,
+            (Some(step), Some(c)) if step.takes(c) => {
+                at += 1;
+                rest = chars.as_str();
+                continue;
+            }
+            _ => {}
+        }
+        let Some((after, tried)) = last else {
+            return false;
+        };
+        // At the end of a glob, a star takes the rest.
+        if after == steps.len() {
+            return true;
+        }
+        let mut chars = tried.chars();
+        chars.next();
+        rest = chars.as_str();
+        at = after;
+        last = Some((after, rest));
+    }
 }
 
 /// Returns true if the steps take the whole text.
@@ -27,14 +64,9 @@ pub(crate) fn is_match(steps: &[Step], text: &str) -> bool {
         std::mem::swap(&mut before, &mut reached.steps);
         for at in &before {
             let next = match steps.get(*at) {
-                Some(Step::Char(expected)) => (*expected == c).then_some(at + 1),
-                Some(Step::Any) => Some(at + 1),
-                Some(Step::Class { negated, ranges }) => {
-                    let inside = |(first, last): &(char, char)| (*first..=*last).contains(&c);
-                    (ranges.iter().any(inside) != *negated).then_some(at + 1)
-                }
                 Some(Step::Star) => Some(*at),
-                Some(Step::Jump(_)) | None => None,
+                Some(step) => step.takes(c).then_some(at + 1),
+                None => None,
             };
             if let Some(next) = next {
                 reached.add(steps, next, taken);

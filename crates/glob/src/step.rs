@@ -17,3 +17,18 @@ pub(crate) enum Step {
     /// Takes nothing, and continues at each of these later steps.
     Jump(Vec<usize>),
 }
+
+impl Step {
+    /// Returns true if a step for one character takes this one.
+    pub(crate) fn takes(&self, c: char) -> bool {
+        match self {
+            Self::Char(expected) => *expected == c,
+            Self::Any => true,
+            Self::Class { negated, ranges } => {
+                let inside = |(first, last): &(char, char)| (*first..=*last).contains(&c);
+                ranges.iter().any(inside) != *negated
+            }
+            Self::Star | Self::Jump(_) => false,
+        }
+    }
+}

@@ -140,11 +140,24 @@ impl HistoryError {
                 Some(ErrorCode::DiskFull) => Self::Full { path },
                 Some(ErrorCode::ReadOnly) => Self::ReadOnly { path },
                 Some(ErrorCode::NotADatabase) => Self::Other { path },
-                Some(ErrorCode::DatabaseCorrupt) => Self::Damaged {
+                Some(
+                    ErrorCode::CannotOpen
+                    | ErrorCode::PermissionDenied
+                    | ErrorCode::OutOfMemory
+                    | ErrorCode::OperationInterrupted
+                    | ErrorCode::TooBig,
+                ) => Self::Database { path, source },
+                Some(ErrorCode::SystemIoFailure) if !is_short(&source) => {
+                    Self::Database { path, source }
+                }
+                // Statements and types are right for a file of this schema, so the file is not what it should be.
+                _ => Self::Damaged {
                     path,
-                    message: source.to_string(),
+                    message: match source {
+                        rusqlite::Error::QueryReturnedNoRows => "a row is missing".to_owned(),
+                        source => source.to_string(),
+                    },
                 },
-                _ => Self::Database { path, source },
             }
         }
     }
@@ -164,4 +177,10 @@ impl HistoryError {
             source,
         }
     }
+}
+
+/// Returns true if a file ends before a page that it should have.
+fn is_short(error: &rusqlite::Error) -> bool {
+    error.sqlite_error().map(|error| error.extended_code)
+        == Some(rusqlite::ffi::SQLITE_IOERR_SHORT_READ)
 }

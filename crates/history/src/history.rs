@@ -254,6 +254,14 @@ impl History {
         let outcomes = unpack(&packed, adapter.records as usize);
         let drawn = self.drawn(adapter.drawn)?;
         let cases: Vec<u32> = drawn.iter().collect();
+        let known = self.all_cases()?.names.len();
+        if let Some(case) = cases
+            .iter()
+            .find(|case| **case == 0 || **case as usize > known)
+        {
+            let message = format!("no case {case}");
+            return Err(HistoryError::damaged(&self.path, message));
+        }
         match outcomes {
             Some(outcomes) if outcomes.len() == cases.len() => Ok(cases
                 .into_iter()

@@ -29,12 +29,12 @@ pub(crate) fn pack(numbers: &[u32]) -> io::Result<Vec<u8>> {
 pub(crate) fn unpack(packed: &[u8], count: usize) -> Option<Vec<u32>> {
     // A number takes at most five bytes.
     let most = (count as u64).saturating_mul(5);
-    let mut bytes = Vec::with_capacity(count * 2);
+    let mut bytes = Vec::new();
     DeflateDecoder::new(packed)
         .take(most + 1)
         .read_to_end(&mut bytes)
         .ok()?;
-    let mut numbers = Vec::with_capacity(count);
+    let mut numbers = Vec::with_capacity(bytes.len());
     let mut bytes = bytes.into_iter();
     let mut before = 0i64;
     while let Some(first) = bytes.next() {

@@ -37,6 +37,8 @@ pub struct Kept {
     keeper: Child,
     /// The pipe to the keeper. Its end shows that the worker ended.
     _input: ChildStdin,
+    /// The program's folder.
+    folder: PathBuf,
 }
 
 impl Kept {
@@ -56,6 +58,7 @@ impl Kept {
         Ok(Self {
             keeper,
             _input: input,
+            folder: program.folder.clone(),
         })
     }
 
@@ -67,6 +70,15 @@ impl Kept {
     /// Waits a moment for the keeper's last messages about a program that seems to have ended.
     pub fn wait(&mut self) {
         within_grace(|| !self.lives());
+    }
+}
+
+impl Drop for Kept {
+    fn drop(&mut self) {
+        if !self.lives() {
+            // A keeper that was killed has left it; another one has removed it.
+            let _ = fs::remove_dir_all(&self.folder);
+        }
     }
 }
 
@@ -89,25 +101,30 @@ pub fn token() -> String {
     format!("{:016x}{:016x}", word(), word())
 }
 
-/// Keeps a program until `input` or the program ends. Messages go to standard error.
+/// Keeps a program until `input` or the program ends. Messages go to standard error. `guard` is the command of a
+/// guard, which ends the program if the keeper is killed; see [`guard`](crate::guard).
 ///
 /// # Errors
 /// If the first line of `input` is not a [`Program`], or it cannot be started.
-pub fn keep(mut input: impl BufRead + Send + 'static) -> io::Result<()> {
+pub fn keep(mut input: impl BufRead + Send + 'static, guard: Option<Command>) -> io::Result<()> {
     let mut line = String::new();
     input.read_line(&mut line)?;
     let program: Program = serde_json::from_str(&line)?;
     make(&program.folder)?;
-    let kept = keep_started(&program, input);
+    let kept = keep_started(&program, input, guard);
     remove(&program.folder);
     kept
 }
 
-fn keep_started(program: &Program, mut input: impl BufRead + Send + 'static) -> io::Result<()> {
+fn keep_started(
+    program: &Program,
+    mut input: impl BufRead + Send + 'static,
+    guard: Option<Command>,
+) -> io::Result<()> {
     for (name, text) in &program.files {
         fs::write(program.folder.join(name), text)?;
     }
-    let (mut child, group) = start(program)?;
+    let (mut child, group) = start(program, guard)?;
     let (sender, ended) = channel::<()>();
     thread::Builder::new().spawn(move || {
         // Nothing is sent; only the end matters.
@@ -138,13 +155,23 @@ fn make(folder: &Path) -> io::Result<()> {
     builder.create(folder)
 }
 
-fn start(program: &Program) -> io::Result<(Child, Group)> {
+fn start(program: &Program, guard: Option<Command>) -> io::Result<(Child, Group)> {
     let (name, words) = program.command.split_first().unzip();
     let name = name.map_or("", String::as_str);
-    let mut command = Command::new(name);
+    let mut command = match guard {
+        Some(mut guard) => {
+            // The end of this pipe, into which nothing is written, shows that the keeper ended.
+            guard.arg(name).stdin(Stdio::piped());
+            guard
+        }
+        None => {
+            let mut command = Command::new(name);
+            command.stdin(Stdio::null());
+            command
+        }
+    };
     command
         .args(words.unwrap_or_default())
-        .stdin(Stdio::null())
         .stdout(Stdio::null());
     for (variable, value) in &program.environment {
         match value {

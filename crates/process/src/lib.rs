@@ -10,4 +10,7 @@ use unix as system;
 #[cfg(windows)]
 use windows as system;
 
-pub use system::{Group, crash, memory, private_output, replace, separate, signal, write_output};
+pub use system::{
+    Group, Parent, crash, end_group, end_like, end_with_thread, memory, private_output, replace,
+    report_large_files, separate, signal, wait_for_end_of_input, write_output,
+};

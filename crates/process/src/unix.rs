@@ -1,12 +1,18 @@
 //! Unix: process groups and signals.
 
-use rustix::process::{Pid, Signal, getpid, kill_process, kill_process_group};
+use rustix::event::{PollFd, PollFlags, poll};
+use rustix::io::Errno;
+use rustix::process::{
+    Pid, Resource, Rlimit, Signal, getpgrp, getpid, getppid, kill_process, kill_process_group,
+    setrlimit,
+};
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::os::fd::AsFd;
 use std::os::unix::process::{CommandExt, ExitStatusExt};
 use std::process::{Child, Command, ExitStatus};
 use std::thread;
+use std::time::Duration;
 
 /// Keeps Ctrl-C at the terminal away from the program.
 pub fn separate(command: &mut Command) -> &mut Command {
@@ -28,6 +34,14 @@ impl Group {
         Ok((child, Self(leader)))
     }
 
+    /// Starts a worker in a group of its own.
+    ///
+    /// # Errors
+    /// If it cannot be started.
+    pub fn start_worker(command: &mut Command) -> io::Result<(Child, Self)> {
+        Self::start(command)
+    }
+
     /// Asks the processes to end. Returns true if the system has a way to ask.
     pub fn ask(&self) -> bool {
         self.signal(Signal::TERM);
@@ -45,6 +59,97 @@ impl Group {
             let _ = kill_process_group(leader, signal);
         }
     }
+}
+
+/// The parent of this process.
+#[derive(Debug)]
+pub struct Parent(Option<Pid>);
+
+impl Parent {
+    /// Returns the parent at this moment.
+    pub fn now() -> Self {
+        Self(getppid())
+    }
+
+    /// Returns true if the parent has ended since.
+    pub fn has_ended(&self) -> bool {
+        getppid() != self.0
+    }
+}
+
+/// Kills this process, and all of its group if it leads the group.
+pub fn end_group() -> ! {
+    let this = getpid();
+    if getpgrp() == this {
+        let _ = kill_process_group(this, Signal::KILL);
+    }
+    loop {
+        let _ = kill_process(this, Signal::KILL);
+        thread::yield_now();
+    }
+}
+
+/// Makes a write beyond the limit of a file's size an error, instead of the end of this process.
+pub fn report_large_files() {
+    // SAFETY: ignoring a signal runs no code. Nothing else in this process handles it.
+    unsafe { libc::signal(libc::SIGXFSZ, libc::SIG_IGN) };
+}
+
+/// Waits until no process holds the other end of standard input. Reads nothing.
+pub fn wait_for_end_of_input() {
+    // Linux reports the end of a pipe in any case, and the end of a socket on request.
+    #[cfg(target_os = "linux")]
+    let end = PollFlags::RDHUP;
+    #[cfg(not(target_os = "linux"))]
+    let end = PollFlags::empty();
+    let input = io::stdin();
+    loop {
+        let mut polled = [PollFd::new(&input, end)];
+        match poll(&mut polled, None) {
+            Ok(0) | Err(Errno::INTR) => {}
+            Ok(_) | Err(_) => return,
+        }
+    }
+}
+
+/// Makes the system kill a program when the thread that starts it ends, where the system can: on Linux.
+pub fn end_with_thread(command: &mut Command) {
+    #[cfg(target_os = "linux")]
+    {
+        use rustix::process::set_parent_process_death_signal;
+        let starter = getpid();
+        let request = move || {
+            set_parent_process_death_signal(Some(Signal::KILL))?;
+            // It might have ended before the request.
+            if getppid() == Some(starter) {
+                Ok(())
+            } else {
+                Err(io::ErrorKind::BrokenPipe.into())
+            }
+        };
+        // SAFETY: between fork and exec, it makes two system calls and allocates nothing.
+        unsafe { command.pre_exec(request) };
+    }
+}
+
+/// Ends this process as another one ended.
+pub fn end_like(status: ExitStatus) -> ! {
+    let signal = status.signal();
+    if let Some(signal) = signal.and_then(Signal::from_named_raw) {
+        // The other process has left its memory already.
+        let none = Rlimit {
+            current: Some(0),
+            maximum: Some(0),
+        };
+        let _ = setrlimit(Resource::Core, none);
+        // The first signal only removes a handler of the standard library.
+        for _ in 0..2 {
+            let _ = kill_process(getpid(), signal);
+            thread::sleep(Duration::from_millis(1));
+        }
+    }
+    // The number that a shell gives to a signal.
+    std::process::exit(status.code().unwrap_or(128 + signal.unwrap_or(0)))
 }
 
 /// Returns the signal that ended a process.
@@ -79,7 +184,8 @@ pub fn write_output(bytes: &[u8]) -> io::Result<()> {
 /// # Errors
 /// If the system refuses a descriptor.
 pub fn private_output() -> io::Result<File> {
-    let private = rustix::io::dup(io::stdout())?;
+    // Programs that this process starts must not hold it.
+    let private = rustix::io::fcntl_dupfd_cloexec(io::stdout(), 3)?;
     rustix::stdio::dup2_stdout(io::stderr())?;
     Ok(File::from(private))
 }

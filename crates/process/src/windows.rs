@@ -6,6 +6,7 @@ use std::os::windows::io::{AsHandle, AsRawHandle, FromRawHandle, OwnedHandle};
 use std::os::windows::process::CommandExt;
 use std::process::{self, Child, Command, ExitStatus};
 use std::ptr::null;
+use std::thread;
 use windows_sys::Win32::Foundation::STATUS_ACCESS_VIOLATION;
 use windows_sys::Win32::System::JobObjects::{
     AssignProcessToJobObject, CreateJobObjectW, JOB_OBJECT_LIMIT_KILL_ON_JOB_CLOSE,
@@ -23,7 +24,7 @@ pub fn separate(command: &mut Command) -> &mut Command {
 
 /// A program and all the processes that it starts. They end when this is dropped.
 #[derive(Debug)]
-pub struct Group(OwnedHandle);
+pub struct Group(Option<OwnedHandle>);
 
 impl Group {
     /// Starts a program in a job object of its own.
@@ -43,7 +44,15 @@ impl Group {
             let _ = child.wait();
             return Err(error);
         }
-        Ok((child, Self(job)))
+        Ok((child, Self(Some(job))))
+    }
+
+    /// Starts a worker without a job object: its keeper, which outlives it, would be in the job.
+    ///
+    /// # Errors
+    /// If it cannot be started.
+    pub fn start_worker(command: &mut Command) -> io::Result<(Child, Self)> {
+        Ok((separate(command).spawn()?, Self(None)))
     }
 
     /// Asks the processes to end. Returns true if the system has a way to ask.
@@ -53,9 +62,50 @@ impl Group {
 
     /// Kills the processes.
     pub fn kill(&self) {
-        // SAFETY: the handle is open. Terminating a job without processes does nothing.
-        unsafe { TerminateJobObject(self.0.as_raw_handle(), 1) };
+        if let Some(job) = &self.0 {
+            // SAFETY: the handle is open. Terminating a job without processes does nothing.
+            unsafe { TerminateJobObject(job.as_raw_handle(), 1) };
+        }
     }
+}
+
+/// The parent of this process.
+#[derive(Debug)]
+pub struct Parent;
+
+impl Parent {
+    /// Returns the parent at this moment.
+    pub fn now() -> Self {
+        Self
+    }
+
+    /// Returns false: the system does not tell.
+    pub fn has_ended(&self) -> bool {
+        false
+    }
+}
+
+/// Ends this process.
+pub fn end_group() -> ! {
+    process::exit(0)
+}
+
+/// Does nothing: files have no limit that ends a process.
+pub fn report_large_files() {}
+
+/// Waits forever: the system has no way to wait without reading.
+pub fn wait_for_end_of_input() {
+    loop {
+        thread::park();
+    }
+}
+
+/// Does nothing: a job object ends a program.
+pub fn end_with_thread(_: &mut Command) {}
+
+/// Ends this process as another one ended.
+pub fn end_like(status: ExitStatus) -> ! {
+    process::exit(status.code().unwrap_or(1))
 }
 
 /// Returns a new job object, whose processes end with its last handle.

@@ -5,12 +5,11 @@
 //! other programs' folders can have files with the same names.
 
 use crate::error::RecordError;
-use crate::folder::FolderKind;
+use crate::folder::{FolderKind, LIST, open};
 use crate::lock::LOCK_FILE;
-use crate::output_folder::LIST;
 use serde::de::IgnoredAny;
 use std::collections::BTreeMap;
-use std::fs::{self, File};
+use std::fs;
 use std::io::{BufRead, BufReader, ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
 
@@ -95,7 +94,7 @@ const MAX_MARK: u64 = 64 << 20;
 pub fn is_marked(file: &Path) -> bool {
     let mut line = Vec::new();
     let mut read = || {
-        let file = File::open(file)?.take(MAX_MARK);
+        let file = open(file)?.take(MAX_MARK);
         BufReader::new(file).read_until(b'\n', &mut line)
     };
     // Reading a pipe would block.

@@ -8,6 +8,7 @@ use crate::error::RecordError;
 use crate::expectations::{Expectations, Known};
 use crate::folder::DEAD_FILE;
 use crate::output_folder::OutputFolder;
+use crate::parts::Parts;
 use crate::paths::open_below;
 use crate::run::Run;
 use crate::verdict::Verdict;
@@ -15,9 +16,10 @@ use etalon_frame::state_enum;
 use etalon_glob::Glob;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::cell::LazyCell;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::cell::{Cell, LazyCell, OnceCell};
+use std::collections::{BTreeSet, HashMap};
 use std::io::Read;
+use std::ops::Range;
 use std::path::Path;
 
 state_enum! {
@@ -90,11 +92,17 @@ impl Dead {
     }
 }
 
+/// The most comparisons of a glob with an id, or of one expectation with another, that the search for dead expectations
+/// makes: about as many as a second takes.
+const MOST_COMPARISONS: u64 = 5_000_000;
+
 impl Expectations {
     /// Returns the dead expectations, sorted by kind and then in the order of their files. `ids` returns all
     /// existing cases, and is called if an expectation needs them; `described` are the names of the adapters
     /// that are described, whether or not the run used them. The globs of `sound` expectations are known to
     /// match something, and none of these covers another one.
+    ///
+    /// Many thousands of globs that can match anything are not all compared, and then some dead ones are missing.
     pub fn dead(
         &self,
         run: &Run,
@@ -104,10 +112,12 @@ impl Expectations {
     ) -> Vec<Dead> {
         let used = run.header.adapters.iter().map(|a| &a.name);
         let mut names = Names::new(used.chain(described));
-        let mut ids = LazyCell::new(|| Names::new(&ids()));
+        let ids = LazyCell::new(|| Ids::new(&ids()));
+        let left = Cell::new(MOST_COMPARISONS);
         let mut dead = Vec::new();
-        let mut reaches = Vec::new();
         let all_sound = self.all().iter().all(&sound);
+        let excuses = Excuses::of(self, run);
+        let mut reaches = Vec::new();
         for (number, known) in self.all().iter().enumerate() {
             let mut part = |kind, glob: String| {
                 dead.push(Dead {
@@ -118,7 +128,7 @@ impl Expectations {
             };
             if !sound(known) {
                 for glob in &known.cases {
-                    let parts = ids.parts_without(glob).into_iter();
+                    let parts = ids.parts_without(glob, &left).into_iter();
                     parts.for_each(|glob| part(DeadKind::NoCase, glob));
                 }
                 for glob in &known.adapters {
@@ -130,122 +140,181 @@ impl Expectations {
                 let last = known.expires.as_deref().unwrap_or_default();
                 part(DeadKind::Expired, format!("{last}: {}", known.reason));
             }
-            let mut used = run.header.adapters.iter();
-            if !self.applies(number) || all_sound && !used.any(|a| self.is_about(number, a)) {
+            if !self.applies(number) || all_sound && excuses.adapters(number).is_empty() {
                 // An expectation for another machine or run can name cases and adapters that are missing
                 // here. One for other adapters can only cover one.
-                reaches.push(Reach::default());
+                reaches.push(None);
                 continue;
             }
             let adapters = names.reach(&known.adapters);
             // Reading the ids of all cases takes longer than a short run.
-            if all_sound
-                && self
-                    .unmatched(number, &adapters, run, &names.sorted)
-                    .is_none()
-            {
-                reaches.push(Reach::default());
-                continue;
-            }
-            reaches.push(Reach {
-                cases: ids.reach(&known.cases),
-                adapters,
-            });
+            let reach = if all_sound && !excuses.none(number, &adapters, run, &names.sorted) {
+                None
+            } else {
+                let first = known.cases.iter().find_map(|glob| ids.first(glob, &left));
+                let first = first.filter(|_| !adapters.is_empty());
+                first.map(|first| Reach { first, adapters })
+            };
+            reaches.push(reach);
         }
+        // By an id: the expectations that name it.
+        let mut naming: HashMap<usize, Vec<usize>> = HashMap::new();
         for (number, known) in self.all().iter().enumerate() {
-            let reach = &reaches[number];
-            if reach.cases.is_empty() || reach.adapters.is_empty() {
+            let Some(reach) = &reaches[number] else {
                 continue;
-            }
-            let cover = self.all().iter().enumerate().find(|(other, by)| {
-                let back = || covers(known, by) && reaches[*other].is_within(reach);
-                *other != number
+            };
+            let is_within = |one: usize, other: usize| {
+                let (Some(within), Some(around)) = (&reaches[one], &reaches[other]) else {
+                    return false;
+                };
+                let cases = &self.all()[one].cases;
+                within.adapters.is_subset(&around.adapters)
+                    && (*cases == self.all()[other].cases
+                        || cases.iter().all(|glob| {
+                            ids.matching(glob, &left)
+                                .all(|id| self.names(other, &ids.sorted[id]))
+                        }))
+            };
+            let others = naming
+                .entry(reach.first)
+                .or_insert_with(|| self.naming(&ids.sorted[reach.first]));
+            let cover = others.iter().find(|other| {
+                let by = &self.all()[**other];
+                **other != number
+                    && spend(&left)
                     && covers(by, known)
-                    && reach.is_within(&reaches[*other])
+                    && is_within(number, **other)
                     // Of two equal expectations, the second is dead.
-                    && (*other < number || !back())
+                    && (**other < number || !(covers(known, by) && is_within(**other, number)))
             });
-            if let Some((_, by)) = cover {
-                dead.push(Dead {
-                    kind: DeadKind::Covered,
-                    place: known.place(),
-                    about: by.place(),
-                });
-            } else if self.never_matched(number, reach, run, &names.sorted) {
-                dead.push(Dead {
-                    kind: DeadKind::NeverMatched,
-                    place: known.place(),
-                    about: known.reason.clone(),
-                });
+            let drawn = |adapter: &BTreeSet<&str>| {
+                known.cases.iter().all(|glob| {
+                    ids.matching(glob, &left)
+                        .all(|id| adapter.contains(ids.sorted[id].as_str()))
+                })
+            };
+            let kind = if let Some(other) = cover {
+                Some((DeadKind::Covered, self.all()[*other].place()))
+            } else {
+                let is_none = excuses.none(number, &reach.adapters, run, &names.sorted);
+                let mut cases = excuses
+                    .adapters(number)
+                    .iter()
+                    .map(|n| &excuses.recorded[*n]);
+                let never = is_none && cases.all(drawn);
+                never.then(|| (DeadKind::NeverMatched, known.reason.clone()))
+            };
+            // Without a comparison left, nothing is certain.
+            if left.get() == 0 {
+                break;
             }
+            dead.extend(kind.map(|(kind, about)| Dead {
+                kind,
+                place: known.place(),
+                about,
+            }));
         }
         dead.sort_by_key(|d| d.kind);
         dead
     }
+}
 
-    /// Returns true if a run drew all cases of an expectation on all its adapters, and it excused no
-    /// verdict.
-    fn never_matched(&self, number: usize, reach: &Reach, run: &Run, names: &[String]) -> bool {
-        let drawn = self.unmatched(number, &reach.adapters, run, names);
-        drawn.is_some_and(|drawn| drawn.values().all(|cases| cases.len() == reach.cases.len()))
-    }
+/// Counts a comparison; returns false if none is left.
+fn spend(left: &Cell<u64>) -> bool {
+    left.set(left.get().saturating_sub(1));
+    left.get() > 0
+}
 
-    /// Returns, by adapter, the cases of an expectation that a run has; `None` if it excused one of them, if
-    /// none was drawn, or if the run lacks one of the expectation's adapters.
-    fn unmatched<'r>(
-        &self,
-        number: usize,
-        adapters: &BTreeSet<usize>,
-        run: &'r Run,
-        names: &[String],
-    ) -> Option<BTreeMap<&'r str, BTreeSet<&'r str>>> {
-        let known = self.all().get(number)?;
-        // A flaky case can pass every time, and a skipped case has no verdict.
-        if self.expired(known) || matches!(known.verdict, Verdict::Flaky | Verdict::Skipped) {
-            return None;
+/// What the expectations excused in a run.
+struct Excuses<'r> {
+    /// By adapter of the run: the cases that were recorded on it.
+    recorded: Vec<BTreeSet<&'r str>>,
+    /// By expectation: the run's adapters that it is about.
+    adapters: Vec<Vec<usize>>,
+    /// By expectation: what became of its cases.
+    outcomes: Vec<Outcome>,
+}
+
+/// What became of the cases of an expectation.
+#[derive(Clone, Copy, Default)]
+struct Outcome {
+    /// True if a run can show whether the expectation is needed.
+    tells: bool,
+    /// True if it excused a verdict.
+    excused: bool,
+    /// True if a case was drawn.
+    drawn: bool,
+}
+
+impl<'r> Excuses<'r> {
+    fn of(expectations: &Expectations, run: &'r Run) -> Self {
+        let numbers: HashMap<&str, usize> = (0..)
+            .zip(&run.header.adapters)
+            .map(|(number, adapter)| (adapter.name.as_str(), number))
+            .collect();
+        let mut excuses = Self {
+            recorded: vec![BTreeSet::new(); run.header.adapters.len()],
+            adapters: Vec::new(),
+            outcomes: Vec::new(),
+        };
+        for (number, known) in expectations.all().iter().enumerate() {
+            let adapters = run.header.adapters.iter().enumerate();
+            let about = adapters.filter(|(_, a)| expectations.is_about(number, a));
+            excuses.adapters.push(about.map(|(n, _)| n).collect());
+            // A flaky case can pass every time, and a skipped case has no verdict.
+            let tells = !expectations.expired(known)
+                && !matches!(known.verdict, Verdict::Flaky | Verdict::Skipped);
+            excuses.outcomes.push(Outcome {
+                tells,
+                ..Outcome::default()
+            });
         }
-        let mut recorded: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
-        for adapter in run.header.adapters.iter() {
-            if self.is_about(number, adapter) {
-                recorded.insert(&adapter.name, BTreeSet::new());
-            }
-        }
-        let mut adapters = adapters.iter().map(|index| names[*index].as_str());
-        if recorded.is_empty() || !adapters.all(|name| recorded.contains_key(name)) {
-            return None;
-        }
-        let mut drawn = false;
         for record in &run.records {
-            let Some(cases) = recorded.get_mut(record.adapter.as_str()) else {
+            let Some(adapter) = numbers.get(record.adapter.as_str()) else {
                 continue;
             };
-            if !self.names(number, &record.case) {
-                continue;
-            }
-            if self.excuses(number, record.shown()) {
-                return None;
-            }
-            drawn |= !matches!(
+            excuses.recorded[*adapter].insert(&record.case);
+            let is_drawn = !matches!(
                 record.verdict,
                 Verdict::NotSupported | Verdict::Skipped | Verdict::Blocked
             );
-            cases.insert(&record.case);
+            for number in expectations.naming(&record.case) {
+                let outcome = &mut excuses.outcomes[number];
+                if outcome.tells && !outcome.excused && excuses.adapters[number].contains(adapter) {
+                    outcome.excused = expectations.excuses(number, record.shown());
+                    outcome.drawn |= is_drawn;
+                }
+            }
         }
-        drawn.then_some(recorded)
+        excuses
+    }
+
+    /// Returns the numbers of the run's adapters that an expectation is about.
+    fn adapters(&self, number: usize) -> &[usize] {
+        &self.adapters[number]
+    }
+
+    /// Returns true if a run drew cases of an expectation on all its adapters, and it excused no verdict.
+    fn none(&self, number: usize, adapters: &BTreeSet<usize>, run: &Run, names: &[String]) -> bool {
+        let about = &self.adapters[number];
+        let is_used = |name: &String| {
+            let mut used = about.iter().map(|n| &run.header.adapters[*n].name);
+            used.any(|used| used == name)
+        };
+        let outcome = self.outcomes[number];
+        outcome.tells
+            && !outcome.excused
+            && outcome.drawn
+            && adapters.iter().all(|index| is_used(&names[*index]))
     }
 }
 
-/// The indices of the cases and adapters that an expectation names.
-#[derive(Default)]
+/// The cases and adapters that an expectation names.
 struct Reach {
-    cases: BTreeSet<usize>,
+    /// The index of one of its cases.
+    first: usize,
+    /// The indices of its adapters.
     adapters: BTreeSet<usize>,
-}
-
-impl Reach {
-    fn is_within(&self, other: &Self) -> bool {
-        self.cases.is_subset(&other.cases) && self.adapters.is_subset(&other.adapters)
-    }
 }
 
 /// Returns true if an expectation excuses whatever another one excuses, for each driver and on each day.
@@ -318,21 +387,83 @@ impl Names {
 
 /// Returns the indices of the names that a glob matches. `names` must be sorted.
 fn matches(glob: &str, names: &[String]) -> Vec<usize> {
-    if !is_pattern(glob) {
-        let found = names.binary_search_by(|name| name.as_str().cmp(glob));
-        return found.into_iter().collect();
-    }
-    let Ok(compiled) = Glob::new(glob) else {
+    let Ok(glob) = Glob::new(glob) else {
         return Vec::new();
     };
-    let end = glob.find(['*', '?', '[', '{', '\\']).unwrap_or(glob.len());
-    let prefix = &glob[..end];
+    let near = beginning(glob.prefix(), names);
+    near.filter(|index| glob.is_match(&names[*index])).collect()
+}
+
+/// Returns the range of the sorted names that begin like this.
+fn beginning(prefix: &str, names: &[String]) -> Range<usize> {
     let start = names.partition_point(|name| name.as_str() < prefix);
-    let near = names.iter().enumerate().skip(start);
-    near.take_while(|(_, name)| name.starts_with(prefix))
-        .filter(|(_, name)| compiled.is_match(name))
-        .map(|(index, _)| index)
-        .collect()
+    let length = names[start..].partition_point(|name| name.starts_with(prefix));
+    start..start + length
+}
+
+/// The ids of all cases.
+struct Ids {
+    sorted: Vec<String>,
+    /// Made when it is first used.
+    parts: OnceCell<Parts>,
+}
+
+/// The number of ids that are compared rather than looked up.
+const FEW: usize = 64;
+
+impl Ids {
+    fn new(ids: &[String]) -> Self {
+        Self {
+            sorted: Names::new(ids).sorted,
+            parts: OnceCell::new(),
+        }
+    }
+
+    /// Returns the indices of the ids that a glob matches, as long as comparisons are left.
+    fn matching<'i>(
+        &'i self,
+        glob: &str,
+        left: &'i Cell<u64>,
+    ) -> Box<dyn Iterator<Item = usize> + 'i> {
+        let Ok(glob) = Glob::new(glob) else {
+            return Box::new(std::iter::empty());
+        };
+        let range = beginning(glob.prefix(), &self.sorted);
+        let near = if range.len() <= FEW {
+            None
+        } else {
+            let parts = self.parts.get_or_init(|| Parts::new(&self.sorted));
+            parts.rarest(glob.literals().iter().map(String::as_bytes))
+        };
+        let candidates: Box<dyn Iterator<Item = usize>> = match near {
+            Some(indices) => {
+                let near = indices.iter().copied();
+                Box::new(near.filter(move |index| range.contains(index)))
+            }
+            None => Box::new(range),
+        };
+        Box::new(
+            candidates
+                .take_while(|_| spend(left))
+                .filter(move |index| glob.is_match(&self.sorted[*index])),
+        )
+    }
+
+    /// Returns the index of the first id that a glob matches.
+    fn first(&self, glob: &str, left: &Cell<u64>) -> Option<usize> {
+        self.matching(glob, left).next()
+    }
+
+    /// Returns the glob itself if it certainly matches no id; otherwise its [`alternatives`] that match none.
+    fn parts_without(&self, glob: &str, left: &Cell<u64>) -> Vec<String> {
+        let is_without = |glob: &str| self.first(glob, left).is_none() && left.get() > 0;
+        if is_without(glob) {
+            return vec![glob.to_owned()];
+        }
+        let mut parts = alternatives(glob);
+        parts.retain(|part| is_without(part));
+        parts
+    }
 }
 
 /// Expands each group `{…}` of a glob in turn: one glob per alternative, which replaces its group. Returns

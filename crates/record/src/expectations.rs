@@ -13,16 +13,16 @@ use crate::grade::Grade;
 use crate::json::without_position;
 use crate::verdict::Verdict;
 use etalon_frame::{shortened, without_mark};
-use etalon_glob::Glob;
+use etalon_glob::{Glob, GlobIndex};
 use semver::VersionReq;
 use serde::{Deserialize, Serialize};
-use std::collections::HashSet;
 use std::fs::{self, File};
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 /// One entry of a list of expectations: a known verdict.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Entry {
     /// A glob over adapter names.
@@ -197,6 +197,10 @@ impl Known {
 pub struct Expectations {
     all: Vec<Known>,
     globs: Vec<Globs>,
+    /// The globs over case ids, made when the first case is looked up.
+    index: OnceLock<GlobIndex>,
+    /// The name of the only adapter that the expectations are about, if they were chosen for it.
+    only: Option<String>,
     /// Expectations whose last day is before this day, as `2027-01-31`, have expired; if not set, none
     /// have.
     today: Option<String>,
@@ -211,19 +215,12 @@ struct Globs {
     processor: Option<Glob>,
     /// False if the machine has another processor, or if the run lacks a label.
     applies: bool,
-    /// Globs without wildcards, that is, plain ids. Most findings name only those.
-    ids: HashSet<String>,
     cases: Vec<Glob>,
 }
 
 /// Returns true if a glob matches or is absent.
 fn matches_if_given(glob: Option<&Glob>, text: &str) -> bool {
     glob.is_none_or(|glob| glob.is_match(text))
-}
-
-/// Returns true if a glob matches only its own text.
-fn is_plain(glob: &str) -> bool {
-    !glob.contains(['*', '?', '[', ']', '{', '}', '!', '\\'])
 }
 
 impl Globs {
@@ -238,12 +235,8 @@ impl Globs {
             })
     }
 
-    fn match_both(&self, adapter: &AdapterRecord, case: &str) -> bool {
-        self.match_case(case) && self.match_adapter(adapter)
-    }
-
     fn match_case(&self, case: &str) -> bool {
-        self.ids.contains(case) || self.cases.iter().any(|g| g.is_match(case))
+        self.cases.iter().any(|glob| glob.is_match(case))
     }
 }
 
@@ -262,7 +255,7 @@ pub enum Expectation<'a> {
     Differs(&'a Known),
 }
 
-/// The maximum number of bytes of a file that are read; a longer file does not parse.
+/// The maximum number of bytes of a file.
 const MAX_BYTES: u64 = 64 << 20;
 const REMEDY: &str = "each entry needs adapter, driver, case, verdict, reason and evidence";
 
@@ -399,8 +392,6 @@ impl Expectations {
         let build_if_given = |key: &str, glob: &Option<String>| {
             glob.as_ref().map(|glob| build(key, glob)).transpose()
         };
-        let (plain, globs): (Vec<_>, Vec<_>) =
-            known.cases.iter().cloned().partition(|g| is_plain(g));
         if let Some(symptom) = &known.symptom {
             let wrong = if symptom.is_empty() {
                 Some("is empty; its keys are attachment, aspect, codes, side and counter")
@@ -428,11 +419,11 @@ impl Expectations {
             applies: true,
             adapters: each(keys[0], &known.adapters)?,
             driver: build("driver", &known.driver)?,
-            ids: plain.into_iter().collect(),
-            cases: each(keys[1], &globs)?,
+            cases: each(keys[1], &known.cases)?,
         };
         self.all.push(known);
         self.globs.push(globs);
+        self.index = OnceLock::new();
         Ok(())
     }
 
@@ -445,6 +436,8 @@ impl Expectations {
         Self {
             all,
             globs,
+            index: OnceLock::new(),
+            only: Some(adapter.name.clone()),
             today: self.today.clone(),
         }
     }
@@ -474,6 +467,8 @@ impl Expectations {
     pub fn and(mut self, others: Self) -> Self {
         self.all.extend(others.all);
         self.globs.extend(others.globs);
+        self.index = OnceLock::new();
+        self.only = None;
         self
     }
 
@@ -484,12 +479,8 @@ impl Expectations {
 
     /// Returns the expectation that prevents drawing a case on an adapter, if any.
     pub fn skips(&self, adapter: &AdapterRecord, case: &str) -> Option<&Known> {
-        // Few expectations skip anything, and few cases are named by an expectation.
-        let entries = self.all.iter().zip(&self.globs);
-        let mut skips = entries.filter(|(known, _)| known.verdict == Verdict::Skipped);
-        let named =
-            skips.find(|(known, globs)| !self.expired(known) && globs.match_both(adapter, case));
-        named.map(|(known, _)| known)
+        self.matching(adapter, case)
+            .find(|known| known.verdict == Verdict::Skipped && !self.expired(known))
     }
 
     /// Returns true if an expectation has expired.
@@ -515,10 +506,23 @@ impl Expectations {
         adapter: &'a AdapterRecord,
         case: &'a str,
     ) -> impl Iterator<Item = usize> + use<'e, 'a> {
-        let entries = self.globs.iter().enumerate();
-        entries
-            .filter(move |(_, globs)| globs.match_both(adapter, case))
-            .map(|(number, _)| number)
+        let is_only = self.only.as_ref() == Some(&adapter.name);
+        let named = self.naming(case).into_iter();
+        named.filter(move |number| is_only || self.globs[*number].match_adapter(adapter))
+    }
+
+    /// Returns the numbers of the expectations that name a case, on any adapter.
+    pub(crate) fn naming(&self, case: &str) -> Vec<usize> {
+        let index = self.index.get_or_init(|| {
+            let mut index = GlobIndex::default();
+            for (number, globs) in self.globs.iter().enumerate() {
+                for glob in &globs.cases {
+                    index.add(number, glob);
+                }
+            }
+            index
+        });
+        index.matches(case)
     }
 
     /// Returns true if an expectation names a case, on any adapter.
@@ -640,9 +644,15 @@ fn entry_name(path: &Path) -> String {
 
 fn text_of(path: &Path) -> Result<String, RecordError> {
     let mut text = String::new();
-    File::open(path)
-        .and_then(|file| file.take(MAX_BYTES).read_to_string(&mut text))
-        .map_err(RecordError::io("read", path))?;
+    let read = File::open(path).and_then(|file| {
+        file.take(MAX_BYTES + 1).read_to_string(&mut text)?;
+        if text.len() as u64 > MAX_BYTES {
+            let message = format!("it is longer than {} MiB", MAX_BYTES >> 20);
+            return Err(io::Error::other(message));
+        }
+        Ok(())
+    });
+    read.map_err(RecordError::io("read", path))?;
     Ok(without_mark(&text).to_owned())
 }
 

@@ -29,7 +29,7 @@ pub struct Shown<'a> {
 }
 
 /// Facts that are true of every wrong value that a record lists.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExpectedSymptom {
     /// The attachment.

@@ -1,5 +1,7 @@
 //! The names of the files in a recorded folder, and the folder's kind.
 
+use std::fs::{self, File};
+use std::io;
 use std::path::Path;
 
 /// The file of a run folder that holds the header and the records.
@@ -12,6 +14,10 @@ pub const CASES_FILE: &str = "cases.txt";
 pub const MISSING_FILE: &str = "missing.txt";
 /// The file of a run folder that lists the dead expectations.
 pub const DEAD_FILE: &str = "dead-expectations.json";
+/// The file of a run folder that lists workers that failed after their last case.
+pub const BAD_ENDS_FILE: &str = "bad-ends.json";
+/// The file that lists the files that etalon wrote into a folder: a path per line, with `/` as separator.
+pub(crate) const LIST: &str = ".files";
 /// The file of a search of random scenes.
 pub const FUZZ_FILE: &str = "fuzz.jsonl";
 /// The file of a search over releases.
@@ -86,6 +92,7 @@ impl FolderKind {
                 CASES_FILE,
                 MISSING_FILE,
                 DEAD_FILE,
+                BAD_ENDS_FILE,
                 "index.html",
                 "methods.html",
                 "junit.xml",
@@ -106,5 +113,14 @@ impl FolderKind {
     pub fn of(folder: &Path) -> Option<Self> {
         let mut kinds = Self::ALL.into_iter();
         kinds.find(|kind| folder.join(kind.file()).is_file())
+    }
+}
+
+/// Opens a file of a recorded folder. It must be a regular file: opening a pipe waits until another process writes to it.
+pub(crate) fn open(path: &Path) -> io::Result<File> {
+    if fs::metadata(path)?.is_file() {
+        File::open(path)
+    } else {
+        Err(io::Error::other("it is not a regular file"))
     }
 }

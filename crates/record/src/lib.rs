@@ -12,6 +12,7 @@
 )]
 
 mod adapter;
+mod bad_end;
 mod bench;
 mod change;
 mod conflict;
@@ -39,6 +40,7 @@ mod machine;
 mod measured;
 mod merge;
 mod output_folder;
+mod parts;
 mod paths;
 mod record;
 mod run;
@@ -52,6 +54,7 @@ mod versions;
 mod writer;
 
 pub use adapter::{AbsentAdapter, AdapterRecord, Release};
+pub use bad_end::BadEnd;
 pub use bench::{
     BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchRecord, BenchSettings, BenchWriter, CellRate,
     Counted, Done, Ended, Enough, InstructionCounter, Measure, Picture, ProcessorLimits, Round,
@@ -66,8 +69,8 @@ pub use expectations::{Entry, Expectation, Expectations, Known, Source};
 pub use expected_symptom::{ExpectedSymptom, Shown, Side};
 pub use findings::{Evidence, Finding, Reading, ReadingVerdict, Seen};
 pub use folder::{
-    BENCH_FILE, CASES_FILE, DEAD_FILE, FUZZ_FILE, FolderKind, HUNT_FILE, MISSING_FILE, RUN_FILE,
-    VERSIONS_FILE,
+    BAD_ENDS_FILE, BENCH_FILE, CASES_FILE, DEAD_FILE, FUZZ_FILE, FolderKind, HUNT_FILE,
+    MISSING_FILE, RUN_FILE, VERSIONS_FILE,
 };
 pub use frame_file::{FrameFile, FrameImage};
 pub use frame_writer::FrameWriter;

@@ -6,10 +6,13 @@
 
 use crate::adapter::AdapterRecord;
 use crate::expectations::{Entry, Expectations};
+use crate::parts::Parts;
 use crate::verdict::Verdict;
 use etalon_frame::without_mark;
 use regex::{Regex, RegexBuilder};
-use std::collections::BTreeSet;
+use regex_syntax::hir::{Hir, HirKind, Look};
+use std::cell::LazyCell;
+use std::collections::HashSet;
 use thiserror::Error;
 
 /// The maximum number of bytes that one regular expression may take compiled.
@@ -45,6 +48,8 @@ pub struct Imported {
     pub entries: Vec<Entry>,
     /// Lines that match no existing case: list and line.
     pub unmatched: Vec<(String, String)>,
+    /// The entries again, to find an entry that was made before.
+    known: HashSet<Entry>,
 }
 
 /// The fields of every imported entry except case and verdict.
@@ -90,7 +95,8 @@ impl Imported {
         ids: &[String],
         about: &About,
     ) -> Result<(), ListError> {
-        let known: BTreeSet<&str> = ids.iter().map(String::as_str).collect();
+        let known: HashSet<&str> = ids.iter().map(String::as_str).collect();
+        let parts = LazyCell::new(|| Parts::new(ids));
         for (number, line) in without_mark(text).lines().enumerate() {
             let line = line.trim();
             if line.is_empty() || line.starts_with('#') {
@@ -120,9 +126,9 @@ impl Imported {
                         ListKind::Skips => Verdict::Skipped,
                         _ => Verdict::Flaky,
                     };
-                    let regex = regex(line).map_err(|e| fail(e.to_string()))?;
-                    let matching = ids.iter().filter(|id| regex.is_match(id));
-                    matching.map(|id| (id.as_str(), verdict)).collect()
+                    let regex = Pattern::new(line).map_err(|e| fail(e.to_string()))?;
+                    let found = regex.matching(&known, ids, &parts);
+                    found.into_iter().map(|id| (id, verdict)).collect()
                 }
             };
             if matched.is_empty() {
@@ -132,7 +138,7 @@ impl Imported {
                 .into_iter()
                 .map(|(id, verdict)| entry(id, verdict, about));
             for entry in new {
-                if !self.entries.contains(&entry) {
+                if self.known.insert(entry.clone()) {
                     self.entries.push(entry);
                 }
             }
@@ -141,8 +147,80 @@ impl Imported {
     }
 }
 
-fn regex(text: &str) -> Result<Regex, regex::Error> {
-    RegexBuilder::new(text).size_limit(REGEX_BYTES).build()
+/// A regular expression of a list.
+enum Pattern {
+    /// Only this text matches: so are the lists that this suite writes.
+    Text(String),
+    /// Everything that matches has these texts.
+    Regex(Regex, Vec<Vec<u8>>),
+}
+
+impl Pattern {
+    fn new(text: &str) -> Result<Self, regex::Error> {
+        let parsed = regex_syntax::parse(text).ok();
+        if let Some(text) = parsed.as_ref().and_then(only_match) {
+            return Ok(Self::Text(text));
+        }
+        let regex = RegexBuilder::new(text).size_limit(REGEX_BYTES).build()?;
+        let mut texts = Vec::new();
+        if let Some(parsed) = &parsed {
+            add_literals(parsed, &mut texts);
+        }
+        Ok(Self::Regex(regex, texts))
+    }
+
+    /// Returns the ids that match. `parts` are those of the ids.
+    fn matching<'i>(
+        &self,
+        known: &HashSet<&'i str>,
+        ids: &'i [String],
+        parts: &LazyCell<Parts, impl FnOnce() -> Parts>,
+    ) -> Vec<&'i str> {
+        match self {
+            Self::Text(text) => known.get(text.as_str()).copied().into_iter().collect(),
+            Self::Regex(regex, texts) => {
+                let few = match texts.as_slice() {
+                    [] => None,
+                    texts => parts.rarest(texts.iter().map(Vec::as_slice)),
+                };
+                let matching = |id: &&str| regex.is_match(id);
+                match few {
+                    Some(few) => {
+                        let few = few.iter().map(|index| ids[*index].as_str());
+                        few.filter(matching).collect()
+                    }
+                    None => ids.iter().map(String::as_str).filter(matching).collect(),
+                }
+            }
+        }
+    }
+}
+
+/// Returns the only text that an expression of the form `^text$` matches.
+fn only_match(parsed: &Hir) -> Option<String> {
+    let HirKind::Concat(parts) = parsed.kind() else {
+        return None;
+    };
+    let [start, text, end] = parts.as_slice() else {
+        return None;
+    };
+    match (start.kind(), text.kind(), end.kind()) {
+        (HirKind::Look(Look::Start), HirKind::Literal(text), HirKind::Look(Look::End)) => {
+            String::from_utf8(text.0.to_vec()).ok()
+        }
+        _ => None,
+    }
+}
+
+/// Adds texts that are in everything that an expression matches.
+fn add_literals(parsed: &Hir, texts: &mut Vec<Vec<u8>>) {
+    match parsed.kind() {
+        HirKind::Literal(text) => texts.push(text.0.to_vec()),
+        HirKind::Concat(parts) => parts.iter().for_each(|part| add_literals(part, texts)),
+        HirKind::Capture(group) => add_literals(&group.sub, texts),
+        HirKind::Repetition(repeated) if repeated.min > 0 => add_literals(&repeated.sub, texts),
+        _ => {}
+    }
 }
 
 /// Returns the verdict that a status of deqp-runner expects; `None` if it expects nothing bad.

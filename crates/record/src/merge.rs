@@ -1,5 +1,6 @@
 //! Merging several runs into one: shards of a selection, or adapters that ran elsewhere.
 
+use crate::bad_end::BadEnd;
 use crate::dead::Dead;
 use crate::error::RecordError;
 use crate::folder::{CASES_FILE, MISSING_FILE};
@@ -12,7 +13,6 @@ use crate::selection::read_cases;
 use crate::verdict::Verdict;
 use crate::writer::RunWriter;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
-use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -26,6 +26,7 @@ pub struct Merge {
     merged: Merged,
     /// The dead expectations that all parts have in common.
     dead: Vec<Dead>,
+    bad_ends: Vec<BadEnd>,
 }
 
 /// The counts of a merge.
@@ -71,10 +72,12 @@ impl Merge {
         let ids = selection(&parts)?;
         let header = header(first, &parts)?;
         let mut dead = Dead::read(first)?;
+        let mut bad_ends = Vec::new();
         for (folder, _) in &parts {
             let also = Dead::read(folder)?;
             // An expectation that matched nothing in this part can match in another part.
             dead.retain(|entry| also.contains(entry));
+            BadEnd::add(&mut bad_ends, BadEnd::read(folder)?);
         }
         let mut merge = Self {
             header,
@@ -82,6 +85,7 @@ impl Merge {
             records: HashMap::new(),
             merged,
             dead,
+            bad_ends,
         };
         for (folder, run) in parts {
             merge.take(folder, run)?;
@@ -167,6 +171,7 @@ impl Merge {
         }
         writer.sync()?;
         Dead::write(out, &self.dead)?;
+        BadEnd::write(out, &self.bad_ends)?;
         if !merged.missing.is_empty() {
             let lines = merged.missing.iter();
             let text: String = lines.map(|(a, c)| format!("{a} {c}\n")).collect();
@@ -293,7 +298,11 @@ fn selections(
         return None;
     }
     let ids = |folder: &Path| -> Option<BTreeSet<String>> {
-        let text = fs::read_to_string(folder.join(CASES_FILE)).ok()?;
+        let mut text = String::new();
+        open_below(folder, CASES_FILE)
+            .ok()?
+            .read_to_string(&mut text)
+            .ok()?;
         Some(text.lines().map(str::to_owned).collect())
     };
     let (a, b) = (ids(first)?, ids(other)?);

@@ -5,7 +5,7 @@
 
 use crate::content::Content;
 use crate::error::RecordError;
-use crate::folder::FolderKind;
+use crate::folder::{FolderKind, LIST};
 use crate::lock::LOCK_FILE;
 use crate::paths::{below, lowest_real};
 use crate::unlisted;
@@ -15,8 +15,6 @@ use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// The file that lists the others: a path per line, with `/` as separator.
-pub(crate) const LIST: &str = ".files";
 /// The maximum number of bytes of the list that are read.
 const MAX_LIST: u64 = 256 << 20;
 

@@ -1,7 +1,7 @@
 //! Reading a run folder.
 
 use crate::error::RecordError;
-use crate::folder::RUN_FILE;
+use crate::folder::{RUN_FILE, open};
 use crate::frame_file::FrameFile;
 use crate::header::{FORMAT, Header};
 use crate::json::without_position;
@@ -10,7 +10,6 @@ use crate::paths::{below, open_below};
 use crate::record::{MAX_LINE, Record};
 use flate2::read::GzDecoder;
 use std::collections::HashSet;
-use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 
@@ -67,7 +66,7 @@ impl Run {
     /// Like [`Run::read`], and also returns the length of the header and the whole records in bytes.
     pub(crate) fn read_prefix(folder: &Path) -> Result<(Self, u64), RecordError> {
         let path = folder.join(RUN_FILE);
-        let file = File::open(&path).map_err(|e| match e.kind() {
+        let file = open(&path).map_err(|e| match e.kind() {
             ErrorKind::NotFound => RecordError::NoRun {
                 path: folder.to_owned(),
             },

@@ -4,7 +4,7 @@
 //! neighbours if both have the same, and a release in the middle of each such span is drawn to check this.
 
 use crate::error::RecordError;
-use crate::folder::VERSIONS_FILE;
+use crate::folder::{VERSIONS_FILE, open};
 use crate::json::json_line;
 use crate::json_lines::JsonLines;
 use crate::machine::Machine;
@@ -12,7 +12,6 @@ use crate::output_folder::OutputFolder;
 use crate::standing::Standing;
 use crate::verdict::Verdict;
 use serde::{Deserialize, Serialize};
-use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -145,7 +144,7 @@ impl Versions {
     /// If the file does not exist or is damaged.
     pub fn read(folder: &Path) -> Result<Self, RecordError> {
         let path = folder.join(VERSIONS_FILE);
-        let file = File::open(&path).map_err(RecordError::io("open", &path))?;
+        let file = open(&path).map_err(RecordError::io("open", &path))?;
         Self::parse(&path, file)
     }
 

@@ -14,7 +14,7 @@ use crate::drawing::Drawing;
 use crate::launch::Launch;
 use crate::loss::Failure;
 use crate::process::Wait;
-use crate::supervisor::{FailedStarts, Supervisor};
+use crate::supervisor::{BadEnds, FailedStarts, Supervisor};
 use crate::worker::Worker;
 use etalon_case::Case;
 use etalon_frame::{Limits, WrongTexel};
@@ -154,7 +154,13 @@ pub fn bench(
             spent: Duration::ZERO,
             record: AdapterRecord::from(&worker),
             launch: launch.clone(),
-            supervisor: Supervisor::new(launch, None, FailedStarts::default(), Some(worker)),
+            supervisor: Supervisor::new(
+                launch,
+                None,
+                FailedStarts::default(),
+                BadEnds::default(),
+                Some(worker),
+            ),
         })
         .collect();
     let mut bench = Bench {

@@ -11,6 +11,7 @@ use crate::memory::MemoryLimit;
 use crate::protocol::{Request, Response, encode, encode_behind, receive};
 use crate::stderr_tail::StderrTail;
 use crate::sync::lock;
+use etalon_process::Group;
 use std::collections::VecDeque;
 use std::io::{BufReader, Error, Write};
 use std::process::{Child, ChildStdin, ExitStatus, Stdio};
@@ -64,6 +65,8 @@ type Answer = (Instant, Result<Response, Loss>);
 /// A worker's process and its pipes.
 pub(crate) struct WorkerProcess {
     child: Arc<Mutex<Child>>,
+    /// The processes of the worker: itself, its launcher, and what they start.
+    group: Group,
     /// True if the process is a launcher, whose signals and memory say nothing about the worker.
     launched: bool,
     /// Set once the worker has sent its greeting.
@@ -89,12 +92,12 @@ impl WorkerProcess {
             command.env(MALLOC.0, MALLOC.1);
         }
         // Ctrl-C is meant for the parent, which then ends its workers in an orderly way.
-        let mut child = etalon_process::separate(&mut command)
+        command
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .map_err(|e| cannot_start(launch, &e))?;
+            .stderr(Stdio::piped());
+        let started = Group::start_worker(&mut command);
+        let (mut child, group) = started.map_err(|e| cannot_start(launch, &e))?;
         let no_pipe = || StartError::Broken("the worker has no pipes".to_owned());
         let input = child.stdin.take().ok_or_else(no_pipe)?;
         let output = child.stdout.take().ok_or_else(no_pipe)?;
@@ -143,12 +146,14 @@ impl WorkerProcess {
         let stderr = StderrTail::of(errors);
         let stderr = writing.and(reading).and(stderr).map_err(|e| {
             // The process may have ended already; then there is nothing to kill.
+            group.kill();
             let _ = child.kill();
             let _ = child.wait();
             no_thread(&e)
         })?;
         Ok(Self {
             child: Arc::new(Mutex::new(child)),
+            group,
             launched,
             greeted,
             requests: Some(requests),
@@ -205,6 +210,7 @@ impl WorkerProcess {
         wait: Wait<'_>,
     ) -> Result<Response, Loss> {
         let stopped = || wait.stop.is_some_and(|s| s.load(Ordering::Relaxed));
+        let mut has_exited = false;
         loop {
             match self.came.pop_front() {
                 Some((since, Ok(response))) => {
@@ -215,12 +221,20 @@ impl WorkerProcess {
                 None => {}
             }
             let left = until.saturating_duration_since(Instant::now());
-            match self.responses.recv_timeout(left.min(POLL_INTERVAL)) {
+            let step = if has_exited { LONGEST_STEP } else { left };
+            match self.responses.recv_timeout(step.min(POLL_INTERVAL)) {
                 Ok(answers) => self.came.extend(answers),
                 Err(RecvTimeoutError::Timeout) if stopped() => return Err(Loss::Cancelled),
-                Err(RecvTimeoutError::Timeout) if left > POLL_INTERVAL => {}
+                // What it wrote before its end has been read.
+                Err(RecvTimeoutError::Timeout) if has_exited => {
+                    return Err(self.cause(Loss::Died));
+                }
                 Err(RecvTimeoutError::Timeout) => {
-                    return Err(self.cause(Loss::Timeout(wait.timeout)));
+                    // A child of the driver can hold the pipe, so that the pipe does not end with the worker.
+                    has_exited = !self.launched && self.exited().is_some();
+                    if !has_exited && left <= POLL_INTERVAL {
+                        return Err(self.cause(Loss::Timeout(wait.timeout)));
+                    }
                 }
                 Err(RecvTimeoutError::Disconnected) => return Err(self.cause(Loss::Died)),
             }
@@ -263,22 +277,33 @@ impl WorkerProcess {
         let mut step = Duration::from_millis(1);
         let start = Instant::now();
         loop {
-            let status = lock(&self.child).try_wait();
-            match status {
-                Ok(Some(status)) => return Some(status),
-                Ok(None) if start.elapsed() < limit => {
+            match self.exited() {
+                Some(status) => return Some(status),
+                None if start.elapsed() < limit => {
                     thread::sleep(step);
                     step = (2 * step).min(LONGEST_STEP);
                 }
-                _ => return None,
+                None => return None,
             }
         }
     }
 
+    /// Returns the exit status of the process, if it has exited. Kills what it left.
+    fn exited(&self) -> Option<ExitStatus> {
+        let status = lock(&self.child).try_wait().ok().flatten()?;
+        // After the first time, the number of the group can be another's.
+        if !self.ended.swap(true, Ordering::Relaxed) {
+            self.group.kill();
+        }
+        Some(status)
+    }
+
     fn kill(&mut self) {
-        self.ended.store(true, Ordering::Relaxed);
         let mut child = lock(&self.child);
         // The process may have ended already; then there is nothing to kill.
+        if !self.ended.swap(true, Ordering::Relaxed) {
+            self.group.kill();
+        }
         let _ = child.kill();
         let _ = child.wait();
     }
@@ -289,6 +314,30 @@ impl WorkerProcess {
     pub(crate) fn close(mut self, patience: Duration) -> bool {
         self.requests = None;
         self.wait(patience).is_some()
+    }
+}
+
+impl WorkerProcess {
+    /// Asks the worker to exit, and reports how it ended if that was not by itself and in order. Kills it if it does not
+    /// exit.
+    pub(crate) fn bad_end(mut self) -> Option<ExitReport> {
+        self.requests = None;
+        let Some(status) = self.wait(CLOSE_TIMEOUT) else {
+            self.kill();
+            return None;
+        };
+        // A launcher has a status of its own.
+        let is_bad = etalon_process::signal(status).is_some() || !self.launched;
+        if status.success() || !is_bad {
+            return None;
+        }
+        let words = self.stderr.text(LAST_WORDS);
+        Some(ExitReport::new(
+            Loss::Died,
+            Some(status),
+            self.launched,
+            words,
+        ))
     }
 }
 

@@ -7,15 +7,19 @@ use std::any::Any;
 use std::collections::HashMap;
 use std::io::{self, Read, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
 /// The time that a worker may take to exit by itself after its parent has gone.
 const GRACE: Duration = Duration::from_secs(5);
+/// The same while the driver is being opened.
+const GRACE_OPENING: Duration = Duration::from_secs(1);
 
 /// Opens a backend and answers requests until `input` ends. A hanging driver does not outlive the parent:
-/// some seconds after the end of `input`, the process exits in any case.
+/// some seconds after the end of `input`, the process and its group are killed in any case.
 ///
 /// # Errors
 /// If the pipe to the parent breaks.
@@ -25,7 +29,13 @@ pub fn serve(
     output: &mut impl Write,
 ) -> io::Result<()> {
     greeting::send(output)?;
-    let backend = match open() {
+    let (sender, requests) = channel();
+    let is_open = Arc::<AtomicBool>::default();
+    let opened = Arc::clone(&is_open);
+    thread::Builder::new().spawn(move || read(input, sender, &opened))?;
+    let backend = open();
+    is_open.store(true, Ordering::Relaxed);
+    let backend = match backend {
         Ok(backend) => backend,
         Err(unavailable) => return send(output, &Response::Hello(Err(unavailable))),
     };
@@ -35,8 +45,6 @@ pub fn serve(
     };
     send(output, &Response::Hello(Ok(Box::new(hello))))?;
     let mut slots: HashMap<u32, Box<dyn Prepared + '_>> = HashMap::new();
-    let (sender, requests) = channel();
-    thread::Builder::new().spawn(move || read(input, sender))?;
     let mut next = requests.recv().ok();
     while let Some(request) = next {
         let request: Request<'_> = request?;
@@ -70,8 +78,12 @@ pub fn serve(
     Ok(())
 }
 
-/// Passes requests on until there are no more, then makes sure that the process exits.
-fn read(mut input: impl Read, requests: Sender<io::Result<Request<'static>>>) {
+/// Passes requests on until there are no more, then makes sure that the process ends.
+fn read(
+    mut input: impl Read,
+    requests: Sender<io::Result<Request<'static>>>,
+    is_open: &AtomicBool,
+) {
     loop {
         let message = receive::<Request<'_>>(&mut input).transpose();
         let Some(message) = message else { break };
@@ -81,8 +93,9 @@ fn read(mut input: impl Read, requests: Sender<io::Result<Request<'static>>>) {
         }
     }
     drop(requests);
-    thread::sleep(GRACE);
-    std::process::exit(0);
+    let was_open = is_open.load(Ordering::Relaxed);
+    thread::sleep(if was_open { GRACE } else { GRACE_OPENING });
+    etalon_process::end_group()
 }
 
 /// Returns the error that reports a panic.

@@ -4,6 +4,7 @@
 //! A failed start is repeated at once, not later: all requests in flight must go to the same worker, because
 //! otherwise their answers could be confused.
 
+use crate::exit_report::ExitReport;
 use crate::failure_report::FailureReport;
 use crate::launch::{Launch, StartError};
 use crate::loss::{Failure, Loss};
@@ -27,12 +28,24 @@ struct InARow {
     message: String,
 }
 
+/// How workers of one adapter failed after their last case. All supervisors of the adapter share this.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct BadEnds(Arc<Mutex<Vec<ExitReport>>>);
+
+impl BadEnds {
+    /// Returns the ends so far.
+    pub(crate) fn take(&self) -> Vec<ExitReport> {
+        std::mem::take(&mut lock(&self.0))
+    }
+}
+
 /// Starts one worker at a time and watches over it.
 pub(crate) struct Supervisor {
     launch: Launch,
     /// Memory that the worker may use, in MiB.
     memory: Option<u64>,
     failed_starts: FailedStarts,
+    bad_ends: BadEnds,
     worker: Option<WorkerProcess>,
     /// The number of workers so far.
     generation: u32,
@@ -57,12 +70,14 @@ impl Supervisor {
         launch: Launch,
         memory: Option<u64>,
         failed_starts: FailedStarts,
+        bad_ends: BadEnds,
         running: Option<Worker>,
     ) -> Self {
         Self {
             launch,
             memory,
             failed_starts,
+            bad_ends,
             worker: running.and_then(|worker| limited(worker.process, memory).ok()),
             generation: 0,
         }
@@ -113,9 +128,10 @@ impl Supervisor {
         self.generation
     }
 
-    /// Ends the worker.
+    /// Ends the worker, and notes how it ends.
     pub(crate) fn stop(&mut self) {
-        self.worker = None;
+        let end = self.worker.take().and_then(WorkerProcess::bad_end);
+        lock(&self.bad_ends.0).extend(end);
     }
 
     /// Reports a failed request, and ends the worker if it must not be used again.
@@ -125,5 +141,11 @@ impl Supervisor {
             self.worker = None;
         }
         report
+    }
+}
+
+impl Drop for Supervisor {
+    fn drop(&mut self) {
+        self.stop();
     }
 }

@@ -8,7 +8,7 @@ use crate::process::{Wait, WorkerProcess};
 use crate::protocol::{Hello, Payload, Request, Response};
 use etalon_backend::{BackendError, Recording, Unavailable};
 use etalon_case::Case;
-use etalon_frame::Frame;
+use etalon_frame::{Frame, printable};
 use etalon_record::{Record, Release};
 use etalon_scene::Scene;
 use std::time::{Duration, Instant};
@@ -25,6 +25,26 @@ pub struct Worker {
     pub(crate) process: WorkerProcess,
 }
 
+/// The most characters of a name that a driver gives.
+const MOST_OF_A_NAME: usize = 400;
+/// The most characters of the reason why an adapter is unavailable.
+const MOST_OF_A_REASON: usize = 2000;
+
+/// Returns what a worker says about its adapter, with names that can be shown anywhere.
+fn printable_hello(mut hello: Hello) -> Hello {
+    let info = &mut hello.info;
+    for name in [
+        &mut info.name,
+        &mut info.device,
+        &mut info.driver,
+        &mut info.driver_version,
+        &mut info.api_version,
+    ] {
+        *name = printable(name, MOST_OF_A_NAME);
+    }
+    hello
+}
+
 impl Worker {
     /// Starts a worker and waits until its adapter is open.
     ///
@@ -35,12 +55,15 @@ impl Worker {
         let mut process = WorkerProcess::spawn(launch)?;
         match process.response(launch.patience) {
             Ok(Response::Hello(Ok(hello))) => Ok(Self {
-                hello: checked(*hello)?,
+                hello: checked(printable_hello(*hello))?,
                 release: launch.release.clone(),
                 opening: begun.elapsed(),
                 process,
             }),
-            Ok(Response::Hello(Err(unavailable))) => Err(StartError::Unavailable(unavailable)),
+            Ok(Response::Hello(Err(unavailable))) => Err(StartError::Unavailable(Unavailable {
+                reason: printable(&unavailable.reason, MOST_OF_A_REASON),
+                remedy: printable(&unavailable.remedy, MOST_OF_A_REASON),
+            })),
             Ok(Response::Done { .. }) => Err(StartError::Broken(
                 "the worker's first message is not a greeting".to_owned(),
             )),

@@ -89,6 +89,8 @@ mod tests {
             "abort",
             "segv",
             "exit",
+            "child",
+            "close",
             "panic",
             "hang",
             "spin",

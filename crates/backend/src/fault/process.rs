@@ -12,6 +12,10 @@ pub enum ProcessFault {
     Segv,
     /// The process ends with status 7.
     Exit,
+    /// The process aborts, but a program that it started holds its output.
+    Child,
+    /// The process reads unmapped memory when its device is destroyed.
+    Close,
     /// The suite's own code panics.
     Panic,
     /// The process sleeps endlessly.

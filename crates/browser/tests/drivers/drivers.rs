@@ -18,7 +18,7 @@ const LAVAPIPE: &str = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json";
 #[test]
 #[ignore = "a process of the other tests"]
 fn keeper() {
-    keep(BufReader::new(stdin())).expect("the browser is kept");
+    keep(BufReader::new(stdin()), None).expect("the browser is kept");
 }
 
 /// Returns the browser of an adapter.

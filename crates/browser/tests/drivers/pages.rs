@@ -126,7 +126,8 @@ fn drawn_with(answer: impl Fn(&Value) -> Message + Send + 'static) -> Result<(),
         let length = u32::from_le_bytes(request[..4].try_into().expect("four bytes"));
         let header = &request[4..4 + length as usize];
         let header = serde_json::from_slice(header).expect("a header");
-        socket.send(answer(&header)).expect("the answer is sent");
+        // The worker ends the connection in the middle of an answer that is too long.
+        let _ = socket.send(answer(&header));
         // The connection stays until the worker has looked at the answer.
         let _ = socket.read();
     });
@@ -206,6 +207,58 @@ fn garbage_of_a_page_fails_its_scene_alone() {
         );
         assert!(is_internal, "garbage {number}: {failed:?}");
     }
+}
+
+#[test]
+fn an_answer_is_not_longer_than_the_scene_needs() {
+    let drawn = drawn_with(|request| {
+        let bytes = request["list"]["reading"]["bytes"].as_u64().expect("bytes");
+        message(&answer_to(request), &vec![0; bytes as usize + (2 << 20)])
+    });
+    let text = drawn.expect_err("it is too long").to_string();
+    assert!(text.contains("too long"), "{text}");
+}
+
+#[test]
+fn a_page_that_closes_before_its_greeting_is_waited_for_again() {
+    let page = Page::new();
+    let worker = page.worker();
+    drop(page.opened());
+    let mut socket = page.opened();
+    socket.close(None).expect("it closes");
+    drop(socket);
+    greet(&mut page.opened(), &hello("a"));
+    worker.join().expect("no panic").expect("it opens");
+}
+
+#[test]
+fn slow_connections_neither_stay_nor_keep_a_page_out() {
+    let page = Page::new();
+    let worker = page.worker();
+    let slow: Vec<TcpStream> = (0..100)
+        .map(|_| {
+            let mut stream = page.stream();
+            stream.write_all(b"GET /").expect("it is sent");
+            stream
+        })
+        .collect();
+    assert!(page.get(&format!("/{}/", page.token)).contains("200 OK"));
+    thread::sleep(Duration::from_secs(3));
+    for mut stream in slow {
+        stream
+            .set_read_timeout(Some(Duration::from_millis(100)))
+            .expect("a limit");
+        // Its end, or an answer that ends.
+        let read = stream.read_to_string(&mut String::new());
+        let kind = read.map_err(|error| error.kind());
+        let waits = matches!(
+            kind,
+            Err(std::io::ErrorKind::WouldBlock | std::io::ErrorKind::TimedOut)
+        );
+        assert!(!waits, "a connection without a head is open");
+    }
+    greet(&mut page.opened(), &hello("a"));
+    worker.join().expect("no panic").expect("it opens");
 }
 
 #[test]

@@ -9,6 +9,7 @@ use super::origin::Origin;
 use super::query::Query;
 use super::runtime_folder::default_runtime_folder;
 use crate::output::say;
+use crate::worker;
 use etalon_backend::{AdapterInfo, Fault};
 use etalon_frame::Api;
 use etalon_record::AbsentAdapter;
@@ -272,7 +273,7 @@ impl Candidate {
         environment.extend(default_runtime_folder().map(|(name, value)| (name, Some(value))));
         let open = serde_json::to_string(&self.open(resolved, query)).map_err(|e| e.to_string())?;
         let launcher = (!resolved.launcher.is_empty()).then(|| Launcher {
-            prefix: resolved.launcher.clone(),
+            prefix: guarded(&resolved.launcher),
             open: open.clone(),
         });
         let open = launcher.as_ref().map_or(open, |_| FROM_INPUT.to_owned());
@@ -312,6 +313,17 @@ impl Candidate {
             device_index,
         }
     }
+}
+
+/// Returns the words of a launcher behind those of a guard, which ends what the launcher starts.
+fn guarded(launcher: &[String]) -> Vec<String> {
+    let guard = worker::guard(true).ok().filter(|_| cfg!(unix));
+    let words = guard.iter().flat_map(|guard| {
+        let program = std::iter::once(guard.get_program());
+        program.chain(guard.get_args())
+    });
+    let words = words.map(|word| word.to_string_lossy().into_owned());
+    words.chain(launcher.iter().cloned()).collect()
 }
 
 /// Returns true if a backend can have a fault.

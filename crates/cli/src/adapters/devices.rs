@@ -4,6 +4,7 @@
 use super::backend_name::BackendName;
 use super::names::sanitized;
 use super::runtime_folder::default_runtime_folder;
+use etalon_process::Group;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::io::Read;
@@ -57,14 +58,17 @@ pub(crate) fn hardware_names() -> impl Iterator<Item = String> {
 pub(super) fn enumerate(backend: &str) -> Result<Vec<HardwareDevice>, String> {
     let program = std::env::current_exe()
         .map_err(|e| format!("cannot find the program file of etalon: {e}"))?;
-    let mut child = Command::new(program)
+    let mut command = Command::new(program);
+    command
         .args(["worker", "--enumerate", backend])
         .envs(default_runtime_folder())
-        .stdin(Stdio::null())
+        // The end of this pipe shows that this process ended.
+        .stdin(Stdio::piped())
         .stdout(Stdio::piped())
-        .stderr(Stdio::null())
-        .spawn()
+        .stderr(Stdio::null());
+    let (mut child, group) = Group::start(&mut command)
         .map_err(|e| format!("cannot start the process that lists devices: {e}"))?;
+    let input = child.stdin.take();
     let mut pipe = child.stdout.take();
     let (sender, receiver) = channel();
     let reading = thread::Builder::new().spawn(move || {
@@ -78,6 +82,7 @@ pub(super) fn enumerate(backend: &str) -> Result<Vec<HardwareDevice>, String> {
     });
     let mut end = || {
         // Killing fails if the process has already ended.
+        group.kill();
         let _ = child.kill();
         let _ = child.wait();
     };
@@ -95,6 +100,8 @@ pub(super) fn enumerate(backend: &str) -> Result<Vec<HardwareDevice>, String> {
     let status = child
         .wait()
         .map_err(|e| format!("listing devices ended unexpectedly: {e}"))?;
+    group.kill();
+    drop(input);
     if !status.success() {
         return Err(format!("listing devices ended with {status}"));
     }

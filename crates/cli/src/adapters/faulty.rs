@@ -13,6 +13,7 @@ use std::fs::File;
 use std::hash::{BuildHasher, RandomState};
 use std::hint::{black_box, spin_loop};
 use std::io::Write;
+use std::process::Command;
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -83,6 +84,15 @@ impl Faulty {
             }
             ProcessFault::Segv => etalon_process::crash(),
             ProcessFault::Exit => std::process::exit(7),
+            ProcessFault::Child => {
+                let pipe = self.pipe.borrow().try_clone();
+                let started = pipe.and_then(|pipe| {
+                    let mut program = Command::new("sleep");
+                    program.arg("1000").stdout(pipe).spawn()
+                });
+                say!("{}", started.map_or_else(|e| e.to_string(), |_| planted()));
+                std::process::abort()
+            }
             ProcessFault::Panic => panic!("a planted panic"),
             ProcessFault::Hang => sleep_endlessly(),
             ProcessFault::Spin => loop {
@@ -121,10 +131,19 @@ impl Faulty {
                 self.spoilt.set(true);
                 Ok(())
             }
-            ProcessFault::Flaky
+            ProcessFault::Close
+            | ProcessFault::Flaky
             | ProcessFault::Misread
             | ProcessFault::Start
             | ProcessFault::Mute => Ok(()),
+        }
+    }
+}
+
+impl Drop for Faulty {
+    fn drop(&mut self) {
+        if matches!(self.fault, Fault::Process(ProcessFault::Close, _)) {
+            etalon_process::crash();
         }
     }
 }

@@ -220,7 +220,7 @@ fn measure(plan: BenchPlan<'_>) -> Result<BenchSummary, Failure> {
     let outcome = etalon_runner::bench(plan, &mut |event| show(&bar, rounds, event));
     bar.finish_and_clear();
     outcome.map_err(|error| match error {
-        BenchError::Folder(error) => Failure::usage(error),
+        BenchError::Folder(error) => Failure::of(error),
         BenchError::Write(_) => Failure::incomplete(error),
     })
 }

@@ -369,7 +369,7 @@ impl Search<'_> {
             }
         });
         drawing.map_err(|error| match error {
-            RunError::Folder(error) => Failure::usage(error),
+            RunError::Folder(error) => Failure::of(error),
             RunError::Write(error) => Failure::incomplete(error),
         })?;
         Ok(found.into_inner().unwrap_or_default())

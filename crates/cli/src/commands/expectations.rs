@@ -9,6 +9,7 @@ use crate::named_files::NamedFiles;
 use crate::output::{say, summarize};
 use clap::{Args, Subcommand};
 use etalon_record::{About, AdapterRecord, Entry, Expectations, Imported, ListKind};
+use std::collections::HashSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -143,11 +144,9 @@ fn import(arguments: &ImportArguments) -> Result<u8, Failure> {
         Vec::new()
     };
     let before = entries.len();
-    for entry in imported.entries {
-        if !entries.contains(&entry) {
-            entries.push(entry);
-        }
-    }
+    let known: HashSet<Entry> = entries.iter().cloned().collect();
+    let new = imported.entries.into_iter();
+    entries.extend(new.filter(|entry| !known.contains(entry)));
     let added = entries.len() - before;
     write(&arguments.out, &entries)?;
     summarize(&format!(

@@ -75,7 +75,7 @@ fn of_run(folder: &Path, arguments: &Arguments, options: TableOptions) -> Result
         formats,
     }
     .write()
-    .map_err(Failure::usage)?;
+    .map_err(Failure::of)?;
     if let Some(news) = &news {
         summarize(&etalon_report::news_table(news, options));
     }
@@ -103,7 +103,7 @@ fn of_run(folder: &Path, arguments: &Arguments, options: TableOptions) -> Result
 
 fn bench(folder: &Path, options: TableOptions) -> Result<u8, Failure> {
     let bench = Bench::read(folder).map_err(Failure::usage)?;
-    let written = etalon_report::write_bench(folder).map_err(Failure::usage)?;
+    let written = etalon_report::write_bench(folder).map_err(Failure::of)?;
     summarize(&etalon_report::bench_table(&bench, options));
     summarize(&etalon_report::matrix_table(&bench, options));
     let matrix = written.matrix.into_iter().flatten();

@@ -20,7 +20,7 @@ use clap::{Args, ValueEnum};
 use etalon_case::Case;
 use etalon_history::FrameTimes;
 use etalon_record::{
-    AdapterRecord, Dead, Expectations, FolderKind, Header, Run, Settings, Shard, Verdict,
+    AdapterRecord, BadEnd, Dead, Expectations, FolderKind, Header, Run, Settings, Shard, Verdict,
     selection_digest,
 };
 use etalon_report::{News, OtherFormats, RunReport};
@@ -384,7 +384,7 @@ fn draw(plan: Plan<'_>) -> Result<RunSummary, Failure> {
     let outcome = execute(plan, &bar);
     bar.finish_and_clear();
     outcome.map_err(|error| match error {
-        RunError::Folder(error) => Failure::usage(error),
+        RunError::Folder(error) => Failure::of(error),
         RunError::Write(_) => Failure::incomplete(format!("{error}; {}", how_to_resume())),
     })
 }
@@ -396,6 +396,7 @@ struct Results<'a> {
     adapter_names: Vec<String>,
     run: Run,
     dead: Vec<Dead>,
+    bad_ends: Vec<BadEnd>,
     news: Option<News>,
     report: PathBuf,
 }
@@ -417,6 +418,7 @@ impl<'a> Results<'a> {
         let adapter_file = arguments.file.adapter_file.as_deref();
         let dead = dead::of_run(&run, expectations, &library, cases.is_some(), adapter_file)?;
         Dead::write(folder, &dead).map_err(Failure::incomplete)?;
+        let bad_ends = BadEnd::read(folder).map_err(Failure::incomplete)?;
         let catalogue = catalogue(&library, &selected.cases, pictures);
         let news = arguments.news.news(&run)?;
         let shown = shown(&run, news.as_ref());
@@ -436,6 +438,7 @@ impl<'a> Results<'a> {
             adapter_names,
             run,
             dead,
+            bad_ends,
             news,
             report: written.html,
         })
@@ -453,6 +456,7 @@ impl<'a> Results<'a> {
                 "not_rechecked": self.summary.rechecks.left,
                 "interrupted": self.summary.interrupted,
                 "dead_expectations": self.dead,
+                "bad_ends": self.bad_ends,
                 "adapters": self.adapter_names,
                 "verdicts": verdicts(&self.run),
                 "news": self.news,
@@ -480,6 +484,10 @@ impl<'a> Results<'a> {
                 say!("--strict-expectations exits with 1 for them");
             }
         }
+        let bad_ends = etalon_report::bad_end_lines(&self.bad_ends);
+        if !bad_ends.is_empty() {
+            say!("{bad_ends}");
+        }
         let asserted = self.arguments.min_asserted.is_none_or(|percent| {
             let (enough, line) = asserted(&self.run, percent);
             if !enough {
@@ -490,7 +498,11 @@ impl<'a> Results<'a> {
         let news = self.news.as_ref();
         let unexpected = news.map_or(self.summary.unexpected, News::counted);
         let idle = idle::report(&self.run);
-        if unexpected > 0 || !asserted || strict && !self.dead.is_empty() {
+        if unexpected > 0
+            || self.summary.bad_ends > 0
+            || !asserted
+            || strict && !self.dead.is_empty()
+        {
             UNEXPECTED
         } else if idle {
             INCOMPLETE

@@ -8,6 +8,7 @@ use predicates::str::contains;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 /// An adapter that crashes on some of these cases, always on the same ones.
 const CRASHING: [&str; 4] = ["run", "cull/*", "--adapter", "cpu:fault=abort"];
@@ -488,4 +489,85 @@ fn what_fails_on_a_driver_is_blessed_by_globs_that_all_name_something() {
         .stderr(contains("dead").not());
     let better = work.records().into_iter().filter(|r| r.improvement());
     assert_eq!(better.count(), 0);
+}
+
+#[test]
+fn the_time_grows_with_the_number_of_expectations_and_no_faster() {
+    let work = Work::new();
+    let run = |file: &Path| {
+        let begun = Instant::now();
+        work.run(&["run", "cull/lines", "--adapter", "cpu"], file)
+            .code(0);
+        begun.elapsed()
+    };
+    let file = work.path("expect.json");
+    write(&file, &[]);
+    let without = run(&file);
+    let letters = |mut number: usize| -> String {
+        let letter = |_| {
+            let letter = b"abcdefghilmnoprstuw0123456789=/-"[number % 32];
+            number /= 32;
+            format!("*{}", char::from(letter))
+        };
+        (0..4).map(letter).collect()
+    };
+    for (what, count, glob) in [
+        ("stars", 4_000, &letters as &dyn Fn(usize) -> String),
+        ("numbers", 20_000, &|n| format!("*{n}*a*b*c*")),
+        ("prefixes", 20_000, &|n| format!("depth/compare/*{n}*")),
+        ("ids", 50_000, &|n| format!("depth/compare/n={n}")),
+        ("repeated", 50_000, &|_| "blend/*".to_owned()),
+    ] {
+        let entries: Vec<Value> = (0..count)
+            .map(|n| entry(&glob(n), "crash", json!({})))
+            .collect();
+        write(&file, &entries);
+        let took = run(&file).saturating_sub(without);
+        // The tests' build takes some times as long as a release's.
+        println!("{count} {what}: {took:?}");
+        assert!(took < Duration::from_secs(25), "{what}: {took:?}");
+    }
+}
+
+#[test]
+fn a_long_list_is_imported_at_once() {
+    let work = Work::new();
+    let ids = etalon(&["list", "--profile", "full"]).assert().code(0);
+    let ids = String::from_utf8(ids.get_output().stdout.clone()).unwrap();
+    let ids: Vec<&str> = ids.lines().collect();
+    let (fails, flakes) = (work.path("fails.txt"), work.path("flakes.txt"));
+    let repeated = || ids.iter().cycle().take(50_000);
+    fs::write(
+        &fails,
+        repeated()
+            .map(|id| format!("{id},Fail\n"))
+            .collect::<String>(),
+    )
+    .unwrap();
+    let regexes = repeated().enumerate().map(|(n, id)| match n % 2 {
+        0 => format!("^{id}$\n"),
+        _ => format!("{id}.*\n"),
+    });
+    fs::write(&flakes, regexes.collect::<String>()).unwrap();
+    for (flag, list) in [("--fails", &fails), ("--flakes", &flakes)] {
+        let begun = Instant::now();
+        etalon(&[
+            "expectations",
+            "import",
+            "--adapter",
+            "*",
+            "--reason",
+            "r",
+            "--evidence",
+            "e",
+        ])
+        .arg(flag)
+        .arg(list)
+        .arg("--out")
+        .arg(work.path("list.json"))
+        .assert()
+        .code(0);
+        println!("{flag}: {:?}", begun.elapsed());
+        assert!(begun.elapsed() < Duration::from_secs(40), "{flag}");
+    }
 }

@@ -67,7 +67,7 @@ impl Place {
     }
 
     /// Writes a bench of `cpu` with seven rounds, with about this frame time and ruler time.
-    fn bench(&self, night: u32, seconds: f64, ruler: f64) -> String {
+    pub(crate) fn bench(&self, night: u32, seconds: f64, ruler: f64) -> String {
         let folder = self.path(&format!("bench-{night}"));
         let header = BenchHeader {
             format: BENCH_FORMAT,

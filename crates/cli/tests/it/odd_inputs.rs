@@ -365,3 +365,120 @@ fn with_bad_day(file: &Path, out: &Path) {
     .code(64)
     .stderr(contains("2027-02-30"));
 }
+
+/// Opening a pipe waits until another process writes to it, so nothing in a folder may be one.
+#[test]
+fn a_pipe_in_place_of_a_frame_is_named_and_not_waited_for() {
+    let work = tempfile::tempdir().unwrap();
+    let path = |name: &str| work.path().join(name);
+    let run = path("run");
+    etalon(&[
+        "run",
+        "cull/lines",
+        "--adapter",
+        "cpu:fault=misread",
+        "--keep-frames",
+        "all",
+    ])
+    .args(["--recheck", "off", "--out"])
+    .arg(path("unused"))
+    .assert()
+    .code(0);
+    etalon(&[
+        "run",
+        "selftest/depth*",
+        "--adapter",
+        "cpu",
+        "--keep-frames",
+        "all",
+        "--out",
+    ])
+    .arg(&run)
+    .assert()
+    .code(0);
+    let read = Run::read(&run).unwrap();
+    let record = read.records.iter().find(|r| r.frame.is_some()).unwrap();
+    let frame = run.join(record.frame.as_ref().unwrap());
+    fs::remove_file(&frame).unwrap();
+    assert!(
+        Command::new("mkfifo")
+            .arg(&frame)
+            .status()
+            .unwrap()
+            .success()
+    );
+    let ended = |words: &[&str]| {
+        let mut command = etalon(words);
+        let assert = command.timeout(Duration::from_secs(60)).assert();
+        let output = assert.get_output();
+        assert!(output.status.code().is_some(), "{words:?} waits");
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    };
+    let (run, out) = (run.to_str().unwrap(), path("out"));
+    let out = out.to_str().unwrap();
+    ended(&["report", run]);
+    ended(&["diff", run, run]);
+    ended(&["site", &format!("{out}-site"), run]);
+    let merged = ended(&["merge", run, "--out", &format!("{out}-merged")]);
+    let explained = ended(&["explain", &record.case, "--texel", "0,0", "--run", run]);
+    let bundled = ended(&[
+        "bundle",
+        &record.case,
+        "--adapter",
+        "cpu",
+        "--run",
+        run,
+        "--out",
+        &format!("{out}-bundle"),
+    ]);
+    for said in [merged, explained, bundled] {
+        let names = said.contains("not a regular file") || said.contains("unexpected argument");
+        assert!(names, "{said}");
+    }
+}
+
+#[test]
+fn expectations_come_through_a_pipe() {
+    let work = tempfile::tempdir().unwrap();
+    let script = format!(
+        "exec \"$0\" run cull/lines --adapter cpu --expect <(echo '[]') --out {}",
+        work.path().join("out").display()
+    );
+    let status = Command::new("bash").args(["-c", &script, BINARY]).status();
+    assert_eq!(status.unwrap().code(), Some(0));
+}
+
+/// What a full disk at the start does, too: the first file that a command writes cannot have a byte.
+#[test]
+fn a_file_that_may_not_grow_is_told_with_the_code_of_a_full_disk() {
+    let work = tempfile::tempdir().unwrap();
+    let run = work.path().join("run");
+    etalon(&["run", "cull/lines", "--adapter", "cpu", "--out"])
+        .arg(&run)
+        .assert()
+        .code(0);
+    let run = run.to_str().unwrap();
+    let out = work.path().join("out").display().to_string();
+    let list = work.path().join("list");
+    fs::write(&list, "cull/lines\n").unwrap();
+    for words in [
+        format!("run cull/lines --adapter cpu --out {out}-1"),
+        format!("bench perf/* --rounds 3 --adapter cpu --out {out}-2"),
+        format!("fuzz --adapter cpu --count 1 --out {out}-3"),
+        format!("merge {run} --out {out}-4"),
+        format!("report {run}"),
+        format!("history add {run} --db {out}-5.db"),
+        format!("site {out}-6 {run}"),
+        format!("run cull/lines --adapter cpu --force --out {run}"),
+    ] {
+        let script = format!("ulimit -f 0; exec \"$0\" {words}");
+        let mut command = Command::new("bash");
+        for name in REMOVED {
+            command.env_remove(name);
+        }
+        let output = command.args(["-c", &script, BINARY]).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(3), "{words}: {said}");
+        assert!(said.contains("etalon: "), "{words}: {said}");
+    }
+}

@@ -4,7 +4,7 @@
 use crate::etalon::{BINARY, REMOVED, etalon};
 use crate::sample;
 use etalon_diagnose::Symptom;
-use etalon_record::{LossKind, Record, Run, Verdict};
+use etalon_record::{BadEnd, LossKind, Record, Run, Verdict};
 use predicates::prelude::*;
 use predicates::str::contains;
 use rustix::process::{Pid, Signal, kill_process};
@@ -79,6 +79,63 @@ fn a_crash_records_its_signal_and_its_last_words() {
         let end = record.process.unwrap();
         assert!(end.stderr.len() <= 4096 && end.stderr.contains("line 99999"));
     }
+}
+
+#[test]
+fn a_driver_that_leaves_a_child_with_its_pipe_has_crashed() {
+    let begun = Instant::now();
+    for record in lost(
+        "child",
+        Verdict::Crash,
+        LossKind::Died,
+        &["--timeout", "20"],
+    ) {
+        let end = record.process.unwrap();
+        assert_eq!((end.signal, end.exit), (Some(6), None));
+        assert!(end.seconds < 10.0, "the child is not waited for");
+        assert_eq!(end.stderr, "planted");
+    }
+    assert!(begun.elapsed() < Duration::from_secs(60));
+}
+
+#[test]
+fn a_worker_that_dies_after_its_last_case_is_told_and_counts() {
+    let out = folder();
+    let run = ["run", "cull/lines", "--adapter", "cpu:fault=close", "--out"];
+    let told =
+        contains("after its last case: cpu:fault=close: 1 worker: the worker died of signal 11");
+    etalon(&run)
+        .arg(out.path())
+        .args(["--jobs", "1"])
+        .assert()
+        .code(1)
+        .stderr(told.clone());
+    let read = Run::read(out.path()).unwrap();
+    assert_eq!(read.missing(), 0);
+    assert!(read.records.iter().all(|r| r.verdict == Verdict::Pass));
+    let ends = BadEnd::read(out.path()).unwrap();
+    assert_eq!((ends.len(), ends[0].end.signal), (1, Some(11)));
+    // It stays in the run.
+    let merged = folder();
+    etalon(&["merge"])
+        .arg(out.path())
+        .arg("--out")
+        .arg(merged.path().join("merged"))
+        .assert()
+        .code(1)
+        .stderr(told);
+    etalon(&run)
+        .arg(out.path())
+        .arg("--resume")
+        .assert()
+        .code(1)
+        .stderr(contains("after its last case"));
+    // A run in its place does not have it.
+    etalon(&["run", "cull/lines", "--adapter", "cpu", "--force", "--out"])
+        .arg(out.path())
+        .assert()
+        .code(0);
+    assert_eq!(BadEnd::read(out.path()).unwrap(), []);
 }
 
 #[test]

@@ -5,10 +5,9 @@ use super::header::{BENCH_FORMAT, BenchHeader};
 use super::line::{BenchLine, Done, Ended, Picture, Round};
 use super::record::BenchRecord;
 use crate::error::RecordError;
-use crate::folder::BENCH_FILE;
+use crate::folder::{BENCH_FILE, open};
 use crate::json_lines::JsonLines;
 use std::collections::HashMap;
-use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 
@@ -41,7 +40,7 @@ impl Bench {
     /// [`Bench::read`], with the number of bytes that the header and the whole lines take.
     pub(crate) fn read_prefix(folder: &Path) -> Result<(Self, u64), RecordError> {
         let path = folder.join(BENCH_FILE);
-        let file = File::open(&path).map_err(|e| match e.kind() {
+        let file = open(&path).map_err(|e| match e.kind() {
             ErrorKind::NotFound | ErrorKind::NotADirectory => RecordError::NoBench {
                 path: folder.to_owned(),
             },

@@ -3,7 +3,7 @@
 use super::budget::Budget;
 use super::plan::Rechecks;
 use crate::launch::{Launch, START_TIMEOUT};
-use crate::supervisor::FailedStarts;
+use crate::supervisor::{BadEnds, FailedStarts};
 use crate::sync::lock;
 use crate::worker::Worker;
 use etalon_diagnose::Symptom;
@@ -32,6 +32,7 @@ pub(super) struct AdapterQueue {
     /// The reason why the driver does not start; if set, nothing is drawn.
     pub(super) start_error: Option<String>,
     pub(super) failed_starts: FailedStarts,
+    pub(super) bad_ends: BadEnds,
     /// The indices of cases without a record, in drawing order, except those in `first`.
     numbers: Vec<usize>,
     first: First,
@@ -138,6 +139,7 @@ impl AdapterQueue {
             adapter,
             start_error: None,
             failed_starts: FailedStarts::default(),
+            bad_ends: BadEnds::default(),
             numbers,
             first: First::default(),
             round_trips: OnceLock::new(),

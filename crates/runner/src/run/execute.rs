@@ -10,7 +10,7 @@ use crate::sync::lock;
 use etalon_case::Case;
 use etalon_frame::threads::share;
 use etalon_judge::{Judge, Truths, pictured};
-use etalon_record::{LossKind, Record, RunWriter, selection_digest};
+use etalon_record::{BadEnd, LossKind, Record, RunWriter, selection_digest};
 use std::collections::{HashMap, HashSet};
 use std::sync::{Mutex, RwLock};
 use std::time::Duration;
@@ -38,7 +38,9 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
     let mut drawn: HashMap<String, Vec<(usize, Record)>> = HashMap::new();
     // By adapter and reason: the cases that the resumed run shows in full.
     let mut examples: HashMap<String, HashMap<String, String>> = HashMap::new();
+    let mut bad_ends = Vec::new();
     let writer = if plan.resume {
+        bad_ends = BadEnd::read(plan.folder).map_err(RunError::Folder)?;
         let (writer, run) =
             RunWriter::resume(plan.folder, &plan.header).map_err(RunError::Folder)?;
         for record in run.records {
@@ -126,6 +128,17 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
         return Err(RunError::Write(error));
     }
     let mut summary = *lock(&shared.summary);
+    for queue in &queues {
+        let ends = queue.bad_ends.take().into_iter().map(|report| BadEnd {
+            adapter: queue.adapter.name.clone(),
+            message: report.message,
+            end: report.end,
+            workers: 1,
+        });
+        BadEnd::add(&mut bad_ends, ends);
+    }
+    BadEnd::write(plan.folder, &bad_ends).map_err(RunError::Write)?;
+    summary.bad_ends = bad_ends.iter().map(|end| end.workers).sum();
     for queue in &queues {
         let Rechecks { done, left } = queue.rechecks();
         summary.rechecks.done += done;

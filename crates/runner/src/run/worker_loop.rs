@@ -42,6 +42,7 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
             queue.launch.clone(),
             shared.options.memory,
             queue.failed_starts.clone(),
+            queue.bad_ends.clone(),
             None,
         );
         Self {

@@ -1,0 +1,134 @@
+//! Many globs, looked up by a text.
+//!
+//! Each glob is filed under a short text that is in everything it matches: of all such texts, the one under which the
+//! fewest globs are so far. Only globs under parts of the text are compared with it.
+
+use crate::glob::Glob;
+use std::collections::HashMap;
+
+/// The length in bytes of the longest part under which a glob is filed.
+const LONGEST: usize = 4;
+
+/// Globs with their numbers.
+#[derive(Clone, Debug, Default)]
+pub struct GlobIndex {
+    globs: Vec<(usize, Glob)>,
+    /// The places in `globs` by the part under which they are filed.
+    parts: HashMap<Part, Vec<usize>>,
+    /// The places of globs that can match texts without a common part.
+    others: Vec<usize>,
+    /// The numbers of globs that match exactly one text, by this text.
+    plain: HashMap<String, Vec<usize>>,
+    /// True for the lengths of parts that exist.
+    lengths: [bool; LONGEST + 1],
+}
+
+/// At most [`LONGEST`] bytes, and their number.
+type Part = ([u8; LONGEST], usize);
+
+fn part(bytes: &[u8]) -> Part {
+    let mut part = [0; LONGEST];
+    part[..bytes.len()].copy_from_slice(bytes);
+    (part, bytes.len())
+}
+
+impl GlobIndex {
+    /// Adds a glob with a number.
+    pub fn add(&mut self, number: usize, glob: &Glob) {
+        if let Some(text) = glob.only_match() {
+            self.plain.entry(text.to_owned()).or_default().push(number);
+            return;
+        }
+        let literals = glob.literals();
+        let windows = literals.iter().flat_map(|literal| {
+            let length = literal.len().min(LONGEST);
+            literal.as_bytes().windows(length).map(part)
+        });
+        let filed = |part: &Part| self.parts.get(part).map_or(0, Vec::len);
+        // Of equally empty ones, a longer part is in fewer texts.
+        let best = windows.min_by_key(|part| (filed(part), LONGEST - part.1));
+        let place = self.globs.len();
+        self.globs.push((number, glob.clone()));
+        match best {
+            Some(part) => {
+                self.lengths[part.1] = true;
+                self.parts.entry(part).or_default().push(place);
+            }
+            None => self.others.push(place),
+        }
+    }
+
+    /// Returns the numbers of the globs that match a text, in ascending order.
+    pub fn matches(&self, text: &str) -> Vec<usize> {
+        let lengths = (1..=LONGEST).filter(|length| self.lengths[*length]);
+        let parts = lengths.flat_map(|length| text.as_bytes().windows(length).map(part));
+        let mut parts: Vec<Part> = parts.collect();
+        parts.sort_unstable();
+        parts.dedup();
+        let filed = parts.iter().filter_map(|part| self.parts.get(part));
+        let places = filed.flatten().chain(&self.others);
+        let globs = places.map(|place| &self.globs[*place]);
+        let matching = globs.filter(|(_, glob)| glob.is_match(text));
+        let mut numbers: Vec<usize> = matching.map(|(number, _)| *number).collect();
+        numbers.extend(self.plain.get(text).into_iter().flatten());
+        numbers.sort_unstable();
+        numbers.dedup();
+        numbers
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_index_finds_what_each_glob_alone_finds() {
+        let globs = [
+            "",
+            "*",
+            "a",
+            "a/b",
+            "a*",
+            "*b",
+            "*a*b*",
+            "?",
+            "??",
+            "[ab]/b",
+            "{a,b}/b",
+            "**/b",
+            "a/**",
+            "x{a,bc}*",
+            "*é*",
+            "depth/compare/*x=1*",
+            "a/b",
+            "*",
+        ];
+        let mut index = GlobIndex::default();
+        let parsed: Vec<Glob> = globs
+            .iter()
+            .map(|g| Glob::new(g).expect("a glob"))
+            .collect();
+        for (number, glob) in parsed.iter().enumerate() {
+            index.add(number, glob);
+        }
+        for text in [
+            "",
+            "a",
+            "b",
+            "ab",
+            "a/b",
+            "b/b",
+            "a/c/b",
+            "xbc",
+            "xa1",
+            "é",
+            "aéb",
+            "depth/compare/y=2/x=1/z",
+            "depth/compare/",
+        ] {
+            let matching = (0..parsed.len()).filter(|n| parsed[*n].is_match(text));
+            let matching: Vec<usize> = matching.collect();
+            assert_eq!(index.matches(text), matching, "{text}");
+        }
+    }
+}
