@@ -21,7 +21,7 @@ static SERVED: OnceLock<Served> = OnceLock::new();
 #[test]
 #[ignore = "a process of the other tests"]
 fn keeper() {
-    keep(BufReader::new(stdin())).expect("the server is kept");
+    keep(BufReader::new(stdin()), None).expect("the server is kept");
 }
 
 /// Opens a context of virgl, whose server is started for it.
