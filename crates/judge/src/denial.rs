@@ -50,9 +50,14 @@ pub(crate) fn note_denial(
     if failing.iter().flatten().any(skipped) {
         return;
     }
+    // Reports group records by their message, so it names no format.
+    let denied = match needed {
+        Requirement::Samples(_, n) => format!("{n} samples per texel"),
+        needed => needed.to_string(),
+    };
     record.verdict = Verdict::Blocked;
     record.message = format!(
-        "not drawn: the adapter denies {needed}, which {} requires ({})",
+        "not drawn: the adapter denies {denied}, which {} requires ({})",
         version_text(limits),
         required.citation
     );
@@ -154,7 +159,7 @@ mod tests {
             ["capabilities/required/samples/format=rgba8unorm"]
         );
         assert_eq!(record.expected, None);
-        let words = "the adapter denies 4 samples of rgba8unorm, which opengl 3.3 requires";
+        let words = "the adapter denies 4 samples per texel, which opengl 3.3 requires";
         assert!(record.message.contains(words), "{}", record.message);
     }
 

@@ -84,7 +84,7 @@ fn every_selftest_fails_for_a_stated_reason() {
         assert_eq!(run.records.len(), count(&["selftest"]));
         for record in &run.records {
             assert!(record.due_fail, "{record:?}");
-            if record.verdict == Verdict::NotSupported {
+            if matches!(record.verdict, Verdict::NotSupported | Verdict::Blocked) {
                 assert_ne!(adapter, "cpu", "{record:?}");
                 continue;
             }
@@ -731,7 +731,7 @@ fn what_a_version_requires_is_blocked_and_not_unsupported() {
     assert!(!blocked.is_empty());
     for record in blocked {
         assert!(record.unexpected(), "{record:?}");
-        let words = "denies 4 samples of";
+        let words = "denies 4 samples per texel";
         assert!(record.message.contains(words), "{}", record.message);
         assert!(!record.blocked_by.is_empty(), "{record:?}");
     }
