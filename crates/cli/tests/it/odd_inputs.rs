@@ -482,3 +482,74 @@ fn a_file_that_may_not_grow_is_told_with_the_code_of_a_full_disk() {
         assert!(said.contains("etalon: "), "{words}: {said}");
     }
 }
+
+/// Fails on softpipe.
+const POINT: &str = "cull/points/cull=none/front_face=cw";
+
+#[test]
+fn a_folder_without_findings_is_no_folder_of_findings() {
+    let work = tempfile::tempdir().unwrap();
+    fs::write(work.path().join("passwd"), "root").unwrap();
+    let refused = || {
+        let mut command = etalon(&["run", POINT, "--adapter", "cpu", "--expect"]);
+        command.arg(work.path()).arg("--out");
+        command.arg(work.path().join("run"));
+        command
+    };
+    refused()
+        .assert()
+        .code(64)
+        .stderr(contains("none is a finding"));
+    // The last finding of a folder can go, and leave its README.
+    fs::remove_file(work.path().join("passwd")).unwrap();
+    fs::write(work.path().join("README.md"), "none yet").unwrap();
+    refused().assert().code(0);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_list_that_is_a_link_stays_a_link_when_it_is_blessed() {
+    let work = tempfile::tempdir().unwrap();
+    let [real, link] = ["real.json", "link.json"].map(|name| work.path().join(name));
+    fs::write(&real, "[]").unwrap();
+    symlink(&real, &link).unwrap();
+    etalon(&["run", POINT, "--adapter", "gl:softpipe", "--expect-only"])
+        .args(["--bless", "--expect"])
+        .arg(&link)
+        .arg("--out")
+        .arg(work.path().join("run"))
+        .assert()
+        .code(0);
+    assert!(link.is_symlink());
+    let text = fs::read_to_string(&real).unwrap();
+    assert!(text.contains("gl:softpipe"), "{text}");
+}
+
+#[test]
+fn a_damaged_frame_and_a_path_that_leaves_the_folder_are_named_with_their_place() {
+    let work = tempfile::tempdir().unwrap();
+    let run = work.path().join("run");
+    etalon(&["run", POINT, "--adapter", "gl:softpipe", "--expect-only"])
+        .arg("--out")
+        .arg(&run)
+        .assert()
+        .code(1);
+    let recorded = Run::read(&run).unwrap();
+    let frame = recorded.records[0].frame.clone().unwrap();
+    fs::write(run.join(&frame), b"\x1f\x8bno gzip").unwrap();
+    let explain = || {
+        let mut command = etalon(&["explain", POINT, "--texel", "0,0", "--run"]);
+        command.arg(&run);
+        command
+    };
+    explain()
+        .assert()
+        .code(64)
+        .stderr(contains(&*frame).and(contains("copy the file anew")));
+    let text = fs::read_to_string(run.join("run.jsonl")).unwrap();
+    fs::write(run.join("run.jsonl"), text.replace(&frame, "../x")).unwrap();
+    explain()
+        .assert()
+        .code(64)
+        .stderr(contains("run.jsonl:2:").and(contains("../x")));
+}

@@ -7,7 +7,7 @@ use crate::files::Destination;
 use crate::matrix::{self, Matrix};
 use crate::numbers::change;
 use etalon_dashboards::{ACTION_FILE, BENCHER_FILE, Benchmark, Figure, nanoseconds};
-use etalon_record::{Bench, OutputFolder, Time};
+use etalon_record::{Bench, FolderKind, OutputFolder, Time};
 use etalon_stats::Summary;
 use std::path::{Path, PathBuf};
 
@@ -35,7 +35,10 @@ pub struct WrittenBench {
 /// # Errors
 /// Returns an error if the folder holds no readable bench, or cannot be written to.
 pub fn write_bench(folder: &Path) -> Result<WrittenBench, ReportError> {
-    write_bench_to(&OutputFolder::open(folder)?, &Bench::read(folder)?)
+    let bench = Bench::read(folder)?;
+    let out = OutputFolder::open(folder)?;
+    out.check(FolderKind::Bench)?;
+    write_bench_to(&out, &bench)
 }
 
 /// Writes the reports of a bench, as [`write_bench`] does.

@@ -9,7 +9,7 @@ use crate::files::Destination;
 use crate::methods::{self, Methods};
 use crate::news::News;
 use etalon_frame::threads::join;
-use etalon_record::{Dead, OutputFolder, Run};
+use etalon_record::{Dead, FolderKind, OutputFolder, Run};
 use std::path::{Path, PathBuf};
 
 const HTML: &str = "index.html";
@@ -116,6 +116,8 @@ impl RunReport<'_> {
     /// frame file that is missing or damaged is not an error: the page names it.
     pub fn write(&self) -> Result<RunReports, ReportError> {
         let out = OutputFolder::open(self.folder)?;
+        // A page of somebody else under a name of ours would look like a report.
+        out.check(FolderKind::Run)?;
         let written = self.write_to(&out)?;
         let is_view = |name: &str| {
             let in_catalogue = name.strip_prefix(CATALOGUE);

@@ -202,6 +202,54 @@ fn hostile_names_stay_text() {
 }
 
 #[test]
+fn a_report_makes_every_page_and_script_anew() {
+    let folder = tempfile::tempdir().unwrap();
+    crate::browser::made::write(folder.path());
+    let path = |name: &str| folder.path().join(name);
+    let evil = "<script>evil</script>";
+    fs::create_dir_all(path("cases")).unwrap();
+    let planted = [
+        ("index.html", evil.to_owned()),
+        ("methods.html", evil.to_owned()),
+        ("cases/depth.js", "etalonArea(evil)".to_owned()),
+        ("cases/other.js", "etalonArea(evil)".to_owned()),
+    ];
+    // As in a folder from elsewhere, without a list and with one.
+    for list in [
+        None,
+        Some("run.jsonl\nindex.html\nmethods.html\ncases/other.js\ncases/depth.js\n"),
+    ] {
+        let _ = fs::remove_file(path(".files"));
+        if let Some(list) = list {
+            fs::write(path(".files"), list).unwrap();
+        }
+        for (name, text) in &planted {
+            fs::write(path(name), text).unwrap();
+        }
+        for name in ["junit.xml", "summary.md", "ctrf.json"] {
+            let _ = fs::remove_file(path(name));
+        }
+        let _ = fs::remove_dir_all(path("results"));
+        write(folder.path()).unwrap();
+        assert!(
+            !fs::read_to_string(path("index.html"))
+                .unwrap()
+                .contains("evil")
+        );
+        for (name, _) in &planted[1..] {
+            assert!(!path(name).exists(), "{name} {list:?}");
+        }
+    }
+    // A page that no list names is somebody else's.
+    fs::write(path("methods.html"), evil).unwrap();
+    let refused = write(folder.path()).unwrap_err().to_string();
+    assert!(
+        refused.contains("methods.html is not a file of etalon"),
+        "{refused}"
+    );
+}
+
+#[test]
 fn a_junit_file_is_well_formed_whatever_a_text_holds() {
     let folder = tempfile::tempdir().unwrap();
     let texts = (0..0x1_1000).filter_map(char::from_u32);
