@@ -304,12 +304,13 @@ fn escaped(text: &str, longest: usize) -> String {
 
 /// A name or a command as code, which no filter touches; as escaped text if code cannot hold it.
 fn code(text: &str, longest: usize) -> String {
-    let text = plain(text, longest);
-    let held = !text.contains(['`', '|', '\\']) && !text.trim().is_empty() && text.trim() == text;
+    let shown = plain(text, longest);
+    let held =
+        !shown.contains(['`', '|', '\\']) && !shown.trim().is_empty() && shown.trim() == shown;
     if held {
-        format!("`{text}`")
+        format!("`{shown}`")
     } else {
-        escaped(&text, longest + 1)
+        escaped(text, longest)
     }
 }
 
@@ -321,7 +322,7 @@ mod tests {
     fn text_loses_its_meaning() {
         assert_eq!(escaped("a|b<i>", 99), "a&#124;b&#60;i&#62;");
         assert_eq!(escaped("@me", 99), "&#64;\u{2060}me");
-        assert_eq!(escaped("a\nb", 99), "a\u{fffd}b");
+        assert_eq!(escaped("a\nb", 99), "a&#92;nb");
         assert_eq!(code("gl:es:x", 99), "`gl:es:x`");
         assert_eq!(code("a`b", 99), "a&#96;b");
         assert_eq!(code("", 99), "");
