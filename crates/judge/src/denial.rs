@@ -76,7 +76,8 @@ pub(crate) fn note_denial(
 }
 
 /// Returns the case of `capabilities/required` that fails on an adapter because it denies this requirement, or
-/// else a case with a requirement of the same kind and section. Of several, it is the case that lacks least.
+/// else a case with a requirement of the same kind and section. Of several, it is the case that lacks and
+/// needs least.
 fn first_denied(limits: &Limits, needed: Requirement, citation: &str) -> Option<&'static Case> {
     let lacking = |requirements: &[Requirement]| {
         let missing = requirements
@@ -88,7 +89,8 @@ fn first_denied(limits: &Limits, needed: Requirement, citation: &str) -> Option<
         limits.missing(requirements)?;
         let (other, row) = denied(limits, requirements)?;
         let alike = discriminant(&other) == discriminant(&needed) && row.citation == citation;
-        alike.then(|| ((other != needed, lacking(requirements)), case))
+        let distance = (other != needed, lacking(requirements), requirements.len());
+        alike.then_some((distance, case))
     });
     let nearest = denials.min_by_key(|(distance, _)| *distance);
     nearest.map(|(_, case)| case)
