@@ -3,6 +3,7 @@
 use std::error::Error;
 use std::fmt::Display;
 use std::io::{self, ErrorKind};
+use std::path::Path;
 
 /// Wrong usage or bad input.
 pub(crate) const USAGE: u8 = 64;
@@ -53,6 +54,16 @@ impl Failure {
             Self::incomplete(error)
         } else {
             Self::usage(error)
+        }
+    }
+
+    /// Returns the failure of a file that the user named; a full disk is incomplete.
+    pub(crate) fn of_file(action: &str, path: &Path, error: &io::Error) -> Self {
+        let message = format!("cannot {action} {}: {error}", path.display());
+        if is_full(error) {
+            Self::incomplete(message)
+        } else {
+            Self::usage(message)
         }
     }
 
