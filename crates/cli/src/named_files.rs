@@ -48,8 +48,7 @@ impl NamedFiles<'_> {
     /// As [`NamedFiles::check`], or if the system refuses.
     pub(crate) fn write(self, files: &[(String, Vec<u8>)]) -> Result<Vec<PathBuf>, Failure> {
         self.check(files.iter().map(|(name, _)| name))?;
-        fs::create_dir_all(self.folder)
-            .map_err(|e| Failure::usage(format!("cannot create {}: {e}", self.folder.display())))?;
+        fs::create_dir_all(self.folder).map_err(|e| Failure::of_file("create", self.folder, &e))?;
         let write = |(name, bytes): &(String, Vec<u8>)| {
             let path = self.folder.join(name);
             replace(&path, bytes)?;
@@ -57,6 +56,23 @@ impl NamedFiles<'_> {
         };
         files.iter().map(write).collect()
     }
+}
+
+/// Checks that a page can be written to a file that the user named: only a page of etalon is replaced.
+///
+/// # Errors
+/// If the file is anything else.
+pub(crate) fn check_page(path: &Path) -> Result<(), Failure> {
+    /// A part of every page's last line.
+    const MADE: &[u8] = b"Made by etalon from ";
+    let is_page = |text: Vec<u8>| text.windows(MADE.len()).any(|part| part == MADE);
+    if path.is_file() && !fs::read(path).is_ok_and(is_page) {
+        return Err(Failure::usage(format!(
+            "{} exists and is no page of etalon; name another file",
+            path.display()
+        )));
+    }
+    Ok(())
 }
 
 /// Writes a file that the user named. A reader sees the old file or the new one. A link stays a link: its target

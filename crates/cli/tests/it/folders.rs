@@ -526,3 +526,23 @@ fn links_in_a_folder_are_neither_written_through_nor_copied() {
         }
     }
 }
+
+#[test]
+fn a_page_of_a_comparison_replaces_only_such_a_page() {
+    let work = tempfile::tempdir().unwrap();
+    let run = work.path().join("run");
+    run_into(&run, &[]).success();
+    let page = work.path().join("mine.html");
+    let diff = || {
+        let mut command = etalon(&["diff", "--out"]);
+        command.arg(&page).args([&run, &run]);
+        command
+    };
+    fs::write(&page, "mine").unwrap();
+    let refused = diff().assert().code(64);
+    refused.stderr(contains("mine.html exists"));
+    assert_eq!(fs::read_to_string(&page).unwrap(), "mine");
+    fs::remove_file(&page).unwrap();
+    diff().assert().code(0);
+    diff().assert().code(0);
+}
