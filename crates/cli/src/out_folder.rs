@@ -72,11 +72,12 @@ impl<'a> Out<'a> {
     /// changed then.
     pub(crate) fn claim(self) -> Result<Claim<'a>, Failure> {
         apart(self.folder, self.cases)?;
+        Content::writable(self.folder).map_err(Failure::usage)?;
+        let lock = self.folder.exists().then(|| self.lock()).transpose()?;
         let resume = self.resumes()?;
         OutputFolder::open(self.folder)
             .and_then(|out| out.check(self.kind))
             .map_err(Failure::usage)?;
-        let lock = self.folder.exists().then(|| self.lock()).transpose()?;
         Ok(Claim {
             out: self,
             resume,

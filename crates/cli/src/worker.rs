@@ -57,8 +57,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     // The driver's own output goes to standard error.
     let mut output = etalon_process::private_output()?;
     if let Some(name) = &arguments.enumerate {
-        end_with_input()?;
         let name: BackendName = parse(&format!("\"{name}\""))?;
+        end_with_input()?;
         let found = enumerate(name).unwrap_or_default();
         let text = serde_json::to_string(&found).map_err(Failure::usage)?;
         output.write_all(text.as_bytes())?;

@@ -22,6 +22,8 @@ pub(crate) const LIST: &str = ".files";
 pub const FUZZ_FILE: &str = "fuzz.jsonl";
 /// The file of a search over releases.
 pub const VERSIONS_FILE: &str = "versions.jsonl";
+/// The folder of a search over releases in which it draws, with `/` after it. It is a run folder.
+pub const WORK_FOLDER: &str = "work/";
 /// The file of a hunt for planted bugs.
 pub const HUNT_FILE: &str = "mutants.json";
 /// The folder of frame files in a run folder.
@@ -104,7 +106,7 @@ impl FolderKind {
                 "results/",
             ],
             Self::Fuzz => &[FUZZ_FILE, "found/", "known/"],
-            Self::Versions => &[VERSIONS_FILE, "versions.html", "work/"],
+            Self::Versions => &[VERSIONS_FILE, "versions.html", WORK_FOLDER],
             Self::Hunt => &[HUNT_FILE, "mutants.html", "recall.txt"],
         }
     }

@@ -70,7 +70,7 @@ pub use expected_symptom::{ExpectedSymptom, Shown, Side};
 pub use findings::{Evidence, Finding, Reading, ReadingVerdict, Seen};
 pub use folder::{
     BAD_ENDS_FILE, BENCH_FILE, CASES_FILE, DEAD_FILE, FUZZ_FILE, FolderKind, HUNT_FILE,
-    MISSING_FILE, RUN_FILE, VERSIONS_FILE,
+    MISSING_FILE, RUN_FILE, VERSIONS_FILE, WORK_FOLDER,
 };
 pub use frame_file::{FrameFile, FrameImage};
 pub use frame_writer::FrameWriter;

@@ -5,7 +5,7 @@
 
 use crate::content::Content;
 use crate::error::RecordError;
-use crate::folder::{FolderKind, LIST};
+use crate::folder::{FolderKind, LIST, WORK_FOLDER};
 use crate::lock::LOCK_FILE;
 use crate::paths::{below, lowest_real};
 use crate::unlisted;
@@ -99,6 +99,9 @@ impl OutputFolder {
             };
             if !is_ours {
                 return Err(RecordError::NotOurs { path });
+            }
+            if *name == WORK_FOLDER {
+                Content::writable(&path)?;
             }
         }
         let list = self.folder.join(LIST);

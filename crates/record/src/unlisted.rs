@@ -11,8 +11,8 @@ use std::path::Path;
 /// The beginning of a script of a run's cases.
 const SCRIPT: &[u8] = b"etalonArea(";
 
-/// Returns the files that etalon wrote: those with a name of the folder's kind, those that its records name,
-/// and scripts of cases. Empty if the folder has no header of etalon.
+/// Returns the files that etalon wrote: files with a name of the folder's kind, files that its records name, and
+/// scripts of cases. Empty if the folder has no header of etalon.
 pub(crate) fn files(folder: &Path) -> HashSet<String> {
     let mut files = HashSet::new();
     for kind in FolderKind::ALL {

@@ -15,7 +15,7 @@ use etalon_case::Case;
 use etalon_record::{
     AbsentAdapter, AdapterRecord, CaseVersions, Expectation, Expectations, FolderKind, Header,
     OutputFolder, Release, ReleaseRecord, Run, Standing, VERSIONS_FORMAT, Verdict, Versions,
-    VersionsHeader,
+    VersionsHeader, WORK_FOLDER,
 };
 use etalon_runner::{
     Event, Launch, Options, Plan, RunError, Worker, releases_to_draw, run as draw,
@@ -26,9 +26,6 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// The folder of a search's runs, removed at the end.
-const WORK: &str = "work";
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -112,7 +109,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         .write(&arguments.out)
         .map_err(Failure::incomplete)?;
     let search = Search {
-        folder: &arguments.out.join(WORK),
+        folder: &arguments.out.join(WORK_FOLDER),
         cases: &cases,
         library: arguments.cases.as_ref(),
         jobs: arguments.jobs.map_or_else(processors, usize::from),

@@ -129,7 +129,8 @@ fn a_survivor_without_proof_is_a_failure_and_the_report_names_it() {
     etalon(&[&hunt[..], &["depth/clear"]].concat())
         .code(1)
         .stdout(predicates::str::contains("blend/never: nothing noticed it"));
-    etalon(&[&hunt[..], &["blend/operations"]].concat()).success();
+    let again = [&hunt[..], &["blend/operations", "--force"]].concat();
+    etalon(&again).success();
     let text = std::fs::read(folder.path().join("mutants.json")).unwrap();
     let written: Hunt = serde_json::from_slice(&text).unwrap();
     assert_eq!(written.count(Catch::Caught), 1);

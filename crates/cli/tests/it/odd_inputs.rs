@@ -432,7 +432,7 @@ fn a_pipe_in_place_of_a_frame_is_named_and_not_waited_for() {
         &format!("{out}-bundle"),
     ]);
     for said in [merged, explained, bundled] {
-        let names = said.contains("not a regular file") || said.contains("unexpected argument");
+        let names = said.contains("no regular file") || said.contains("unexpected argument");
         assert!(names, "{said}");
     }
 }
