@@ -106,10 +106,11 @@ fn table(
     (csv, rows)
 }
 
-/// Returns a CSV field on one line, quoted if necessary. Readers of CSV refuse control characters.
+/// Returns a CSV field, quoted if necessary. A field can hold line ends, but no other control characters (RFC 4180).
 fn field(text: &str) -> String {
-    let text = text.replace(char::is_control, "\u{fffd}");
-    if text.contains([',', '"']) {
+    let is_forbidden = |c: char| c.is_control() && !matches!(c, '\n' | '\r');
+    let text = text.replace(is_forbidden, "\u{fffd}");
+    if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
     } else {
         text
@@ -123,6 +124,6 @@ mod tests {
     #[test]
     fn fields_are_quoted() {
         assert_eq!(field("a"), "a");
-        assert_eq!(field("a,\"b\"\n\0"), "\"a,\"\"b\"\"\u{fffd}\u{fffd}\"");
+        assert_eq!(field("a,\"b\"\n\0"), "\"a,\"\"b\"\"\n\u{fffd}\"");
     }
 }

@@ -26,7 +26,7 @@ impl FrameWriter {
     /// If the file cannot be written.
     pub fn write_frame(&self, frame: &FrameFile) -> Result<String, RecordError> {
         let (relative, bytes) = frame_file(frame)?;
-        self.out.write(&relative, &bytes)?;
+        self.out.write_in_place(&relative, &bytes)?;
         Ok(relative)
     }
 
@@ -42,7 +42,7 @@ impl FrameWriter {
         rgb: &[u8],
     ) -> Result<String, RecordError> {
         let (relative, bytes) = picture_file(case, size, rgb)?;
-        self.out.write(&relative, &bytes)?;
+        self.out.write_in_place(&relative, &bytes)?;
         Ok(relative)
     }
 }

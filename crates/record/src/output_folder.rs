@@ -122,6 +122,21 @@ impl OutputFolder {
             .map(|(path, _)| path)
     }
 
+    /// Writes a file that no reader looks for before it is whole. Leaves no temporary file if the process is killed.
+    ///
+    /// # Errors
+    /// As [`OutputFolder::write`].
+    pub(crate) fn write_in_place(&self, name: &str, bytes: &[u8]) -> Result<(), RecordError> {
+        let relative = below(name)?;
+        self.list(&relative)?;
+        let path = self.folder.join(relative);
+        let mut options = OpenOptions::new();
+        remove_if_there(&path)
+            .and_then(|()| options.write(true).create_new(true).open(&path))
+            .and_then(|mut file| file.write_all(bytes))
+            .map_err(RecordError::io("write", &path))
+    }
+
     /// Writes a file as [`OutputFolder::write`] does, from a reader.
     ///
     /// # Errors
