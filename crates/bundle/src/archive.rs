@@ -52,6 +52,9 @@ pub enum WriteError {
     /// A folder of the same name exists that is not a bundle.
     #[error("{path} holds no bundle of etalon; name another folder with --out", path = .0.display())]
     Foreign(PathBuf),
+    /// A link or a folder has the name of a file.
+    #[error("{path} is a link or no regular file, and nothing is written through it; remove it, or name another folder with --out", path = .0.display())]
+    Irregular(PathBuf),
     /// The system refused.
     #[error("cannot write {path}: {source}", path = .path.display())]
     Io {
@@ -84,8 +87,17 @@ const CASE: &str = "case.json";
 /// If anything other than a bundle exists there, or a bundle that may not be replaced.
 pub fn free(out: &Path, name: &str, replace: bool) -> Result<(), WriteError> {
     let Written { folder, archive } = places(out, name);
-    if folder.exists() && !is_bundle(&folder) {
+    let is = |path: &Path, wanted: fn(&fs::FileType) -> bool| {
+        fs::symlink_metadata(path).map_or(true, |found| wanted(&found.file_type()))
+    };
+    if !is(&folder, fs::FileType::is_dir) || folder.exists() && !is_bundle(&folder) {
         return Err(WriteError::Foreign(folder));
+    }
+    let files = NAMES.map(|name| folder.join(name));
+    for file in files.iter().chain([&archive]) {
+        if !is(file, fs::FileType::is_file) {
+            return Err(WriteError::Irregular(file.clone()));
+        }
     }
     for path in [folder, archive] {
         if !replace && path.exists() {
@@ -145,7 +157,10 @@ pub fn write(out: &Path, name: &str, files: &[File], replace: bool) -> Result<Wr
             fs::rename(&unfinished, &written.folder)
         }
         .map_err(io(&written.folder))?;
-        fs::write(&written.archive, packed).map_err(io(&written.archive))
+        let beside = out.join(format!(".{name}.tar.gz.{}", std::process::id()));
+        fs::write(&beside, packed)
+            .and_then(|()| fs::rename(&beside, &written.archive))
+            .map_err(io(&written.archive))
     };
     let result = done();
     if result.is_err() {

@@ -65,8 +65,13 @@ impl NamedFiles<'_> {
 pub(crate) fn check_page(path: &Path) -> Result<(), Failure> {
     /// A part of every page's last line.
     const MADE: &[u8] = b"Made by etalon from ";
-    let is_page = |text: Vec<u8>| text.windows(MADE.len()).any(|part| part == MADE);
-    if path.is_file() && !fs::read(path).is_ok_and(is_page) {
+    let Ok(found) = fs::symlink_metadata(path) else {
+        return Ok(());
+    };
+    let is_page = |text: Vec<u8>| {
+        text.starts_with(b"<!DOCTYPE html>") && text.windows(MADE.len()).any(|part| part == MADE)
+    };
+    if !found.is_file() || !fs::read(path).is_ok_and(is_page) {
         return Err(Failure::usage(format!(
             "{} exists and is no page of etalon; name another file",
             path.display()

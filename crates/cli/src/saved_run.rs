@@ -8,7 +8,8 @@ use crate::failure::Failure;
 use crate::output::say;
 use clap::Args;
 use etalon_record::{
-    BAD_ENDS_FILE, CASES_FILE, Content, DEAD_FILE, FolderKind, MISSING_FILE, OutputFolder, RUN_FILE,
+    BAD_ENDS_FILE, CASES_FILE, Content, DEAD_FILE, FolderKind, MISSING_FILE, OutputFolder,
+    RUN_FILE, RecordError,
 };
 use etalon_report::plain;
 use flate2::read::GzDecoder;
@@ -28,7 +29,7 @@ const FILES: [&str; 5] = [RUN_FILE, CASES_FILE, MISSING_FILE, DEAD_FILE, BAD_END
 /// The folders whose files are taken, and the ends of the files' names.
 const FOLDERS: [(&str, &[&str]); 2] = [("frames", &[".json.gz", ".json"]), ("pictures", &[".png"])];
 /// The number of files left out that are named, and the length of a name.
-const NAMED: usize = 3;
+const NAMED: usize = 20;
 const LONGEST: usize = 120;
 
 /// The flag for the size of saved runs.
@@ -82,80 +83,118 @@ impl UnpackArguments {
 
     /// Unpacks an archive into an empty folder. Returns the names of the files that were left out.
     fn unpack(self, path: &Path, to: &Path) -> io::Result<Vec<String>> {
+        let root = self.root(path)?;
         let out = OutputFolder::open(to).map_err(io::Error::other)?;
+        let mut left_out = Vec::new();
+        self.each_file(path, |name, entry| {
+            let shown = plain(&name.to_string_lossy(), LONGEST);
+            let below = parts(name).and_then(|parts| taken(parts.strip_prefix(root.as_slice())?));
+            let Some(below) = below else {
+                left_out.push(shown);
+                return Ok(());
+            };
+            let written = out.write_from(&below, entry);
+            written.map(drop).map_err(|error| match error {
+                // The path is that of a temporary folder.
+                RecordError::Io { source, .. } => {
+                    io::Error::new(source.kind(), format!("{shown}: {source}"))
+                }
+                error => io::Error::other(error),
+            })
+        })?;
+        Ok(left_out)
+    }
+
+    /// Returns the folder in an archive that has the run.
+    fn root(self, path: &Path) -> io::Result<Vec<String>> {
+        let mut roots: Vec<Vec<String>> = Vec::new();
+        self.each_file(path, |name, _| {
+            if let Some(mut parts) = parts(name)
+                && parts.last().is_some_and(|last| last == RUN_FILE)
+            {
+                parts.pop();
+                roots.push(parts);
+            }
+            Ok(())
+        })?;
+        roots.sort_by_key(Vec::len);
+        match roots.as_slice() {
+            [] => Err(io::Error::other(format!("it has no {RUN_FILE}"))),
+            [one, other, ..] if one.len() == other.len() => Err(io::Error::other(format!(
+                "it holds several runs, {:?} and {:?}; unpack it, and name them",
+                one.join("/"),
+                other.join("/")
+            ))),
+            [one, ..] => Ok(one.clone()),
+        }
+    }
+
+    /// Calls a function with the path and the content of each file.
+    ///
+    /// # Errors
+    /// If an entry is neither a file nor a folder, or leads out of the archive's folder.
+    fn each_file(
+        self,
+        path: &Path,
+        mut call: impl FnMut(&Path, &mut dyn Read) -> io::Result<()>,
+    ) -> io::Result<()> {
         let text = Bounded {
             inner: GzDecoder::new(File::open(path)?),
             left: self.max_unpacked << 20,
             max: self.max_unpacked,
         };
-        let mut archive = Archive::new(text);
-        // The folder in the archive that has the run.
-        let mut root: Option<PathBuf> = None;
-        let mut left_out = Vec::new();
-        for entry in archive.entries()? {
+        for entry in Archive::new(text).entries()? {
             let mut entry = entry?;
             let name = entry.path()?.into_owned();
             let shown = plain(&name.to_string_lossy(), LONGEST);
+            let is_sparse = name.iter().any(|part| {
+                let part = part.to_string_lossy();
+                part.starts_with("GNUSparseFile.")
+            });
             match entry.header().entry_type() {
-                EntryType::Regular | EntryType::Continuous => {}
+                EntryType::Regular | EntryType::Continuous if !is_sparse => {}
                 EntryType::Directory | EntryType::XGlobalHeader => continue,
                 kind => {
-                    let kind = entry_type(kind);
+                    let kind = if is_sparse { SPARSE } else { entry_type(kind) };
                     return Err(io::Error::other(format!(
                         "{shown} is {kind}; only files and folders are unpacked"
                     )));
                 }
             }
-            let Some(parts) = parts(&name) else {
+            let inside = |part| matches!(part, Component::CurDir | Component::Normal(_));
+            if !name.components().all(inside) {
                 return Err(io::Error::other(format!("{shown} leads out of the folder")));
-            };
-            let Some((above, below)) = of_run(&parts) else {
-                left_out.push(shown);
-                continue;
-            };
-            if *root.get_or_insert_with(|| above.clone()) != above {
-                return Err(io::Error::other(format!(
-                    "it holds several folders, of which {shown} is in the second; unpack it, and name them"
-                )));
             }
-            out.write_from(&below, &mut entry)
-                .map_err(io::Error::other)?;
+            call(&name, &mut entry)?;
         }
-        if to.join(RUN_FILE).is_file() {
-            Ok(left_out)
-        } else {
-            Err(io::Error::other(format!("it has no {RUN_FILE}")))
-        }
+        Ok(())
     }
 }
 
-/// Returns the parts of an entry's path; `None` if the path leads out of the folder.
+/// Returns the parts of an entry's path; `None` if one is no text.
 fn parts(name: &Path) -> Option<Vec<String>> {
-    let mut parts = Vec::new();
-    for part in name.components() {
-        match part {
-            Component::CurDir => {}
-            Component::Normal(part) => parts.push(part.to_str()?.to_owned()),
-            _ => return None,
-        }
-    }
-    Some(parts)
+    let parts = name.components().filter_map(|part| match part {
+        Component::Normal(part) => Some(part.to_str().map(str::to_owned)),
+        _ => None,
+    });
+    parts.collect()
 }
 
-/// Splits the path of a run's file into the folder of the run and the path below it; `None` for other files.
-fn of_run(parts: &[String]) -> Option<(PathBuf, String)> {
-    let (last, folders) = parts.split_last()?;
-    let start = if FILES.contains(&last.as_str()) {
-        folders.len()
-    } else {
-        let is_taken = |part: &String| {
-            let mut kinds = FOLDERS.iter();
-            kinds.any(|(name, ends)| part == name && ends.iter().any(|end| last.ends_with(end)))
-        };
-        folders.iter().position(is_taken)?
+/// Returns the path of a run's file, from its parts below the run's folder; `None` for other files.
+fn taken(parts: &[String]) -> Option<String> {
+    let path = parts.join("/");
+    let is_taken = match parts {
+        [file] => FILES.contains(&file.as_str()),
+        [folder, .., last] => FOLDERS
+            .iter()
+            .any(|(name, ends)| folder == name && ends.iter().any(|end| last.ends_with(end))),
+        [] => false,
     };
-    Some((parts[..start].iter().collect(), parts[start..].join("/")))
+    (is_taken && !path.contains(char::is_control)).then_some(path)
 }
+
+/// What a sparse file is called.
+const SPARSE: &str = "a sparse file, which `tar` packs without --sparse";
 
 fn entry_type(kind: EntryType) -> &'static str {
     match kind {
@@ -163,6 +202,7 @@ fn entry_type(kind: EntryType) -> &'static str {
         EntryType::Link => "a hard link",
         EntryType::Char | EntryType::Block => "a device",
         EntryType::Fifo => "a pipe",
+        EntryType::GNUSparse => SPARSE,
         _ => "no regular file",
     }
 }
@@ -301,9 +341,10 @@ mod tests {
             assert!(!folder.join(name).exists(), "{name}");
         }
         let listed = fs::read_to_string(folder.join(".files")).unwrap();
-        assert_eq!(listed.lines().count(), 3, "{listed}");
-        let text = left_out_text(&path, &["a", "b", "c", "d", "e"].map(str::to_owned));
-        assert!(text.ends_with("left out: a, b, c and 2 more"), "{text}");
+        assert_eq!(listed.lines().count(), 1 + 3, "{listed}");
+        let many: Vec<String> = (0..NAMED + 2).map(|number| number.to_string()).collect();
+        let text = left_out_text(&path, &many);
+        assert!(text.ends_with("19 and 2 more"), "{text}");
     }
 
     #[test]
@@ -318,15 +359,17 @@ mod tests {
             ("frames/a", EntryType::Char, "is a device"),
             ("frames/a", EntryType::Fifo, "is a pipe"),
             ("other", EntryType::Regular, "it has no run.jsonl"),
+            ("GNUSparseFile.1/a", EntryType::Regular, "is a sparse file"),
         ] {
             archive(&path, &[(name, kind, b"")]);
             let refused = DEFAULT.folder(&path).unwrap_err().message;
             assert!(refused.contains(words), "{name}: {refused}");
             assert_eq!(fs::read_dir(above.path()).unwrap().count(), 1, "{name}");
         }
-        archive(&path, &[RUN, ("other/run.jsonl", EntryType::Regular, b"")]);
+        let other = |name| (name, EntryType::Regular, LINE.as_bytes());
+        archive(&path, &[other("a/run.jsonl"), other("b/run.jsonl")]);
         let refused = DEFAULT.folder(&path).unwrap_err().message;
-        assert!(refused.contains("several folders"), "{refused}");
+        assert!(refused.contains("several runs"), "{refused}");
         fs::write(&path, "no archive").unwrap();
         assert!(DEFAULT.folder(&path).is_err());
     }

@@ -5,10 +5,11 @@
 //! other programs' folders can have files with the same names.
 
 use crate::error::RecordError;
-use crate::folder::{FolderKind, LIST, open};
+use crate::folder::{FolderKind, open};
+use crate::list::read_list;
 use crate::lock::LOCK_FILE;
 use serde::de::IgnoredAny;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::fs;
 use std::io::{BufRead, BufReader, ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
@@ -40,9 +41,11 @@ impl Content {
             return Ok(Self::Recorded(kind));
         }
         // A command that was killed while it replaced a recording leaves the list.
-        let is_file = |path: &Path| fs::symlink_metadata(path).is_ok_and(|found| found.is_file());
-        let is_damaged = FolderKind::of(folder).is_some();
-        if is_file(&folder.join(LIST)) && !is_damaged {
+        let is_free = |listed: HashSet<String>| {
+            let mut files = listed.iter();
+            files.all(|file| fs::symlink_metadata(folder.join(file)).is_err())
+        };
+        if FolderKind::of(folder).is_none() && read_list(folder)?.is_some_and(is_free) {
             return Ok(Self::Empty);
         }
         let foreign = entries.find_map(|entry| match entry {

@@ -16,8 +16,12 @@ pub const MISSING_FILE: &str = "missing.txt";
 pub const DEAD_FILE: &str = "dead-expectations.json";
 /// The file of a run folder that lists workers that failed after their last case.
 pub const BAD_ENDS_FILE: &str = "bad-ends.json";
-/// The file that lists the files that etalon wrote into a folder: a path per line, with `/` as separator.
+/// The file that lists the files that etalon wrote into a folder: [`LIST_MARK`], then a path per line, with `/` as
+/// separator.
 pub(crate) const LIST: &str = ".files";
+/// The first line of a list, by which it is told from a file of the same name.
+pub(crate) const LIST_MARK: &str =
+    "# The files that etalon wrote here. Only these are replaced or removed.";
 /// The file of a search of random scenes.
 pub const FUZZ_FILE: &str = "fuzz.jsonl";
 /// The file of a search over releases.
@@ -109,6 +113,21 @@ impl FolderKind {
             Self::Versions => &[VERSIONS_FILE, "versions.html", WORK_FOLDER],
             Self::Hunt => &[HUNT_FILE, "mutants.html", "recall.txt"],
         }
+    }
+
+    /// Returns the names of the reports among [`FolderKind::names`]: they are made from the records.
+    pub fn reports(self) -> impl Iterator<Item = &'static str> {
+        const RECORDED: [&str; 7] = [
+            CASES_FILE,
+            MISSING_FILE,
+            DEAD_FILE,
+            BAD_ENDS_FILE,
+            "frames/",
+            "pictures/",
+            WORK_FOLDER,
+        ];
+        let names = self.names().iter().copied();
+        names.filter(move |name| *name != self.file() && !RECORDED.contains(name))
     }
 
     /// Returns the kind of a folder, by the file in it; `None` if it holds no such file or is not a folder.

@@ -6,7 +6,7 @@ use crate::error::RecordError;
 use crate::folder::{CASES_FILE, MISSING_FILE};
 use crate::header::{FORMAT, Header, Settings};
 use crate::output_folder::OutputFolder;
-use crate::paths::{frame_path, open_below};
+use crate::paths::{check_below, frame_path, open_below};
 use crate::record::Record;
 use crate::run::Run;
 use crate::selection::read_cases;
@@ -59,7 +59,12 @@ impl Merge {
         let mut parts: Vec<(&PathBuf, Run)> = Vec::new();
         for folder in folders {
             match Run::read(folder) {
-                Ok(run) => parts.push((folder, run)),
+                Ok(run) => {
+                    for file in run.records.iter().flat_map(Record::files) {
+                        check_below(folder, file)?;
+                    }
+                    parts.push((folder, run));
+                }
                 Err(RecordError::NoRun { .. }) => merged.empty.push(folder.clone()),
                 Err(error) => return Err(error),
             }

@@ -5,18 +5,16 @@
 
 use crate::content::Content;
 use crate::error::RecordError;
-use crate::folder::{FolderKind, LIST, WORK_FOLDER};
+use crate::folder::{FolderKind, LIST, LIST_MARK, WORK_FOLDER};
+use crate::list::read_list;
 use crate::lock::LOCK_FILE;
 use crate::paths::{below, lowest_real};
 use crate::unlisted;
 use std::collections::HashSet;
 use std::fs::{self, File, FileType, OpenOptions};
-use std::io::{BufRead, BufReader, ErrorKind, Read, Write};
+use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-
-/// The maximum number of bytes of the list that are read.
-const MAX_LIST: u64 = 256 << 20;
 
 /// A folder that files are written to.
 #[derive(Debug)]
@@ -84,31 +82,63 @@ impl OutputFolder {
     /// # Errors
     /// Names the first file or link that is in the way.
     pub fn check(&self, kind: FolderKind) -> Result<(), RecordError> {
+        self.check_names(kind.names().iter().copied())
+    }
+
+    /// Checks that the reports of a recording of this kind can be written, as [`OutputFolder::check`] does.
+    ///
+    /// # Errors
+    /// Names the first file or link that is in the way.
+    pub fn check_reports(&self, kind: FolderKind) -> Result<(), RecordError> {
+        self.check_names(kind.reports())
+    }
+
+    fn check_names<'n>(&self, names: impl Iterator<Item = &'n str>) -> Result<(), RecordError> {
         let state = self.state();
-        for name in kind.names() {
+        for name in names {
             let path = self.folder.join(name.trim_end_matches('/'));
             let Some(found) = type_of(&path)? else {
                 continue;
             };
-            if found.is_symlink() {
-                return Err(RecordError::Link { path });
-            }
-            let is_ours = match name.strip_suffix('/') {
-                Some(_) => found.is_dir(),
-                None => found.is_file() && state.listed.contains(*name),
-            };
-            if !is_ours {
-                return Err(RecordError::NotOurs { path });
-            }
-            if *name == WORK_FOLDER {
-                Content::writable(&path)?;
+            match name.strip_suffix('/') {
+                _ if found.is_symlink() => return Err(RecordError::Link { path }),
+                Some(_) if name == WORK_FOLDER => {
+                    Content::writable(&path)?;
+                }
+                Some(folder) if found.is_dir() => self.check_folder(&state, folder)?,
+                None if found.is_file() && state.listed.contains(name) => {}
+                _ => return Err(RecordError::NotOurs { path }),
             }
         }
         let list = self.folder.join(LIST);
         match type_of(&list)? {
             Some(found) if !found.is_file() => Err(RecordError::Link { path: list }),
+            Some(_) if read_list(&self.folder)?.is_none() => {
+                Err(RecordError::NotOurs { path: list })
+            }
             _ => Ok(()),
         }
+    }
+
+    /// Checks that a folder of etalon has listed files and folders only.
+    fn check_folder(&self, state: &State, name: &str) -> Result<(), RecordError> {
+        let folder = self.folder.join(name);
+        let failed = || RecordError::io("read", &folder);
+        for entry in fs::read_dir(&folder).map_err(failed())? {
+            let entry = entry.map_err(failed())?;
+            let (path, last) = (entry.path(), entry.file_name());
+            let last = last.to_string_lossy();
+            let below = format!("{name}/{last}");
+            let found = entry.file_type().map_err(failed())?;
+            if found.is_symlink() {
+                return Err(RecordError::Link { path });
+            } else if found.is_dir() && !state.listed.contains(&below) {
+                self.check_folder(state, &below)?;
+            } else if !(found.is_file() && (state.listed.contains(&below) || is_temporary(&last))) {
+                return Err(RecordError::NotOurs { path });
+            }
+        }
+        Ok(())
     }
 
     /// Writes a file below the folder, and creates the folders that it needs. A concurrent reader sees the old
@@ -236,20 +266,24 @@ impl OutputFolder {
                 if type_of(&path)?.is_some_and(|found| !found.is_file()) {
                     return Err(RecordError::Link { path });
                 }
-                let is_new = !path.exists();
+                let old = fs::read(&path).ok();
                 let file = OpenOptions::new()
                     .append(true)
                     .create(true)
                     .open(&path)
                     .map_err(failed())?;
                 let file = list.insert(file);
-                if is_new {
-                    let mut text = String::new();
-                    for other in listed.iter().filter(|other| *other != name) {
-                        text.push_str(other);
-                        text.push('\n');
+                match old {
+                    None => {
+                        let others = listed.iter().filter(|other| *other != name);
+                        let text = list_text(others);
+                        file.write_all(text.as_bytes()).map_err(failed())?;
                     }
-                    file.write_all(text.as_bytes()).map_err(failed())?;
+                    // An editor can leave out the last line end.
+                    Some(old) if !old.ends_with(b"\n") => {
+                        file.write_all(b"\n").map_err(failed())?;
+                    }
+                    Some(_) => {}
                 }
                 file
             }
@@ -290,7 +324,8 @@ impl OutputFolder {
         state.list = None;
         state.real.clear();
         if type_of(&list)?.is_some_and(|found| found.is_file()) {
-            fs::write(&list, "").map_err(RecordError::io("write", &list))?;
+            let text = list_text(std::iter::empty());
+            fs::write(&list, text).map_err(RecordError::io("write", &list))?;
         }
         if let Some(kept) = kept.filter(|kept| marks.iter().any(|name| name == kept)) {
             state.listed.insert(kept.to_owned());
@@ -329,14 +364,30 @@ impl OutputFolder {
         }
     }
 
-    /// Removes the listed files whose names `keep` refuses.
+    /// Removes the listed files whose names `keep` refuses, from the list too.
     ///
     /// # Errors
     /// If one cannot be removed.
     pub fn retain(&self, keep: impl Fn(&str) -> bool) -> Result<(), RecordError> {
-        let state = self.state();
-        let mut others = state.listed.iter().filter(|name| !keep(name));
-        others.try_for_each(|name| self.remove(name).map(drop))
+        let mut state = self.state();
+        // Another process may have added to it.
+        if let Some(listed) = read_list(&self.folder)? {
+            state.listed.extend(listed);
+        }
+        let others: Vec<String> = state.listed.extract_if(|name| !keep(name)).collect();
+        if others.is_empty() {
+            return Ok(());
+        }
+        for name in &others {
+            self.remove(name)?;
+        }
+        let list = self.folder.join(LIST);
+        let beside = self.folder.join(format!("{LIST}.{}", std::process::id()));
+        fs::write(&beside, list_text(state.listed.iter()))
+            .and_then(|()| fs::rename(&beside, &list))
+            .map_err(RecordError::io("write", &list))?;
+        state.list = None;
+        Ok(())
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
@@ -372,6 +423,24 @@ fn type_of(path: &Path) -> Result<Option<FileType>, RecordError> {
     }
 }
 
+/// Returns the text of a list.
+fn list_text<'n>(names: impl Iterator<Item = &'n String>) -> String {
+    let mut text = format!("{LIST_MARK}\n");
+    for name in names {
+        text.push_str(name);
+        text.push('\n');
+    }
+    text
+}
+
+/// Returns true for the name of a file that a killed process left: a dot, a name, a dot and a process id.
+fn is_temporary(name: &str) -> bool {
+    let ending = name
+        .strip_prefix('.')
+        .and_then(|name| name.rsplit_once('.'));
+    ending.is_some_and(|(_, id)| id.parse::<u32>().is_ok())
+}
+
 fn remove_if_there(path: &Path) -> std::io::Result<()> {
     match fs::remove_file(path) {
         Err(e) if e.kind() != ErrorKind::NotFound => Err(e),
@@ -385,27 +454,6 @@ fn list_name(relative: &Path) -> String {
         .components()
         .map(|part| part.as_os_str().to_string_lossy());
     parts.collect::<Vec<_>>().join("/")
-}
-
-/// Returns the listed paths; `None` if the folder has no list.
-fn read_list(folder: &Path) -> Result<Option<HashSet<String>>, RecordError> {
-    let path = folder.join(LIST);
-    // Reading a pipe would block, and a link can lead anywhere.
-    if !fs::symlink_metadata(&path).is_ok_and(|found| found.is_file()) {
-        return Ok(None);
-    }
-    let file = File::open(&path).map_err(RecordError::io("read", &path))?;
-    let mut listed = HashSet::new();
-    for line in BufReader::new(file.take(MAX_LIST)).lines() {
-        match line {
-            // A path that etalon would not write is no file of etalon.
-            Ok(name) if below(&name).is_ok() => drop(listed.insert(name)),
-            Ok(_) => {}
-            Err(e) if e.kind() == ErrorKind::InvalidData => {}
-            Err(e) => return Err(RecordError::io("read", &path)(e)),
-        }
-    }
-    Ok(Some(listed))
 }
 
 #[cfg(test)]
@@ -430,13 +478,14 @@ mod tests {
             fs::write(path, "mine").unwrap();
         }
         let again = OutputFolder::open(folder).unwrap();
-        again.check(FolderKind::Run).unwrap();
+        let refused = again.check(FolderKind::Run).unwrap_err().to_string();
+        assert!(refused.contains("mine."), "{refused}");
         again.clear(Some(FolderKind::Run)).unwrap();
         assert!(folder.join("run.jsonl").exists());
         assert!(!folder.join("index.html").exists() && !folder.join("frames/a/b").exists());
         again.clear(None).unwrap();
         assert!(!folder.join("run.jsonl").exists());
-        assert_eq!(text(&folder.join(LIST)), "");
+        assert_eq!(text(&folder.join(LIST)), format!("{LIST_MARK}\n"));
         assert_eq!(Content::of(folder).unwrap(), Content::Empty);
         for name in ["frames/a/mine.json.gz", "notes.txt", "pictures/mine.png"] {
             assert_eq!(text(&folder.join(name)), "mine", "{name}");
@@ -486,7 +535,8 @@ mod tests {
         }
         assert!(out.check(FolderKind::Run).is_err());
         // A list that names them removes neither the link nor what is behind it.
-        fs::write(folder.join(LIST), "frames/x\nindex.html\n../elsewhere/x\n").unwrap();
+        let names = ["frames/x", "index.html", "../elsewhere/x"].map(str::to_owned);
+        fs::write(folder.join(LIST), list_text(names.iter())).unwrap();
         OutputFolder::open(&folder).unwrap().clear(None).unwrap();
         assert_eq!(text(&elsewhere.join("x")), "mine");
         assert!(folder.join("index.html").is_symlink());
@@ -496,5 +546,46 @@ mod tests {
         let out = OutputFolder::open(&folder).unwrap();
         assert!(out.write("summary.md", b"ours").is_err());
         assert!(!elsewhere.join("new").exists());
+    }
+
+    #[test]
+    fn a_file_of_a_user_named_like_the_list_marks_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        fs::write(folder.join("notes.txt"), "mine").unwrap();
+        for list in ["", "notes.txt\n", "\u{feff}notes.txt"] {
+            fs::write(folder.join(LIST), list).unwrap();
+            assert_eq!(Content::of(folder).unwrap(), Content::Other, "{list}");
+            let refused = OutputFolder::replace(folder, FolderKind::Run).unwrap_err();
+            assert!(matches!(refused, RecordError::Foreign { .. }), "{refused}");
+        }
+        // A list of etalon with files that are there is no leftover.
+        fs::write(
+            folder.join(LIST),
+            list_text([&"notes.txt".to_owned()].into_iter()),
+        )
+        .unwrap();
+        assert_eq!(Content::of(folder).unwrap(), Content::Other);
+        assert_eq!(text(&folder.join("notes.txt")), "mine");
+    }
+
+    #[test]
+    fn a_removed_file_is_not_listed_any_more() {
+        let folder = tempfile::tempdir().unwrap();
+        let out = OutputFolder::open(folder.path()).unwrap();
+        out.write("run.jsonl", b"").unwrap();
+        out.write("cases/a.js", b"").unwrap();
+        out.retain(|name| name != "cases/a.js").unwrap();
+        out.write("junit.xml", b"").unwrap();
+        let listed = read_list(folder.path()).unwrap().unwrap();
+        assert_eq!(listed.len(), 2, "{listed:?}");
+        // A missing line end joins no names.
+        let list = text(&folder.path().join(LIST));
+        fs::write(folder.path().join(LIST), list.trim_end()).unwrap();
+        OutputFolder::open(folder.path())
+            .unwrap()
+            .write("x", b"")
+            .unwrap();
+        assert_eq!(read_list(folder.path()).unwrap().unwrap().len(), 3);
     }
 }

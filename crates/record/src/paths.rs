@@ -13,12 +13,36 @@ use std::path::{Component, Path, PathBuf};
 pub(crate) fn below(file: &str) -> Result<PathBuf, RecordError> {
     let path = PathBuf::from(file);
     let plain = |c: Component<'_>| matches!(c, Component::Normal(_));
-    if !file.is_empty() && path.components().all(plain) {
+    // A line end would be the end of a name in the list of files.
+    let is_text = !file.is_empty() && !file.contains(char::is_control);
+    if is_text && path.components().all(plain) {
         Ok(path)
     } else {
         Err(RecordError::Outside {
             path: file.to_owned(),
         })
+    }
+}
+
+/// Returns true if a record can name this path as one of its files: a frame or a picture.
+pub(crate) fn is_of_record(file: &str) -> bool {
+    let is_frame =
+        file.starts_with("frames/") && [".json.gz", ".json"].iter().any(|end| file.ends_with(end));
+    let is_picture = file.starts_with("pictures/") && file.ends_with(".png");
+    (is_frame || is_picture) && below(file).is_ok()
+}
+
+/// Checks that a path below a folder names a regular file, or nothing.
+///
+/// # Errors
+/// If it names anything else, or goes through a link.
+pub(crate) fn check_below(folder: &Path, file: &str) -> Result<(), RecordError> {
+    let relative = below(file)?;
+    let path = folder.join(&relative);
+    if fs::symlink_metadata(&path).is_err() || lowest_real(folder, &relative) {
+        Ok(())
+    } else {
+        Err(RecordError::Irregular { path })
     }
 }
 

@@ -6,7 +6,7 @@ use crate::frame_file::FrameFile;
 use crate::header::{FORMAT, Header};
 use crate::json::without_position;
 use crate::json_lines::JsonLines;
-use crate::paths::{below, open_below};
+use crate::paths::{is_of_record, open_below};
 use crate::record::{MAX_LINE, Record};
 use flate2::read::GzDecoder;
 use std::collections::HashSet;
@@ -47,9 +47,11 @@ fn lines(path: &Path) -> JsonLines<'_> {
 
 /// Returns an error if a record names a file outside the run folder.
 fn check_files(record: &Record) -> Result<(), String> {
-    let outside = record.files().find(|file| below(file).is_err());
+    let outside = record.files().find(|file| !is_of_record(file));
     outside.map_or(Ok(()), |file| {
-        Err(format!("{file:?} is not a path below the run folder"))
+        Err(format!(
+            "{file:?} is not the path of a frame or a picture below the run folder"
+        ))
     })
 }
 

@@ -32,6 +32,7 @@ fn add_named(folder: &Path, files: &mut HashSet<String>) {
     // The files of a damaged run stay.
     let Ok(run) = Run::read(folder) else { return };
     for record in &run.records {
+        // Reading refuses other paths.
         files.extend(record.files().map(str::to_owned));
     }
     let plain = |c: char| {

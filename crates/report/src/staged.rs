@@ -14,9 +14,6 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 pub(crate) struct Kind {
     /// The file that marks such a folder. It lists the files of the folder.
     pub(crate) mark: &'static str,
-    /// The top-level files and folders. They identify the contents of folders of earlier versions, whose mark
-    /// lists no files.
-    pub(crate) top: &'static [&'static str],
     /// The name, and the name with its kind.
     pub(crate) names: [&'static str; 2],
 }
@@ -55,9 +52,10 @@ fn check(to: &Path, kind: &Kind, replace: bool) -> Result<(), ReportError> {
     let listed = value["files"].as_array();
     let listed: Option<HashSet<&str>> =
         listed.map(|files| files.iter().filter_map(Value::as_str).collect());
-    let is_listed = |path: &Path| match &listed {
-        Some(files) => files.contains(&*path.to_string_lossy()),
-        None => kind.top.iter().any(|top| path.starts_with(top)),
+    // Earlier versions listed no files, so any of them can be somebody else's.
+    let is_listed = |path: &Path| {
+        let name = path.to_string_lossy();
+        listed.as_ref().is_some_and(|files| files.contains(&*name))
     };
     let mut paths = Vec::new();
     files(to, Path::new(""), &mut paths).map_err(&unread)?;
@@ -97,6 +95,8 @@ fn files(folder: &Path, below: &Path, paths: &mut Vec<PathBuf>) -> io::Result<()
 /// A folder that is being written.
 pub(crate) struct Staged {
     kind: &'static Kind,
+    /// True to replace an earlier folder.
+    replace: bool,
     to: PathBuf,
     beside: PathBuf,
     written: Mutex<Written>,
@@ -143,6 +143,12 @@ impl Staged {
         kind: &'static Kind,
         replace: bool,
     ) -> Result<Self, ReportError> {
+        // A link to a folder stays a link.
+        let to = if to.is_symlink() {
+            &fs::canonicalize(to).map_err(ReportError::unread(to))?
+        } else {
+            to
+        };
         check(to, kind, replace)?;
         let Some(name) = to.file_name() else {
             return Err(ReportError::NoFile {
@@ -152,6 +158,7 @@ impl Staged {
         let hidden = format!(".{}.{}", name.to_string_lossy(), std::process::id());
         Ok(Self {
             kind,
+            replace,
             to: to.to_owned(),
             beside: to.with_file_name(hidden),
             written: Mutex::default(),
@@ -202,6 +209,12 @@ impl Staged {
         let old = self.beside.with_extension("old");
         let replaces = self.to.exists();
         if replaces {
+            // A file can have come since the beginning.
+            check(&self.to, self.kind, self.replace)?;
+            let permissions = fs::metadata(&self.to).map(|found| found.permissions());
+            permissions
+                .and_then(|permissions| fs::set_permissions(&self.beside, permissions))
+                .map_err(ReportError::unwritten(&self.to))?;
             fs::rename(&self.to, &old).map_err(ReportError::unwritten(&self.to))?;
         }
         if let Err(source) = fs::rename(&self.beside, &self.to) {

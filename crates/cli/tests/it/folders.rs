@@ -427,7 +427,12 @@ fn a_file_of_a_user_under_a_name_of_ours_is_never_replaced() {
             copy(&run, &to);
         }
         fs::create_dir_all(&to).unwrap();
-        fs::write(to.join(".files"), "run.jsonl\ncases.txt\n").unwrap();
+        if !command.adds {
+            let list = fs::read_to_string(to.join(".files")).unwrap();
+            let is_kept = |line: &&str| !line.ends_with(command.writes);
+            let lines: Vec<&str> = list.lines().filter(is_kept).collect();
+            fs::write(to.join(".files"), lines.join("\n")).unwrap();
+        }
         fs::write(to.join(command.writes), "mine").unwrap();
         let before = files(&to);
         let force = command.takes_force && !command.adds;
@@ -516,9 +521,30 @@ fn links_in_a_folder_are_neither_written_through_nor_copied() {
     symlink(&secret, out.join("secret.json")).unwrap();
     let merged = work.path().join("merged");
     let ended = etalon(&["merge", "--out"]).arg(&merged).arg(&out).assert();
-    ended.stderr(contains("is a link"));
-    let site = work.path().join("site");
+    ended.code(64).stderr(contains("is a link"));
+    fs::create_dir(&merged).unwrap();
+    let bundles = work.path().join("bundles");
+    fs::create_dir(&bundles).unwrap();
+    let archive = "cull-points-cull-none-front_face-cw.gl-softpipe.tar.gz";
+    symlink(&secret, bundles.join(archive)).unwrap();
+    etalon(&[
+        "bundle",
+        CASE,
+        "--adapter",
+        "gl:softpipe",
+        "--force",
+        "--out",
+    ])
+    .arg(&bundles)
+    .assert()
+    .code(64);
+    assert_eq!(fs::read_to_string(&secret).unwrap(), "the secret");
+    // A link to a folder stays one.
+    let [data, site] = ["data", "site"].map(|name| work.path().join(name));
+    fs::create_dir(&data).unwrap();
+    symlink(&data, &site).unwrap();
     etalon(&["site"]).arg(&site).arg(&out).assert().code(0);
+    assert!(site.is_symlink() && data.join("index.html").is_file());
     for folder in [&merged, &site] {
         for (path, bytes) in files(folder) {
             let text = String::from_utf8_lossy(&bytes);
@@ -545,4 +571,11 @@ fn a_page_of_a_comparison_replaces_only_such_a_page() {
     fs::remove_file(&page).unwrap();
     diff().assert().code(0);
     diff().assert().code(0);
+    #[cfg(unix)]
+    {
+        fs::rename(&page, work.path().join("other.html")).unwrap();
+        std::os::unix::fs::symlink("other.html", &page).unwrap();
+        diff().assert().code(64);
+        assert!(page.is_symlink());
+    }
 }

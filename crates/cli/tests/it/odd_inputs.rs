@@ -547,9 +547,15 @@ fn a_damaged_frame_and_a_path_that_leaves_the_folder_are_named_with_their_place(
         .code(64)
         .stderr(contains(&*frame).and(contains("copy the file anew")));
     let text = fs::read_to_string(run.join("run.jsonl")).unwrap();
-    fs::write(run.join("run.jsonl"), text.replace(&frame, "../x")).unwrap();
-    explain()
-        .assert()
-        .code(64)
-        .stderr(contains("run.jsonl:2:").and(contains("../x")));
+    for other in ["../x", "run.jsonl", "frames/a.svg", "/etc/passwd"] {
+        fs::write(run.join("run.jsonl"), text.replace(&frame, other)).unwrap();
+        let merged = work.path().join("merged");
+        let mut merge = etalon(&["merge", "--out"]);
+        merge.arg(&merged).arg(&run);
+        for mut command in [explain(), merge] {
+            let refused = command.assert().code(64);
+            refused.stderr(contains("run.jsonl:2:").and(contains(other)));
+        }
+        assert!(!merged.exists(), "{other}");
+    }
 }

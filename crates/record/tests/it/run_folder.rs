@@ -150,7 +150,7 @@ prop_compose! {
         figures in prop::collection::vec(any::<[u64; 7]>(), 0..3),
         wrong in prop::collection::vec((".{0,9}", any::<u32>(), any::<u32>()), 0..5),
         story in prop::option::of(story()),
-        frame in prop::option::of("[a-z]{1,9}(/[^/.\\\\\u{0}]{1,9}){0,2}"),
+        frame in prop::option::of("frames(/[a-z,.=_-]{1,9}[a-z]){0,2}/[a-z]{1,9}\\.json(\\.gz)?"),
         seconds in any::<[u32; 2]>(),
         (lost, said) in (
             prop::option::of((prop::option::of(any::<i32>()), ".*")),
@@ -459,16 +459,20 @@ fn a_new_run_replaces_the_old_one_and_nothing_else() {
     for name in ["frames/gl/a/b.json.gz", "index.html", "results/a.csv"] {
         out.write(name, b"ours").unwrap();
     }
-    let mine = ["frames/gl/mine.json.gz", "results/b.csv", "notes.txt"];
-    for name in mine {
-        fs::write(folder.path().join(name), "").unwrap();
-    }
+    fs::write(folder.path().join("notes.txt"), "").unwrap();
+    // A file of somebody else in a folder of ours would be lost among the new ones.
+    let mine = frames.join("gl/mine.json.gz");
+    fs::write(&mine, "").unwrap();
+    let before = fs::read(folder.path().join("run.jsonl")).unwrap();
+    let refused = RunWriter::create(folder.path(), &header()).unwrap_err();
+    assert!(matches!(refused, RecordError::NotOurs { .. }), "{refused}");
+    assert_eq!(fs::read(folder.path().join("run.jsonl")).unwrap(), before);
+    assert!(frames.join("gl/a/b.json.gz").exists());
+    fs::remove_file(mine).unwrap();
     written(folder.path(), &[Verdict::Pass]);
-    assert!(!frames.join("gl/a").exists() && !folder.path().join("index.html").exists());
+    assert!(!frames.exists() && !folder.path().join("index.html").exists());
     assert!(!folder.path().join("results/a.csv").exists());
-    for name in mine {
-        assert!(folder.path().join(name).exists(), "{name}");
-    }
+    assert!(folder.path().join("notes.txt").exists());
 }
 
 #[test]
@@ -481,7 +485,7 @@ fn a_folder_of_an_earlier_version_loses_what_its_records_name() {
     writer.append(&record).unwrap();
     fs::remove_file(path(".files")).unwrap();
     let ours = ["frames/cpu/a/b.json", "index.html", "cases/a.js"];
-    let mine = ["frames/cpu/a/c.json", "cases/b.js", "notes.txt"];
+    let mine = ["found/c.json", "notes.txt"];
     for name in ours.iter().chain(&mine) {
         fs::create_dir_all(path(name).parent().unwrap()).unwrap();
         let script = if *name == "cases/a.js" {

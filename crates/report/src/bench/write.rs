@@ -37,7 +37,7 @@ pub struct WrittenBench {
 pub fn write_bench(folder: &Path) -> Result<WrittenBench, ReportError> {
     let bench = Bench::read(folder)?;
     let out = OutputFolder::open(folder)?;
-    out.check(FolderKind::Bench)?;
+    out.check_reports(FolderKind::Bench)?;
     write_bench_to(&out, &bench)
 }
 

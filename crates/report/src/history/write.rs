@@ -20,7 +20,6 @@ pub const HISTORY_PAGE_FILE: &str = "history.json";
 /// The kind of this folder.
 const FOLDER: Kind = Kind {
     mark: HISTORY_PAGE_FILE,
-    top: &["index.html", "data"],
     names: ["page", "page of a history"],
 };
 

@@ -117,7 +117,7 @@ impl RunReport<'_> {
     pub fn write(&self) -> Result<RunReports, ReportError> {
         let out = OutputFolder::open(self.folder)?;
         // A page of somebody else under a name of ours would look like a report.
-        out.check(FolderKind::Run)?;
+        out.check_reports(FolderKind::Run)?;
         let written = self.write_to(&out)?;
         let is_view = |name: &str| {
             let in_catalogue = name.strip_prefix(CATALOGUE);

@@ -11,10 +11,9 @@ use std::path::{Path, PathBuf};
 
 /// The file that marks a folder as a site.
 pub const SITE_FILE: &str = "site.json";
-/// The kind of a site's folder. Earlier versions wrote `docs`.
+/// The kind of a site's folder.
 const FOLDER: Kind = Kind {
     mark: SITE_FILE,
-    top: &["index.html", "runs", "docs", PAGE],
     names: ["site", "site"],
 };
 

@@ -535,8 +535,8 @@ fn hostile_names_of_methods_stay_text() {
             draws: 0,
             fragments: Some(u64::MAX),
             bytes: u64::MAX,
-            picture: Some("secret.png".to_owned()),
-            truth: Some(hostile.to_owned()),
+            picture: Some("pictures/secret.png".to_owned()),
+            truth: Some("pictures/\"><script>alert(1)</script><i class='x'>.png".to_owned()),
         });
         record
     });

@@ -188,7 +188,7 @@ fn frames_that_cannot_be_read_are_told_and_stop_nothing() {
     assert!(two.diff().changes.is_empty());
     let mut worse = record.clone();
     worse.texels.wrong += 1;
-    worse.frame = Some("run.jsonl/x".to_owned());
+    worse.frame = Some("frames/x.json".to_owned());
     record_all(&two.after(), &one_adapter(1), &[worse]);
     let found = two.diff();
     assert!(
@@ -196,7 +196,7 @@ fn frames_that_cannot_be_read_are_told_and_stop_nothing() {
             .frame_error
             .as_ref()
             .unwrap()
-            .contains("run.jsonl/x")
+            .contains("frames/x.json")
     );
     assert!(
         found.warnings[0].contains("1 pair of frames"),
