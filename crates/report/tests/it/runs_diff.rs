@@ -575,7 +575,7 @@ fn hostile_names_stay_text() {
     let mut new = old.clone();
     new.verdict = Verdict::Fail;
     new.message = hostile.to_owned();
-    new.frame = Some(hostile.to_owned());
+    new.frame = Some("frames/<i class='x'>.json".to_owned());
     new.counters[0].actual = 2;
     let gone = Record::new(hostile, hostile, Verdict::Pass);
     old.frame = Some(hostile.to_owned());
