@@ -171,7 +171,7 @@ impl UnpackArguments {
     }
 }
 
-/// Returns the parts of an entry's path; `None` if one is no text.
+/// Returns the parts of an entry's path; `None` if one is not UTF-8.
 fn parts(name: &Path) -> Option<Vec<String>> {
     let parts = name.components().filter_map(|part| match part {
         Component::Normal(part) => Some(part.to_str().map(str::to_owned)),

@@ -19,7 +19,7 @@ pub const BAD_ENDS_FILE: &str = "bad-ends.json";
 /// The file that lists the files that etalon wrote into a folder: [`LIST_MARK`], then a path per line, with `/` as
 /// separator.
 pub(crate) const LIST: &str = ".files";
-/// The first line of a list, by which it is told from a file of the same name.
+/// The first line of a list. A file of the same name without it is somebody else's.
 pub(crate) const LIST_MARK: &str =
     "# The files that etalon wrote here. Only these are replaced or removed.";
 /// The file of a search of random scenes.

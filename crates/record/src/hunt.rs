@@ -3,7 +3,8 @@
 use crate::error::RecordError;
 use crate::folder::HUNT_FILE;
 use crate::json::json_line;
-use crate::json_lines::{JsonLines, put};
+use crate::json_lines::JsonLines;
+use crate::line_writer::put;
 use crate::machine::Machine;
 use crate::output_folder::OutputFolder;
 use crate::paths::open_below;

@@ -34,6 +34,7 @@ mod hunt;
 mod json;
 mod json_lines;
 mod line;
+mod line_writer;
 mod list;
 mod lists;
 mod lock;

@@ -6,7 +6,7 @@ use crate::folder::{FolderKind, RUN_FILE};
 use crate::frame_writer::FrameWriter;
 use crate::header::Header;
 use crate::json::json_line;
-use crate::json_lines::{put, reopen};
+use crate::line_writer::{put, reopen};
 use crate::output_folder::OutputFolder;
 use crate::record::Record;
 use crate::run::Run;

@@ -368,16 +368,18 @@ fn a_command_replaces_what_etalon_wrote_only_when_forced_and_nothing_else_ever()
         kinds.push(to);
     }
     let to = work.path().join("to");
-    for command in &commands {
+    for (number, command) in commands.iter().enumerate() {
         // Commands that take long meet two kinds; what they share is tried with the others.
         let most = if command.arguments.iter().any(|word| word == "gl:softpipe") {
             2
         } else {
             7
         };
-        for kind in kinds.iter().take(most) {
+        for (place, kind) in kinds.iter().enumerate().take(most) {
             for force in [false, true] {
-                if force && !command.takes_force {
+                // A refusal is quick. Each command replaces some of the kinds, and all together replace each.
+                let skips = (number + place) % 7 > 2 && most == 7;
+                if force && (!command.takes_force || skips) {
                     continue;
                 }
                 let what = format!("{:?} into {} {force}", command.arguments, kind.display());

@@ -7,7 +7,7 @@ use crate::conflict::bench_conflict;
 use crate::error::RecordError;
 use crate::folder::{BENCH_FILE, FolderKind};
 use crate::json::json_line;
-use crate::json_lines::{put, reopen};
+use crate::line_writer::{put, reopen};
 use crate::output_folder::OutputFolder;
 use std::fs::File;
 use std::io::Write;

@@ -578,7 +578,7 @@ fn hostile_names_stay_text() {
     new.frame = Some("frames/<i class='x'>.json".to_owned());
     new.counters[0].actual = 2;
     let gone = Record::new(hostile, hostile, Verdict::Pass);
-    old.frame = Some(hostile.to_owned());
+    old.frame = Some("frames/<i class='x'>.json.gz".to_owned());
     record_all(&two.before(), &header, &[old, gone]);
     header.commit = Some(hostile.to_owned());
     record_all(&two.after(), &header, &[new]);

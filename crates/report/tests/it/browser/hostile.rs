@@ -146,7 +146,7 @@ fn record(writer: &RunWriter, id: &str, name: &str, verdict: Verdict, hostile: &
     record.validation = vec![hostile.to_owned()];
     record.after = HOSTILE.map(str::to_owned).to_vec();
     if verdict == Verdict::Fail {
-        record.frame = Some("javascript:window.hacked=9".to_owned());
+        record.frame = Some("frames/javascript:window.hacked=9.json".to_owned());
         record.wrong[0].channels[0].attachment = hostile.to_owned();
         record.story = Some(Story {
             told: vec![ToldLine {
