@@ -102,7 +102,7 @@ pub fn token() -> String {
 }
 
 /// Keeps a program until `input` or the program ends. Messages go to standard error. `guard` is the command of a
-/// guard, which ends the program if the keeper is killed; see [`guard`](crate::guard).
+/// guard, which ends the program if the keeper is killed; see [`guard`](crate::guard()).
 ///
 /// # Errors
 /// If the first line of `input` is not a [`Program`], or it cannot be started.
