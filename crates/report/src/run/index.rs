@@ -26,10 +26,10 @@ use crate::page::origin::origin;
 use crate::page::{self, Page};
 use crate::run::grid::{Grid, Tally};
 use crate::run::reasons::{total, undrawn};
-use crate::run::write::RunReport;
 use crate::words::{self, Tone};
 use etalon_record::{Dead, Run, Verdict};
 use maud::{Markup, html};
+use std::path::Path;
 
 const STYLE: &str = concat!(
     include_str!("index/matrix.css"),
@@ -50,14 +50,13 @@ const SCRIPT: &str = concat!(
 );
 /// Returns the page. Frame files are read from the folder when they are needed.
 pub(crate) fn page(
-    report: &RunReport<'_>,
+    folder: &Path,
+    run: &Run,
     scripts: &[(String, String)],
     dead: &[Dead],
     methods: Option<&Methods<'_>>,
+    news: Option<&News>,
 ) -> String {
-    let RunReport {
-        folder, run, news, ..
-    } = *report;
     let grid = Grid::new(run);
     let plan = findings::Plan::new(&grid);
     let drivers = methods::driver_section(&grid);

@@ -138,7 +138,14 @@ impl RunReport<'_> {
         // The page reads frames and takes as long as all others together.
         let (html, others) = join(
             || {
-                let page = index::page(self, &scripts, &dead, found.as_ref());
+                let page = index::page(
+                    self.folder,
+                    self.run,
+                    &scripts,
+                    &dead,
+                    found.as_ref(),
+                    self.news,
+                );
                 to.write(HTML, page.as_bytes())
             },
             || self.others(to, found.as_ref()),
