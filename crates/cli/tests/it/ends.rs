@@ -230,7 +230,7 @@ fn one_signal_ends_the_wait_for_a_page() {
         let asked = Instant::now();
         kill_process(Pid::from_child(&run), signal).unwrap();
         assert_eq!(run.wait().unwrap().code(), Some(3));
-        assert!(asked.elapsed() < Duration::from_secs(2));
+        assert!(asked.elapsed() < Duration::from_secs(10));
         nothing_is_left(folder);
     }
 }

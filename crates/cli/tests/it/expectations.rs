@@ -525,7 +525,7 @@ fn the_time_grows_with_the_number_of_expectations_and_no_faster() {
         let took = run(&file).saturating_sub(without);
         // The tests' build takes some times as long as a release's.
         println!("{count} {what}: {took:?}");
-        assert!(took < Duration::from_secs(25), "{what}: {took:?}");
+        assert!(took < Duration::from_secs(60), "{what}: {took:?}");
     }
 }
 
