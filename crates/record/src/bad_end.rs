@@ -2,15 +2,11 @@
 
 use crate::error::RecordError;
 use crate::folder::BAD_ENDS_FILE;
+use crate::json_file::{read_json, write_json};
 use crate::output_folder::OutputFolder;
-use crate::paths::open_below;
 use crate::record::ProcessEnd;
 use serde::{Deserialize, Serialize};
-use std::io::Read;
 use std::path::Path;
-
-/// The maximum number of bytes of such a list.
-const MAX_BYTES: u64 = 16 << 20;
 
 /// Workers of one adapter that failed in the same way after their last case, when all their records were written.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -50,11 +46,12 @@ impl BadEnd {
         if list.is_empty() {
             return Ok(());
         }
-        let mut text = serde_json::to_string_pretty(list)
-            .map_err(RecordError::serialize("how workers ended"))?;
-        text.push('\n');
-        let out = OutputFolder::open(folder)?;
-        out.write(BAD_ENDS_FILE, text.as_bytes()).map(drop)
+        write_json(
+            &OutputFolder::open(folder)?,
+            BAD_ENDS_FILE,
+            "how workers ended",
+            list,
+        )
     }
 
     /// Reads the list in a run folder; returns none if there is no list.
@@ -62,19 +59,6 @@ impl BadEnd {
     /// # Errors
     /// If the list cannot be read or does not parse.
     pub fn read(folder: &Path) -> Result<Vec<Self>, RecordError> {
-        let path = folder.join(BAD_ENDS_FILE);
-        let mut text = String::new();
-        match open_below(folder, BAD_ENDS_FILE) {
-            Ok(file) => file.take(MAX_BYTES).read_to_string(&mut text),
-            Err(e) if e.is_missing() => return Ok(Vec::new()),
-            Err(e) => return Err(e),
-        }
-        .map_err(RecordError::io("read", &path))?;
-        serde_json::from_str(&text).map_err(|e| RecordError::Parse {
-            line: e.line(),
-            message: crate::json::without_position(&e),
-            remedy: "remove the file, or record the run again",
-            path,
-        })
+        read_json(folder, BAD_ENDS_FILE)
     }
 }

@@ -7,9 +7,9 @@
 use crate::error::RecordError;
 use crate::expectations::{Expectations, Known};
 use crate::folder::DEAD_FILE;
+use crate::json_file::{read_json, write_json};
 use crate::output_folder::OutputFolder;
 use crate::parts::Parts;
-use crate::paths::open_below;
 use crate::run::Run;
 use crate::verdict::Verdict;
 use etalon_frame::state_enum;
@@ -18,7 +18,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::cell::{Cell, LazyCell, OnceCell};
 use std::collections::{BTreeSet, HashMap};
-use std::io::Read;
 use std::ops::Range;
 use std::path::Path;
 
@@ -50,9 +49,6 @@ pub struct Dead {
     pub about: String,
 }
 
-/// The maximum number of bytes of a list of dead expectations.
-const MAX_BYTES: u64 = 16 << 20;
-
 impl Dead {
     /// Writes the dead expectations of a run into its folder; without any, removes the list of an
     /// earlier run.
@@ -64,10 +60,7 @@ impl Dead {
         if dead.is_empty() {
             return out.retain(|name| name != DEAD_FILE);
         }
-        let mut text = serde_json::to_string_pretty(dead)
-            .map_err(RecordError::serialize("dead expectations"))?;
-        text.push('\n');
-        out.write(DEAD_FILE, text.as_bytes()).map(drop)
+        write_json(&out, DEAD_FILE, "dead expectations", dead)
     }
 
     /// Reads the dead expectations in a run folder; returns none if the folder has no list.
@@ -75,20 +68,7 @@ impl Dead {
     /// # Errors
     /// If the list cannot be read or does not parse.
     pub fn read(folder: &Path) -> Result<Vec<Self>, RecordError> {
-        let path = folder.join(DEAD_FILE);
-        let mut text = String::new();
-        match open_below(folder, DEAD_FILE) {
-            Ok(file) => file.take(MAX_BYTES).read_to_string(&mut text),
-            Err(e) if e.is_missing() => return Ok(Vec::new()),
-            Err(e) => return Err(e),
-        }
-        .map_err(RecordError::io("read", &path))?;
-        serde_json::from_str(&text).map_err(|e| RecordError::Parse {
-            line: e.line(),
-            message: crate::json::without_position(&e),
-            remedy: "remove the file, or record the run again",
-            path,
-        })
+        read_json(folder, DEAD_FILE)
     }
 }
 

@@ -32,6 +32,7 @@ mod hash;
 mod header;
 mod hunt;
 mod json;
+mod json_file;
 mod json_lines;
 mod line;
 mod line_writer;
