@@ -23,13 +23,12 @@ pub struct GlobIndex {
     lengths: [bool; LONGEST + 1],
 }
 
-/// At most [`LONGEST`] bytes, and their number.
-type Part = ([u8; LONGEST], usize);
+/// At most [`LONGEST`] bytes, after a 1 that marks their beginning.
+type Part = u64;
 
 fn part(bytes: &[u8]) -> Part {
-    let mut part = [0; LONGEST];
-    part[..bytes.len()].copy_from_slice(bytes);
-    (part, bytes.len())
+    let append = |part, byte: &u8| part << 8 | Part::from(*byte);
+    bytes.iter().fold(1, append)
 }
 
 impl GlobIndex {
@@ -42,17 +41,17 @@ impl GlobIndex {
         let literals = glob.literals();
         let windows = literals.iter().flat_map(|literal| {
             let length = literal.len().min(LONGEST);
-            literal.as_bytes().windows(length).map(part)
+            literal.as_bytes().windows(length)
         });
-        let filed = |part: &Part| self.parts.get(part).map_or(0, Vec::len);
+        let filed = |bytes: &&[u8]| self.parts.get(&part(bytes)).map_or(0, Vec::len);
         // Of equally empty ones, a longer part is in fewer texts.
-        let best = windows.min_by_key(|part| (filed(part), LONGEST - part.1));
+        let best = windows.min_by_key(|bytes| (filed(bytes), LONGEST - bytes.len()));
         let place = self.globs.len();
         self.globs.push((number, glob.clone()));
         match best {
-            Some(part) => {
-                self.lengths[part.1] = true;
-                self.parts.entry(part).or_default().push(place);
+            Some(bytes) => {
+                self.lengths[bytes.len()] = true;
+                self.parts.entry(part(bytes)).or_default().push(place);
             }
             None => self.others.push(place),
         }
@@ -62,11 +61,13 @@ impl GlobIndex {
     pub fn matches(&self, text: &str) -> Vec<usize> {
         let lengths = (1..=LONGEST).filter(|length| self.lengths[*length]);
         let parts = lengths.flat_map(|length| text.as_bytes().windows(length).map(part));
-        let mut parts: Vec<Part> = parts.collect();
-        parts.sort_unstable();
-        parts.dedup();
-        let filed = parts.iter().filter_map(|part| self.parts.get(part));
-        let places = filed.flatten().chain(&self.others);
+        let filed = parts.filter_map(|part| Some((part, self.parts.get(&part)?)));
+        let mut filed: Vec<(Part, &Vec<usize>)> = filed.collect();
+        // A text can have a part twice.
+        filed.sort_unstable_by_key(|(part, _)| *part);
+        filed.dedup_by_key(|(part, _)| *part);
+        let places = filed.iter().flat_map(|(_, places)| *places);
+        let places = places.chain(&self.others);
         let globs = places.map(|place| &self.globs[*place]);
         let matching = globs.filter(|(_, glob)| glob.is_match(text));
         let mut numbers: Vec<usize> = matching.map(|(number, _)| *number).collect();
