@@ -38,7 +38,7 @@ impl Looks<'_> {
     /// that stay unexpected.
     pub(crate) fn mark(&self, folder: &Path) -> Result<u64, Failure> {
         let mut run = Run::read(folder).map_err(Failure::incomplete)?;
-        let unexpected = |run: &Run| run.records.iter().filter(|r| r.unexpected()).count() as u64;
+        let unexpected = |run: &Run| run.all_records().filter(|r| r.unexpected()).count() as u64;
         if unexpected(&run) == 0 {
             return Ok(0);
         }

@@ -8,8 +8,8 @@ use crate::failure::Failure;
 use crate::output::say;
 use clap::Args;
 use etalon_record::{
-    BAD_ENDS_FILE, CASES_FILE, Content, DEAD_FILE, FolderKind, MISSING_FILE, OutputFolder,
-    RUN_FILE, RecordError,
+    BESIDE_FILE, CASES_FILE, Content, DEAD_FILE, FolderKind, MISSING_FILE, OutputFolder, RUN_FILE,
+    RecordError,
 };
 use etalon_report::plain;
 use flate2::read::GzDecoder;
@@ -25,7 +25,7 @@ mod spoil;
 /// The end of a saved run's name.
 const EXTENSION: &str = ".tar.gz";
 /// The files that are taken from an archive.
-const FILES: [&str; 5] = [RUN_FILE, CASES_FILE, MISSING_FILE, DEAD_FILE, BAD_ENDS_FILE];
+const FILES: [&str; 5] = [RUN_FILE, CASES_FILE, MISSING_FILE, DEAD_FILE, BESIDE_FILE];
 /// The folders whose files are taken, and the ends of the files' names.
 const FOLDERS: [(&str, &[&str]); 2] = [("frames", &[".json.gz", ".json"]), ("pictures", &[".png"])];
 /// The number of files left out that are named, and the length of a name.

@@ -256,6 +256,7 @@ mod tests {
         });
         Run {
             records: records.collect(),
+            beside: Vec::new(),
             truncated: false,
             header: Header {
                 started: "2026-01-01T00:00:00Z".to_owned(),

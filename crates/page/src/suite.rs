@@ -100,6 +100,7 @@ fn run_of(lines: &[u8]) -> Result<Run, String> {
     let begin = |header| Run {
         header,
         records: Vec::new(),
+        beside: Vec::new(),
         truncated: false,
     };
     let take = |run: &mut Run, record| {

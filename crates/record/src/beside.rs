@@ -1,64 +1,78 @@
-//! Workers that fail after their last case: in the destruction of a device, or in what a driver does at exit.
+//! Records of a run beside those of its selected cases: what an adapter denies although its API's version requires
+//! it, and workers that fail after their last case.
+//!
+//! Expectations apply to them as to all records, and unexpected ones count against the run.
 
 use crate::error::RecordError;
-use crate::folder::BAD_ENDS_FILE;
-use crate::json_file::{read_json, write_json};
+use crate::folder::BESIDE_FILE;
+use crate::json_file::read_json;
 use crate::output_folder::OutputFolder;
-use crate::record::ProcessEnd;
-use serde::{Deserialize, Serialize};
+use crate::record::Record;
 use std::path::Path;
 
-/// Workers of one adapter that failed in the same way after their last case, when all their records were written.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct BadEnd {
-    /// The adapter.
-    pub adapter: String,
-    /// A message for people: the cause, and the end of standard error.
-    pub message: String,
-    /// How the first of them ended.
-    pub end: ProcessEnd,
-    /// The number of workers.
-    pub workers: u64,
+/// The id that stands for the end of an adapter's workers, after their last cases: in the destruction of a device, or
+/// in what a driver does at exit.
+pub const WORKER_END: &str = "worker/end";
+
+/// Adds records to a list. Of records that say the same of an adapter, an unexpected one stays, or else the first.
+pub fn add(list: &mut Vec<Record>, more: impl IntoIterator<Item = Record>) {
+    let ending = |record: &Record| record.process.as_ref().map(|p| (p.signal, p.exit));
+    for record in more {
+        let same = |other: &&mut Record| {
+            other.adapter == record.adapter
+                && other.case == record.case
+                && other.verdict == record.verdict
+                && ending(other) == ending(&record)
+        };
+        match list.iter_mut().find(same) {
+            Some(other) if record.unexpected() && !other.unexpected() => *other = record,
+            Some(_) => {}
+            None => list.push(record),
+        }
+    }
 }
 
-impl BadEnd {
-    /// Adds ends to a list. Ends of one adapter with the same signal and status are one.
-    pub fn add(list: &mut Vec<Self>, more: impl IntoIterator<Item = Self>) {
-        for end in more {
-            let same = |other: &&mut Self| {
-                other.adapter == end.adapter
-                    && other.end.signal == end.end.signal
-                    && other.end.exit == end.end.exit
-            };
-            match list.iter_mut().find(same) {
-                Some(other) => other.workers += end.workers,
-                None => list.push(end),
-            }
-        }
-    }
+/// Writes a list into a run folder; without records, removes the list of an earlier run.
+///
+/// # Errors
+/// If the file cannot be written or removed.
+pub fn write(folder: &Path, list: &[Record]) -> Result<(), RecordError> {
+    let what = "the records beside the selected cases";
+    OutputFolder::open(folder)?.write_json(BESIDE_FILE, what, list)
+}
 
-    /// Writes a list into a run folder; does nothing if it is empty.
-    ///
-    /// # Errors
-    /// If the file cannot be written.
-    pub fn write(folder: &Path, list: &[Self]) -> Result<(), RecordError> {
-        if list.is_empty() {
-            return Ok(());
-        }
-        write_json(
-            &OutputFolder::open(folder)?,
-            BAD_ENDS_FILE,
-            "how workers ended",
-            list,
-        )
-    }
+/// Reads the list in a run folder; returns none if the folder has no list.
+///
+/// # Errors
+/// If the list cannot be read or does not parse.
+pub fn read(folder: &Path) -> Result<Vec<Record>, RecordError> {
+    read_json(folder, BESIDE_FILE)
+}
 
-    /// Reads the list in a run folder; returns none if there is no list.
-    ///
-    /// # Errors
-    /// If the list cannot be read or does not parse.
-    pub fn read(folder: &Path) -> Result<Vec<Self>, RecordError> {
-        read_json(folder, BAD_ENDS_FILE)
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::Expected;
+    use crate::verdict::Verdict;
+
+    #[test]
+    fn an_unexpected_record_beside_the_cases_is_not_hidden_by_an_expected_one() {
+        let unexpected = Record::new(WORKER_END, "cpu", Verdict::Crash);
+        let mut expected = unexpected.clone();
+        expected.expected = Some(Expected {
+            reason: "known".to_owned(),
+        });
+        let other = Record::new(WORKER_END, "gpu", Verdict::Crash);
+        let mut list = Vec::new();
+        add(
+            &mut list,
+            [
+                expected.clone(),
+                other.clone(),
+                unexpected.clone(),
+                expected,
+            ],
+        );
+        assert_eq!(list, [unexpected, other]);
     }
 }

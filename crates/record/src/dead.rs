@@ -7,7 +7,7 @@
 use crate::error::RecordError;
 use crate::expectations::{Expectations, Known};
 use crate::folder::DEAD_FILE;
-use crate::json_file::{read_json, write_json};
+use crate::json_file::read_json;
 use crate::output_folder::OutputFolder;
 use crate::parts::Parts;
 use crate::run::Run;
@@ -56,11 +56,7 @@ impl Dead {
     /// # Errors
     /// If the file cannot be written or removed.
     pub fn write(folder: &Path, dead: &[Self]) -> Result<(), RecordError> {
-        let out = OutputFolder::open(folder)?;
-        if dead.is_empty() {
-            return out.retain(|name| name != DEAD_FILE);
-        }
-        write_json(&out, DEAD_FILE, "dead expectations", dead)
+        OutputFolder::open(folder)?.write_json(DEAD_FILE, "dead expectations", dead)
     }
 
     /// Reads the dead expectations in a run folder; returns none if the folder has no list.
@@ -82,14 +78,14 @@ impl Expectations {
     /// that are described, whether or not the run used them. The globs of `sound` expectations are known to
     /// match something, and none of these covers another one.
     ///
-    /// Many thousands of globs that can match anything are not all compared, and then some dead ones are missing.
+    /// Many thousands of globs that can match anything are not all compared.
     pub fn dead(
         &self,
         run: &Run,
         ids: impl FnOnce() -> Vec<String>,
         described: &[String],
         sound: impl Fn(&Known) -> bool,
-    ) -> Vec<Dead> {
+    ) -> DeadSearch {
         let used = run.header.adapters.iter().map(|a| &a.name);
         let mut names = Names::new(used.chain(described));
         let ids = LazyCell::new(|| Ids::new(&ids()));
@@ -195,8 +191,20 @@ impl Expectations {
             }));
         }
         dead.sort_by_key(|d| d.kind);
-        dead
+        DeadSearch {
+            dead,
+            is_complete: left.get() > 0,
+        }
     }
+}
+
+/// What a search for dead expectations found.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DeadSearch {
+    /// The dead expectations.
+    pub dead: Vec<Dead>,
+    /// False if there were too many globs to compare all: others can be dead too.
+    pub is_complete: bool,
 }
 
 /// Counts a comparison; returns false if none is left.
@@ -498,6 +506,7 @@ mod tests {
         let records = ids.iter().map(|id| Record::new(*id, "gl:a", verdict(id)));
         Run {
             records: records.collect(),
+            beside: Vec::new(),
             truncated: false,
             header: Header::new(vec![adapter("gl:a")], ids.len() as u64),
         }
@@ -514,7 +523,8 @@ mod tests {
         let text = format!("[{}]", entries.join(","));
         let read = Expectations::parse(&text, Path::new("e")).unwrap();
         let ids = IDS.map(str::to_owned);
-        let found = read.dead(&run(drawn), || ids.into(), &["gl:b".to_owned()], |_| false);
+        let search = read.dead(&run(drawn), || ids.into(), &["gl:b".to_owned()], |_| false);
+        let found = search.dead;
         found
             .into_iter()
             .map(|d| (d.kind, d.place, d.about))
@@ -530,7 +540,7 @@ mod tests {
         let found = |case: &str, ids: fn() -> Vec<String>| {
             let text = format!("[{}]", entry("gl:a", case, "fail"));
             let read = Expectations::parse(&text, Path::new("e")).unwrap();
-            let dead = read.dead(&run(&IDS), ids, &[], |_| true);
+            let dead = read.dead(&run(&IDS), ids, &[], |_| true).dead;
             dead.into_iter().map(|d| d.kind).collect::<Vec<_>>()
         };
         // A case that fails as expected, and none that was drawn.

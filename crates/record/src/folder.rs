@@ -14,8 +14,8 @@ pub const CASES_FILE: &str = "cases.txt";
 pub const MISSING_FILE: &str = "missing.txt";
 /// The file of a run folder that lists the dead expectations.
 pub const DEAD_FILE: &str = "dead-expectations.json";
-/// The file of a run folder that lists workers that failed after their last case.
-pub const BAD_ENDS_FILE: &str = "bad-ends.json";
+/// The file of a run folder with the records beside those of its selected cases.
+pub const BESIDE_FILE: &str = "beside.json";
 /// The file that lists the files that etalon wrote into a folder: [`LIST_MARK`], then a path per line, with `/` as
 /// separator.
 pub(crate) const LIST: &str = ".files";
@@ -92,13 +92,14 @@ impl FolderKind {
                 "benchmark-action.json",
                 "matrix.html",
                 "matrix.csv",
+                BESIDE_FILE,
             ],
             Self::Run => &[
                 RUN_FILE,
                 CASES_FILE,
                 MISSING_FILE,
                 DEAD_FILE,
-                BAD_ENDS_FILE,
+                BESIDE_FILE,
                 "index.html",
                 "methods.html",
                 "junit.xml",
@@ -121,7 +122,7 @@ impl FolderKind {
             CASES_FILE,
             MISSING_FILE,
             DEAD_FILE,
-            BAD_ENDS_FILE,
+            BESIDE_FILE,
             "frames/",
             "pictures/",
             WORK_FOLDER,

@@ -2,30 +2,13 @@
 
 use crate::error::RecordError;
 use crate::json::without_position;
-use crate::output_folder::OutputFolder;
 use crate::paths::open_below;
-use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::io::Read;
 use std::path::Path;
 
 /// The maximum number of bytes of such a file.
 const MAX_BYTES: u64 = 16 << 20;
-
-/// Writes a list into a folder. `what` names it in an error.
-///
-/// # Errors
-/// If the file cannot be written.
-pub(crate) fn write_json<T: Serialize>(
-    out: &OutputFolder,
-    name: &str,
-    what: &'static str,
-    list: &[T],
-) -> Result<(), RecordError> {
-    let mut text = serde_json::to_string_pretty(list).map_err(RecordError::serialize(what))?;
-    text.push('\n');
-    out.write(name, text.as_bytes()).map(drop)
-}
 
 /// Reads a list in a folder; returns none if the folder has no such file.
 ///

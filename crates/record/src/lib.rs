@@ -12,8 +12,9 @@
 )]
 
 mod adapter;
-mod bad_end;
+
 mod bench;
+pub mod beside;
 mod change;
 mod conflict;
 mod content;
@@ -57,7 +58,7 @@ mod versions;
 mod writer;
 
 pub use adapter::{AbsentAdapter, AdapterRecord, Release};
-pub use bad_end::BadEnd;
+
 pub use bench::{
     BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchRecord, BenchSettings, BenchWriter, CellRate,
     Counted, Done, Ended, Enough, InstructionCounter, Measure, Picture, ProcessorLimits, Round,
@@ -65,15 +66,15 @@ pub use bench::{
 };
 pub use change::{CaseResult, Change};
 pub use content::{Content, is_marked, overlap};
-pub use dead::{Dead, DeadKind};
+pub use dead::{Dead, DeadKind, DeadSearch};
 pub use driver_version::version_of;
 pub use error::RecordError;
 pub use expectations::{Entry, Expectation, Expectations, Known, Source};
 pub use expected_symptom::{ExpectedSymptom, Shown, Side};
 pub use findings::{Evidence, Finding, Reading, ReadingVerdict, Seen};
 pub use folder::{
-    BAD_ENDS_FILE, BENCH_FILE, CASES_FILE, DEAD_FILE, FUZZ_FILE, FolderKind, HUNT_FILE,
-    MISSING_FILE, RUN_FILE, VERSIONS_FILE, WORK_FOLDER,
+    BENCH_FILE, BESIDE_FILE, CASES_FILE, DEAD_FILE, FUZZ_FILE, FolderKind, HUNT_FILE, MISSING_FILE,
+    RUN_FILE, VERSIONS_FILE, WORK_FOLDER,
 };
 pub use frame_file::{FrameFile, FrameImage};
 pub use frame_writer::FrameWriter;

@@ -1,6 +1,6 @@
 //! Merging several runs into one: shards of a selection, or adapters that ran elsewhere.
 
-use crate::bad_end::BadEnd;
+use crate::beside;
 use crate::dead::Dead;
 use crate::error::RecordError;
 use crate::folder::{CASES_FILE, MISSING_FILE};
@@ -26,7 +26,8 @@ pub struct Merge {
     merged: Merged,
     /// The dead expectations that all parts have in common.
     dead: Vec<Dead>,
-    bad_ends: Vec<BadEnd>,
+    /// The records beside those of the selected cases.
+    beside: Vec<Record>,
 }
 
 /// The counts of a merge.
@@ -77,12 +78,12 @@ impl Merge {
         let ids = selection(&parts)?;
         let header = header(first, &parts)?;
         let mut dead = Dead::read(first)?;
-        let mut bad_ends = Vec::new();
-        for (folder, _) in &parts {
+        let mut beside = Vec::new();
+        for (folder, run) in &parts {
             let also = Dead::read(folder)?;
             // An expectation that matched nothing in this part can match in another part.
             dead.retain(|entry| also.contains(entry));
-            BadEnd::add(&mut bad_ends, BadEnd::read(folder)?);
+            beside::add(&mut beside, run.beside.iter().cloned());
         }
         let mut merge = Self {
             header,
@@ -90,7 +91,7 @@ impl Merge {
             records: HashMap::new(),
             merged,
             dead,
-            bad_ends,
+            beside,
         };
         for (folder, run) in parts {
             merge.take(folder, run)?;
@@ -176,7 +177,8 @@ impl Merge {
         }
         writer.sync()?;
         Dead::write(out, &self.dead)?;
-        BadEnd::write(out, &self.bad_ends)?;
+        beside::write(out, &self.beside)?;
+        merged.unexpected += self.beside.iter().filter(|r| r.unexpected()).count() as u64;
         if !merged.missing.is_empty() {
             let lines = merged.missing.iter();
             let text: String = lines.map(|(a, c)| format!("{a} {c}\n")).collect();

@@ -10,6 +10,7 @@ use crate::list::read_list;
 use crate::lock::LOCK_FILE;
 use crate::paths::{below, lowest_real};
 use crate::unlisted;
+use serde::Serialize;
 use std::collections::HashSet;
 use std::fs::{self, File, FileType, OpenOptions};
 use std::io::{ErrorKind, Read, Write};
@@ -150,6 +151,24 @@ impl OutputFolder {
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, RecordError> {
         self.place(name, |file| file.write_all(bytes).map_err(Into::into))
             .map(|(path, _)| path)
+    }
+
+    /// Writes a list as JSON; removes the file if the list is empty. `what` names the list in an error.
+    ///
+    /// # Errors
+    /// As [`OutputFolder::write`].
+    pub(crate) fn write_json<T: Serialize>(
+        &self,
+        name: &str,
+        what: &'static str,
+        list: &[T],
+    ) -> Result<(), RecordError> {
+        if list.is_empty() {
+            return self.retain(|other| other != name);
+        }
+        let mut text = serde_json::to_string_pretty(list).map_err(RecordError::serialize(what))?;
+        text.push('\n');
+        self.write(name, text.as_bytes()).map(drop)
     }
 
     /// Writes a file that no reader looks for before it is whole. Leaves no temporary file if the process is killed.

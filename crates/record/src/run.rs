@@ -1,10 +1,11 @@
 //! Reading a run folder.
 
 use crate::error::RecordError;
-use crate::folder::{RUN_FILE, open};
+use crate::folder::{BESIDE_FILE, RUN_FILE, open};
 use crate::frame_file::FrameFile;
 use crate::header::{FORMAT, Header};
 use crate::json::without_position;
+use crate::json_file::read_json;
 use crate::json_lines::JsonLines;
 use crate::paths::{is_of_record, open_below};
 use crate::record::{MAX_LINE, Record};
@@ -20,6 +21,8 @@ pub struct Run {
     pub header: Header,
     /// The records, in the order in which they were written.
     pub records: Vec<Record>,
+    /// The records beside those of the selected cases: see [`beside`](crate::beside).
+    pub beside: Vec<Record>,
     /// True if the last line was cut off, as a killed runner leaves it; the line is dropped.
     pub truncated: bool,
 }
@@ -77,6 +80,7 @@ impl Run {
         let begin = |header| Self {
             header,
             records: Vec::new(),
+            beside: Vec::new(),
             truncated: false,
         };
         let (mut run, extent) = lines(&path).read(file, begin, |run, record: Record| {
@@ -85,6 +89,7 @@ impl Run {
             Ok(())
         })?;
         run.truncated = extent.truncated;
+        run.beside = read_json(folder, BESIDE_FILE)?;
         Ok((run, extent.bytes))
     }
 
@@ -107,6 +112,16 @@ impl Run {
         };
         let (result, extent) = lines(path).read(text, begin, take)?;
         Ok((result, extent.truncated))
+    }
+
+    /// Returns every record, also those beside the selected cases.
+    pub fn all_records(&self) -> impl Iterator<Item = &Record> {
+        self.records.iter().chain(&self.beside)
+    }
+
+    /// Returns the number of records beside the selected cases that count against the run.
+    pub fn unexpected_beside(&self) -> u64 {
+        self.beside.iter().filter(|r| r.unexpected()).count() as u64
     }
 
     /// Returns the number of records that this run lacks to be complete.

@@ -55,8 +55,7 @@ pub use methods::methods_html;
 pub use news::{News, NewsEntry, Since, news_table};
 pub use picture::{Ringed, Thumbnails, ringed_pictures};
 pub use run::{
-    OtherFormats, RecordLine, RunReport, RunReports, bad_end_lines, dead_lines, record_html, table,
-    write,
+    OtherFormats, RecordLine, RunReport, RunReports, dead_lines, record_html, table, write,
 };
 pub use site::{CasesOf, SITE_FILE, write_site};
 pub use staged::WrittenFolder;

@@ -19,6 +19,7 @@ use crate::worker::Worker;
 use etalon_case::Case;
 use etalon_frame::{Limits, WrongTexel};
 use etalon_judge::{Judge, changed_picture};
+use etalon_record::beside;
 use etalon_record::{
     AdapterRecord, BenchHeader, BenchLine, BenchRecord, BenchWriter, CellRate, Done, Ended, Enough,
     Expectations, InstructionCounter, Picture, Record, RecordError, Round, Time, Verdict, cell,
@@ -105,7 +106,7 @@ pub struct BenchSummary {
     pub pictures: u64,
     /// Pictures whose frames were timed.
     pub timed: u64,
-    /// Unexpected verdicts of pictures, and rounds that failed.
+    /// Unexpected verdicts of pictures, rounds that failed, and workers that failed after their last case.
     pub unexpected: u64,
 }
 
@@ -191,7 +192,20 @@ pub fn bench(
         Ok(())
     };
     run(&mut bench).map_err(BenchError::Write)?;
-    Ok(bench.summary)
+    let Bench {
+        adapters,
+        mut summary,
+        ..
+    } = bench;
+    let mut ends = beside::read(plan.folder).map_err(BenchError::Write)?;
+    for adapter in adapters {
+        let bad_ends = adapter.supervisor.bad_ends();
+        drop(adapter.supervisor);
+        beside::add(&mut ends, bad_ends.take(&adapter.record, plan.expectations));
+    }
+    beside::write(plan.folder, &ends).map_err(BenchError::Write)?;
+    summary.unexpected += ends.iter().filter(|r| r.unexpected()).count() as u64;
+    Ok(summary)
 }
 
 /// An adapter and its worker.

@@ -11,6 +11,8 @@ use crate::loss::{Failure, Loss};
 use crate::process::WorkerProcess;
 use crate::sync::lock;
 use crate::worker::Worker;
+use etalon_record::beside::WORKER_END;
+use etalon_record::{AdapterRecord, Expectations, Record, Verdict};
 use std::sync::{Arc, Mutex};
 
 /// The number of consecutive failed starts after which an adapter's worker is not started again.
@@ -33,9 +35,22 @@ struct InARow {
 pub(crate) struct BadEnds(Arc<Mutex<Vec<ExitReport>>>);
 
 impl BadEnds {
-    /// Returns the ends so far.
-    pub(crate) fn take(&self) -> Vec<ExitReport> {
-        std::mem::take(&mut lock(&self.0))
+    /// Ends a worker, and notes how it ends.
+    pub(crate) fn end(&self, worker: WorkerProcess) {
+        lock(&self.0).extend(worker.bad_end());
+    }
+
+    /// Returns a record of each end so far.
+    pub(crate) fn take(&self, adapter: &AdapterRecord, expectations: &Expectations) -> Vec<Record> {
+        let ends = std::mem::take(&mut *lock(&self.0)).into_iter();
+        let records = ends.map(|ExitReport { message, end }| {
+            let mut record = Record::new(WORKER_END, &adapter.name, Verdict::Crash);
+            record.message = format!("after its last case, {message}");
+            record.process = Some(end);
+            record.expect(expectations, adapter);
+            record
+        });
+        records.collect()
     }
 }
 
@@ -88,6 +103,11 @@ impl Supervisor {
         self.worker = running.and_then(|worker| limited(worker.process, self.memory).ok());
     }
 
+    /// Returns where it notes how its workers end.
+    pub(crate) fn bad_ends(&self) -> BadEnds {
+        self.bad_ends.clone()
+    }
+
     /// Returns the worker, and starts one if none is running.
     pub(crate) fn worker(&mut self) -> Result<&mut WorkerProcess, Loss> {
         while self.worker.is_none() && lock(&self.failed_starts.0).count < MAX_FAILED_STARTS {
@@ -130,8 +150,9 @@ impl Supervisor {
 
     /// Ends the worker, and notes how it ends.
     pub(crate) fn stop(&mut self) {
-        let end = self.worker.take().and_then(WorkerProcess::bad_end);
-        lock(&self.bad_ends.0).extend(end);
+        if let Some(worker) = self.worker.take() {
+            self.bad_ends.end(worker);
+        }
     }
 
     /// Reports a failed request, and ends the worker if it must not be used again.

@@ -10,6 +10,7 @@ use crate::progress::progress;
 use crate::{expectations, provenance, shard};
 use clap::Args;
 use etalon_case::Case;
+use etalon_record::beside;
 use etalon_record::{
     BENCH_FORMAT, Bench, BenchHeader, BenchSettings, FolderKind, ProcessorLimits, Shard, cell,
     selection_digest,
@@ -122,6 +123,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     })?;
     let written = etalon_report::write_bench(&arguments.out).map_err(Failure::incomplete)?;
     print(arguments, &summary, &names, &written)?;
+    for end in beside::read(&arguments.out).map_err(Failure::incomplete)? {
+        say!(
+            "{} {} {}: {}",
+            end.verdict,
+            end.adapter,
+            end.case,
+            end.message
+        );
+    }
     Ok(if summary.unexpected > 0 {
         UNEXPECTED
     } else {

@@ -9,7 +9,7 @@ use crate::output::{print_json, say, summarize, table_options};
 use crate::saved_run::UnpackArguments;
 use crate::{idle, provenance};
 use clap::Args;
-use etalon_record::{BadEnd, FolderKind, MISSING_FILE, Merge, Merged, Run};
+use etalon_record::{FolderKind, MISSING_FILE, Merge, Merged, Run};
 use etalon_report::{Catalogue, News, OtherFormats, RunReport};
 use serde_json::json;
 use std::fs;
@@ -67,17 +67,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let news = arguments.news.news(&run)?;
     print(arguments, &merged, &run, catalogue.as_ref(), news.as_ref())?;
     print_overlap(&merged);
-    let bad_ends = BadEnd::read(out).map_err(Failure::incomplete)?;
-    if !bad_ends.is_empty() {
-        say!("{}", etalon_report::bad_end_lines(&bad_ends));
-    }
     if !merged.missing.is_empty() || !merged.empty.is_empty() {
         return Err(Failure::incomplete(holes(&merged, out)));
     }
     arguments.news.tell_how_to_add(out);
-    let unexpected = news.map_or(merged.unexpected, |news| news.counted());
+    let unexpected = news.map_or(merged.unexpected, |news| {
+        news.counted() + run.unexpected_beside()
+    });
     let idle = idle::report(&run);
-    Ok(if unexpected > 0 || !bad_ends.is_empty() {
+    Ok(if unexpected > 0 {
         UNEXPECTED
     } else if idle {
         INCOMPLETE
@@ -128,6 +126,7 @@ fn print(
             "twice": merged.twice,
             "disagreeing": merged.disagreeing.iter().map(pair).collect::<Vec<_>>(),
             "unexpected": merged.unexpected,
+            "beside": run.beside,
             "improvements": merged.improvements,
             "news": news,
             "folder": out,

@@ -20,7 +20,7 @@ use clap::{Args, ValueEnum};
 use etalon_case::Case;
 use etalon_history::FrameTimes;
 use etalon_record::{
-    AdapterRecord, BadEnd, Dead, Expectations, FolderKind, Header, Run, Settings, Shard, Verdict,
+    AdapterRecord, Dead, Expectations, FolderKind, Header, Run, Settings, Shard, Verdict,
     selection_digest,
 };
 use etalon_report::{News, OtherFormats, RunReport};
@@ -396,7 +396,6 @@ struct Results<'a> {
     adapter_names: Vec<String>,
     run: Run,
     dead: Vec<Dead>,
-    bad_ends: Vec<BadEnd>,
     news: Option<News>,
     report: PathBuf,
 }
@@ -418,7 +417,6 @@ impl<'a> Results<'a> {
         let adapter_file = arguments.file.adapter_file.as_deref();
         let dead = dead::of_run(&run, expectations, &library, cases.is_some(), adapter_file)?;
         Dead::write(folder, &dead).map_err(Failure::incomplete)?;
-        let bad_ends = BadEnd::read(folder).map_err(Failure::incomplete)?;
         let catalogue = catalogue(&library, &selected.cases, pictures);
         let news = arguments.news.news(&run)?;
         let shown = shown(&run, news.as_ref());
@@ -438,7 +436,6 @@ impl<'a> Results<'a> {
             adapter_names,
             run,
             dead,
-            bad_ends,
             news,
             report: written.html,
         })
@@ -456,7 +453,7 @@ impl<'a> Results<'a> {
                 "not_rechecked": self.summary.rechecks.left,
                 "interrupted": self.summary.interrupted,
                 "dead_expectations": self.dead,
-                "bad_ends": self.bad_ends,
+                "beside": self.run.beside,
                 "adapters": self.adapter_names,
                 "verdicts": verdicts(&self.run),
                 "news": self.news,
@@ -484,10 +481,6 @@ impl<'a> Results<'a> {
                 say!("--strict-expectations exits with 1 for them");
             }
         }
-        let bad_ends = etalon_report::bad_end_lines(&self.bad_ends);
-        if !bad_ends.is_empty() {
-            say!("{bad_ends}");
-        }
         let asserted = self.arguments.min_asserted.is_none_or(|percent| {
             let (enough, line) = asserted(&self.run, percent);
             if !enough {
@@ -496,13 +489,10 @@ impl<'a> Results<'a> {
             enough
         });
         let news = self.news.as_ref();
-        let unexpected = news.map_or(self.summary.unexpected, News::counted);
+        let counted = |news: &News| news.counted() + self.run.unexpected_beside();
+        let unexpected = news.map_or(self.summary.unexpected, counted);
         let idle = idle::report(&self.run);
-        if unexpected > 0
-            || self.summary.bad_ends > 0
-            || !asserted
-            || strict && !self.dead.is_empty()
-        {
+        if unexpected > 0 || !asserted || strict && !self.dead.is_empty() {
             UNEXPECTED
         } else if idle {
             INCOMPLETE

@@ -4,7 +4,7 @@
 use crate::etalon::{BINARY, REMOVED, etalon};
 use crate::sample;
 use etalon_diagnose::Symptom;
-use etalon_record::{BadEnd, LossKind, Record, Run, Verdict};
+use etalon_record::{LossKind, Record, Run, Verdict};
 use predicates::prelude::*;
 use predicates::str::contains;
 use rustix::process::{Pid, Signal, kill_process};
@@ -103,18 +103,20 @@ fn a_worker_that_dies_after_its_last_case_is_told_and_counts() {
     let out = folder();
     let run = ["run", "cull/lines", "--adapter", "cpu:fault=close", "--out"];
     let told =
-        contains("after its last case: cpu:fault=close: 1 worker: the worker died of signal 11");
+        contains("cpu:fault=close  worker/end: after its last case, the worker died of signal 11");
     etalon(&run)
         .arg(out.path())
         .args(["--jobs", "1"])
         .assert()
         .code(1)
-        .stderr(told.clone());
+        .stdout(told.clone());
     let read = Run::read(out.path()).unwrap();
     assert_eq!(read.missing(), 0);
     assert!(read.records.iter().all(|r| r.verdict == Verdict::Pass));
-    let ends = BadEnd::read(out.path()).unwrap();
-    assert_eq!((ends.len(), ends[0].end.signal), (1, Some(11)));
+    let [end] = read.beside.as_slice() else {
+        panic!("{:?}", read.beside);
+    };
+    assert_eq!(end.process.as_ref().unwrap().signal, Some(11));
     // It stays in the run.
     let merged = folder();
     etalon(&["merge"])
@@ -123,19 +125,99 @@ fn a_worker_that_dies_after_its_last_case_is_told_and_counts() {
         .arg(merged.path().join("merged"))
         .assert()
         .code(1)
-        .stderr(told);
+        .stdout(told);
     etalon(&run)
         .arg(out.path())
         .arg("--resume")
         .assert()
         .code(1)
-        .stderr(contains("after its last case"));
+        .stdout(contains("after its last case"));
     // A run in its place does not have it.
     etalon(&["run", "cull/lines", "--adapter", "cpu", "--force", "--out"])
         .arg(out.path())
         .assert()
         .code(0);
-    assert_eq!(BadEnd::read(out.path()).unwrap(), []);
+    assert_eq!(Run::read(out.path()).unwrap().beside, []);
+}
+
+#[test]
+fn an_expectation_of_a_crash_excuses_how_workers_end() {
+    let out = folder();
+    let list = out.path().join("known.json");
+    let known = r#"[{ "adapter": "cpu:fault=close", "driver": "*", "case": "worker/end",
+        "verdict": "crash", "reason": "it ends badly", "evidence": "planted" }]"#;
+    fs::write(&list, known).unwrap();
+    etalon(&[
+        "run",
+        "cull/lines",
+        "--adapter",
+        "cpu:fault=close",
+        "--strict-expectations",
+    ])
+    .arg("--expect")
+    .arg(&list)
+    .arg("--out")
+    .arg(out.path().join("run"))
+    .assert()
+    .code(0);
+    let run = Run::read(&out.path().join("run")).unwrap();
+    let reasons = run
+        .beside
+        .iter()
+        .map(|r| &r.expected.as_ref().unwrap().reason);
+    assert_eq!(reasons.collect::<Vec<_>>(), ["it ends badly"]);
+}
+
+#[test]
+fn a_bench_counts_workers_that_fail_after_their_last_case() {
+    let out = folder();
+    let words = "bench cull/lines --adapter cpu:fault=close --rounds 1 --seconds 0.001 --out";
+    let words: Vec<&str> = words.split(' ').collect();
+    etalon(&words)
+        .arg(out.path())
+        .assert()
+        .code(1)
+        .stderr(contains(
+            "crash cpu:fault=close worker/end: after its last case, the worker died",
+        ));
+    assert_eq!(etalon_record::beside::read(out.path()).unwrap().len(), 1);
+}
+
+#[test]
+fn what_an_adapter_denies_is_told_whatever_cases_run() {
+    let out = folder();
+    let run = |expect: &[&str], code: i32| {
+        let words = [
+            "run",
+            "cull/points",
+            "--adapter",
+            "gl:softpipe",
+            "--force",
+            "--out",
+        ];
+        etalon(&words)
+            .arg(out.path())
+            .args(expect)
+            .assert()
+            .code(code)
+    };
+    const DENIED: &str = "capabilities/required/samples/format=rgba8unorm";
+    run(&[], 0);
+    let known = Run::read(out.path()).unwrap();
+    assert_eq!(known.unexpected_beside(), 0);
+    assert!(known.beside.iter().any(|r| r.case == DENIED));
+    let page = fs::read_to_string(out.path().join("index.html")).unwrap();
+    assert!(page.contains("Beside the selected cases") && page.contains(DENIED));
+    run(&["--expect-only"], 1).stdout(contains(DENIED));
+    let junit = fs::read_to_string(out.path().join("junit.xml")).unwrap();
+    assert!(junit.contains(DENIED));
+    // A selected case says it itself.
+    etalon(&["run", "capabilities/required/*", "--profile", "full"])
+        .args(["--adapter", "gl:softpipe", "--force", "--out"])
+        .arg(out.path())
+        .assert()
+        .code(0);
+    assert_eq!(Run::read(out.path()).unwrap().beside, []);
 }
 
 #[test]

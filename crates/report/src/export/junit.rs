@@ -29,6 +29,8 @@ pub(crate) fn xml(run: &Run, grid: &Grid<'_>) -> Result<String, SerializeError> 
             suite.add_property(("api", facts.api_version.as_str()));
         }
         suite.add_test_cases(grid.on(column).map(test_case));
+        let beside = run.beside.iter().filter(|r| r.adapter == *adapter);
+        suite.add_test_cases(beside.map(test_case));
         report.add_test_suite(suite);
     }
     report.add_test_suite(completeness(run));

@@ -24,6 +24,7 @@ use crate::news::News;
 use crate::numbers::count;
 use crate::page::origin::origin;
 use crate::page::{self, Page};
+use crate::run::beside;
 use crate::run::grid::{Grid, Tally};
 use crate::run::reasons::{total, undrawn};
 use crate::words::{self, Tone};
@@ -70,6 +71,7 @@ pub(crate) fn page(
             } @else {
                 @if let Some(news) = news { (changed::section(news)) }
                 (causes::section(&grid, news))
+                (beside::section(run))
                 (overview::known(run))
                 (overview::not_drawn(run))
                 (matrix::section(&grid))
@@ -98,7 +100,7 @@ pub(crate) fn page(
 }
 
 fn title(run: &Run) -> String {
-    let bad = run.records.iter().filter(|r| r.unexpected()).count();
+    let bad = run.all_records().filter(|r| r.unexpected()).count();
     match bad {
         0 => format!("etalon {}", run.header.started),
         n => format!("{n} unexpected – etalon {}", run.header.started),
@@ -133,7 +135,8 @@ fn head(run: &Run, dead: &[Dead], news: Option<&News>, methods: bool, drivers: b
 
 /// The state of the run, in the order of the page: what is missing, changed, new, known and not drawn.
 fn state(run: &Run, dead: &[Dead], news: Option<&News>) -> Markup {
-    let tally = Tally::of(&run.records);
+    let tally = Tally::of(run.all_records());
+    let beside = run.unexpected_beside();
     let improvements = run.records.iter().filter(|r| r.improvement()).count() as u64;
     let undrawn = total(&undrawn(run));
     let missing = run.missing();
@@ -157,6 +160,9 @@ fn state(run: &Run, dead: &[Dead], news: Option<&News>) -> Markup {
             p.state.bad {
                 b { (words::symbol(Verdict::Fail)) " " (count(tally.unexpected, "unexpected record")) }
                 ", by " a href="#causes" { "cause" } " and under " a href="#findings" { "Findings" } "."
+                @if beside > 0 {
+                    " " a href="#beside" { (beside) " beside the selected cases" } "."
+                }
             }
         } @else if !run.records.is_empty() {
             p.state.good { b { (words::symbol(Verdict::Pass)) " Nothing unexpected." } }

@@ -7,7 +7,7 @@ use std::cmp::Reverse;
 /// Returns the unexpected records, the most serious first. The first record of every case file, adapter and
 /// verdict comes before any second one, so that a short list shows more than one driver bug.
 pub(crate) fn unexpected_records(run: &Run) -> Vec<&Record> {
-    let mut bad: Vec<&Record> = run.records.iter().filter(|r| r.unexpected()).collect();
+    let mut bad: Vec<&Record> = run.all_records().filter(|r| r.unexpected()).collect();
     bad.sort_by_key(|r| (Reverse(r.verdict.severity()), &r.case, &r.adapter));
     lists::spread(&mut bad, |r| (r.case_file(), &*r.adapter, r.verdict));
     bad

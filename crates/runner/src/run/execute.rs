@@ -9,8 +9,8 @@ use crate::event::Event;
 use crate::sync::lock;
 use etalon_case::Case;
 use etalon_frame::threads::share;
-use etalon_judge::{Judge, Truths, pictured};
-use etalon_record::{BadEnd, LossKind, Record, RunWriter, selection_digest};
+use etalon_judge::{Judge, Truths, denials, pictured};
+use etalon_record::{LossKind, Record, RunWriter, beside, selection_digest};
 use std::collections::{HashMap, HashSet};
 use std::sync::{Mutex, RwLock};
 use std::time::Duration;
@@ -38,11 +38,11 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
     let mut drawn: HashMap<String, Vec<(usize, Record)>> = HashMap::new();
     // By adapter and reason: the cases that the resumed run shows in full.
     let mut examples: HashMap<String, HashMap<String, String>> = HashMap::new();
-    let mut bad_ends = Vec::new();
+    let mut beside = Vec::new();
     let writer = if plan.resume {
-        bad_ends = BadEnd::read(plan.folder).map_err(RunError::Folder)?;
         let (writer, run) =
             RunWriter::resume(plan.folder, &plan.header).map_err(RunError::Folder)?;
+        beside = run.beside;
         for record in run.records {
             summary.count(&record);
             done.insert((record.adapter.clone(), record.case.clone()));
@@ -61,6 +61,10 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
         writer
     } else {
         RunWriter::create(plan.folder, &plan.header).map_err(RunError::Folder)?
+    };
+    let ids: HashSet<&str> = match plan.selection {
+        Some(ids) => ids.iter().map(String::as_str).collect(),
+        None => selected.keys().copied().collect(),
     };
     if let Some(ids) = plan.selection {
         let ids = || ids.iter().map(String::as_str);
@@ -129,16 +133,15 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
     }
     let mut summary = *lock(&shared.summary);
     for queue in &queues {
-        let ends = queue.bad_ends.take().into_iter().map(|report| BadEnd {
-            adapter: queue.adapter.name.clone(),
-            message: report.message,
-            end: report.end,
-            workers: 1,
-        });
-        BadEnd::add(&mut bad_ends, ends);
+        let (adapter, expectations) = (&queue.adapter, &queue.expectations);
+        beside::add(&mut beside, queue.bad_ends.take(adapter, expectations));
+        let denials = denials(adapter, expectations).into_iter();
+        // The record of a selected case says it already, in this run or in another shard.
+        let unselected = denials.filter(|r| !ids.contains(r.case.as_str()));
+        beside::add(&mut beside, unselected);
     }
-    BadEnd::write(plan.folder, &bad_ends).map_err(RunError::Write)?;
-    summary.bad_ends = bad_ends.iter().map(|end| end.workers).sum();
+    beside::write(plan.folder, &beside).map_err(RunError::Write)?;
+    summary.unexpected += beside.iter().filter(|r| r.unexpected()).count() as u64;
     for queue in &queues {
         let Rechecks { done, left } = queue.rechecks();
         summary.rechecks.done += done;

@@ -117,8 +117,6 @@ pub struct RunSummary {
     pub improvements: u64,
     /// The numbers of unexpected bad verdicts that were checked again and that were not.
     pub rechecks: Rechecks,
-    /// Workers that failed after their last case, including those from before the run was resumed.
-    pub bad_ends: u64,
     /// True if the run was stopped before it was complete.
     pub interrupted: bool,
 }

@@ -130,8 +130,13 @@ fn draw_alone(run: &AdapterRun<'_, '_>, before: &[usize], number: usize) -> Redr
     if matches!(drawing.frames, Err(Failure::Lost(Loss::Cancelled))) {
         return Redrawn::Stopped;
     }
+    let is_drawn = drawing.frames.is_ok();
     let report = |failure| FailureReport::new(failure, Some(&mut worker));
-    Redrawn::Observed(Box::new(run.observe(number, drawing, report)))
+    let observation = run.observe(number, drawing, report);
+    if is_drawn {
+        run.queue.bad_ends.end(worker);
+    }
+    Redrawn::Observed(Box::new(observation))
 }
 
 fn draw(run: &AdapterRun<'_, '_>, worker: &mut WorkerProcess, number: usize) -> Drawing {

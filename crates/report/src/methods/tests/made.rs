@@ -129,6 +129,7 @@ pub(crate) fn run(made: &[Made]) -> Run {
             ..Header::new(names.into_iter().map(adapter).collect(), made.len() as u64)
         },
         records: made.iter().map(Made::record).collect(),
+        beside: Vec::new(),
         truncated: false,
     }
 }

@@ -210,6 +210,7 @@ mod tests {
         Run {
             header,
             records,
+            beside: Vec::new(),
             truncated: false,
         }
     }
