@@ -18,7 +18,7 @@ use tungstenite::protocol::WebSocketConfig;
 const HEAD_TIMEOUT: Duration = Duration::from_secs(2);
 /// The longest wait for a reader.
 const ANSWER_TIMEOUT: Duration = Duration::from_secs(20);
-/// The pause between checks of an incomplete head.
+/// The pause between checks of an incomplete head, and before the next connection if too many wait.
 const PAUSE: Duration = Duration::from_millis(10);
 /// The number of connections whose heads are awaited at the same time. One more ends the oldest. Addresses do not count:
 /// behind a proxy all have the same.
@@ -65,6 +65,10 @@ struct Waiting {
 }
 
 impl Waiting {
+    fn is_full(&self) -> bool {
+        self.streams.len() >= MOST_WAITING
+    }
+
     /// Adds a connection and returns its number. Ends the oldest if there are too many.
     fn add(&mut self, stream: &TcpStream) -> io::Result<u64> {
         let number = self.next;
@@ -108,6 +112,10 @@ impl Server {
                 let (token, taken, sender) =
                     (Arc::clone(&token), Arc::clone(&taken), sender.clone());
                 let waiting = Arc::clone(&waiting);
+                // Connections without end must not keep a processor busy.
+                if lock(&waiting).is_full() {
+                    thread::sleep(PAUSE);
+                }
                 let Ok(number) = lock(&waiting).add(&stream) else {
                     continue;
                 };
