@@ -1,4 +1,4 @@
-//! Records beside those of the selected cases.
+//! Unexpected records beside those of the selected cases. Expected ones are among the known failures.
 
 use crate::mark::mark;
 use crate::table::Table;
@@ -6,9 +6,10 @@ use crate::words::{Tone, headline, plain};
 use etalon_record::{Record, Run};
 use maud::{Markup, html};
 
-/// The table of the records beside the selected cases.
+/// The table of the unexpected records beside the selected cases.
 pub(super) fn section(run: &Run) -> Markup {
-    let records: Vec<&Record> = run.beside.iter().collect();
+    let unexpected = run.beside.iter().filter(|r| r.unexpected());
+    let records: Vec<&Record> = unexpected.collect();
     let table = Table::<&Record>::new("stacked")
         .spoken("Records beside the selected cases")
         .text("Adapter", |record| record.adapter.clone())

@@ -70,7 +70,7 @@ pub(crate) fn known(run: &Run) -> Vec<Reason> {
 fn reasons(run: &Run, reason: impl Fn(&Record) -> Option<String>) -> Vec<Reason> {
     let mut found: BTreeMap<(Verdict, String), BTreeMap<usize, u64>> = BTreeMap::new();
     let adapters = &run.header.adapters;
-    for record in &run.records {
+    for record in run.all_records() {
         let Some(reason) = reason(record) else {
             continue;
         };
