@@ -2,6 +2,7 @@
 
 use crate::relation::Relation;
 use crate::variants::Variant;
+use etalon_frame::CaseId;
 use etalon_frame::Requirement;
 use etalon_methods::Method;
 use etalon_scene::Scene;
@@ -92,8 +93,8 @@ impl Case {
         self.id.starts_with(Self::REQUIREMENTS)
     }
 
-    /// Returns the first part of the id.
-    pub fn area(&self) -> &str {
-        self.id.split('/').next().unwrap_or_default()
+    /// Returns the parts of the id.
+    pub fn parts(&self) -> CaseId<'_> {
+        CaseId::new(&self.id)
     }
 }

@@ -316,7 +316,7 @@ mod tests {
             assert_eq!(built.id, case.id());
             assert!(!built.id.contains([' ', ',']), "{}", built.id);
             assert!(ids.insert(built.id.clone()), "{} occurs twice", built.id);
-            let selftest = built.area() == "selftest";
+            let selftest = built.parts().area() == "selftest";
             assert_eq!(built.judged_as.is_some(), selftest, "{}", built.id);
         }
     }

@@ -2,6 +2,7 @@
 
 use crate::file::{CaseRef, Profile};
 use crate::library::Library;
+use etalon_frame::CaseId;
 use etalon_glob::{Glob, GlobError};
 use std::collections::BTreeSet;
 use thiserror::Error;
@@ -100,7 +101,7 @@ pub fn left_out(
     if profile == Profile::Full {
         return Ok(0);
     }
-    let area = |id: &str| id.split('/').next().unwrap_or_default().to_owned();
+    let area = |id: &str| CaseId::new(id).area().to_owned();
     let areas: BTreeSet<String> = selected.iter().map(|id| area(id)).collect();
     let matching = select(library, Profile::Full, globs)?.cases;
     let in_areas = matching.iter().filter(|c| areas.contains(&area(&c.id())));

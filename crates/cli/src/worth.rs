@@ -27,9 +27,7 @@ pub(crate) fn sort_by_worth(cases: &mut [Case]) {
             let place = match ranks.get(&*case.id) {
                 Some(rank) => (false, *rank),
                 None => {
-                    let count = counts
-                        .entry(etalon_record::case_file(&case.id))
-                        .or_default();
+                    let count = counts.entry(case.parts().file()).or_default();
                     *count += 1;
                     (true, *count)
                 }

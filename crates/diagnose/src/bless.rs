@@ -145,7 +145,7 @@ fn findings(new: &[(&Record, Entry)], run: &Run, today: &str) -> Vec<(String, Fi
     let mut groups: BTreeMap<_, Vec<&(&Record, Entry)>> = BTreeMap::new();
     for symptom in new {
         let (record, entry) = symptom;
-        let file = record.case_file();
+        let file = record.parts().file();
         let key = (
             &entry.driver,
             &entry.device,
@@ -169,7 +169,7 @@ fn findings(new: &[(&Record, Entry)], run: &Run, today: &str) -> Vec<(String, Fi
         let on_adapter = run
             .records
             .iter()
-            .filter(|r| r.adapter == name && r.case_file() == file);
+            .filter(|r| r.adapter == name && r.parts().file() == file);
         let drawn =
             on_adapter.filter(|r| !matches!(r.verdict, Verdict::NotSupported | Verdict::Skipped));
         let drawn: Vec<&str> = drawn.map(|r| r.case.as_str()).collect();

@@ -1,5 +1,6 @@
 //! The shortest condition on axes that separates the failing cases of a file from the other drawn cases.
 
+use etalon_frame::CaseId;
 use etalon_glob::Glob;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -160,9 +161,7 @@ fn names(glob: &str, id: &str) -> bool {
 }
 
 fn axes(id: &str) -> BTreeMap<&str, &str> {
-    id.split('/')
-        .filter_map(|part| part.split_once('='))
-        .collect()
+    CaseId::new(id).axes().collect()
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use crate::error::ExportError;
 use crate::selection::Selection;
 use crate::written::ExportSize;
-use crate::{folder, latest, openmetrics, otava, tables};
+use crate::{folder, latest, openmetrics, tables};
 use etalon_history::History;
 use std::path::Path;
 
@@ -14,8 +14,6 @@ pub enum Format {
     Parquet,
     /// Samples for Prometheus.
     OpenMetrics,
-    /// One CSV file per series of frame times, and a configuration for Apache Otava.
-    Otava,
     /// The latest times of each series in Bencher's format.
     Bencher,
     /// The latest times of each series for github-action-benchmark.
@@ -42,7 +40,6 @@ pub fn export(
     match format {
         Format::Parquet => tables::write(history, &runs, dir),
         Format::OpenMetrics => openmetrics::write(history, &runs, dir),
-        Format::Otava => otava::write(history, &runs, dir),
         Format::Bencher => latest::write_bencher(history, &runs, dir),
         Format::ActionBenchmark => latest::write_action(history, &runs, dir),
     }

@@ -1,8 +1,7 @@
 //! A history as files for other programs.
 //!
 //! [`export`] writes a history to a folder: Parquet for engines that query tables, OpenMetrics for
-//! Prometheus, CSV for Apache Otava, or the frame times of the latest benches for Bencher and
-//! github-action-benchmark.
+//! Prometheus, or the frame times of the latest benches for Bencher and github-action-benchmark.
 
 #![cfg_attr(
     test,
@@ -14,7 +13,6 @@ mod folder;
 mod format;
 mod latest;
 mod openmetrics;
-mod otava;
 mod selection;
 mod table;
 mod tables;

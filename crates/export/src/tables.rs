@@ -7,6 +7,7 @@ use crate::error::ExportError;
 use crate::folder::part;
 use crate::table::{Column, Table};
 use crate::written::ExportSize;
+use etalon_frame::CaseId;
 use etalon_history::{AdapterRun, History, RunId, RunInfo};
 use etalon_record::{Machine, Time};
 use parquet::data_type::ByteArray;
@@ -131,8 +132,7 @@ fn records(
     for (case, outcome) in rows {
         let case = history.case_name(case)?;
         let outcome = history.outcome(outcome)?;
-        let area = case.split('/').next().unwrap_or_default();
-        areas.push(ByteArray::from(area));
+        areas.push(ByteArray::from(CaseId::new(&case).area()));
         cases.push(ByteArray::from(&*case));
         verdicts.push(ByteArray::from(outcome.verdict.to_string().as_str()));
         expected.push(outcome.expected.is_some());

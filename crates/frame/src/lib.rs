@@ -13,6 +13,7 @@
 mod accuracy;
 mod api;
 mod band;
+mod case_id;
 mod code_bytes;
 mod compare;
 mod contents;
@@ -44,6 +45,7 @@ mod work;
 pub use accuracy::Accuracy;
 pub use api::Api;
 pub use band::Band;
+pub use case_id::CaseId;
 pub use compare::{ChannelMismatch, Comparison, TexelCounts, WrongTexel, compare};
 pub use contents::{Codes, Contents, ValueRange};
 pub use counter::{CountRange, CounterKind, CounterOutcome, CounterSet};

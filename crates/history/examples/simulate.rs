@@ -418,18 +418,6 @@ fn main() -> Result<(), Box<dyn Error>> {
         spread(on_all)
     );
     println!("the same with opening: {}", spread(opened));
-    let mut compared = Vec::new();
-    for _ in 0..50 {
-        let mut any = || {
-            let index = random.rand_range(0..history.runs().len() as u64) as usize;
-            history.runs()[index].id
-        };
-        let (before, after) = (any(), any());
-        let (found, took) = timed(|| History::open_read(&path)?.compare(before, after));
-        found?;
-        compared.push(took);
-    }
-    println!("two runs compared, with opening: {}", spread(compared));
     let (counted, took) = timed(|| {
         let parts = history.adapter_runs().iter();
         parts

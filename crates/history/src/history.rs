@@ -8,7 +8,7 @@ use crate::adapter::Adapter;
 use crate::case_set::CaseSet;
 use crate::connection::{PATIENCE, for_reading};
 use crate::error::HistoryError;
-use crate::ids::{CaseId, MachineId, OutcomeId, RunId};
+use crate::ids::{CaseNumber, MachineId, OutcomeId, RunId};
 use crate::kind::Kind;
 use crate::outcome::Outcome;
 use crate::packing::unpack;
@@ -44,7 +44,7 @@ pub struct History {
 #[derive(Debug)]
 struct Cases {
     names: Vec<Rc<str>>,
-    ids: HashMap<Rc<str>, CaseId>,
+    ids: HashMap<Rc<str>, CaseNumber>,
 }
 
 impl History {
@@ -165,14 +165,14 @@ impl History {
     ///
     /// # Errors
     /// If the file cannot be read.
-    pub fn case_id(&self, case: &str) -> Result<Option<CaseId>, HistoryError> {
+    pub fn case_id(&self, case: &str) -> Result<Option<CaseNumber>, HistoryError> {
         if let Some(cases) = self.cases.get() {
             return Ok(cases.ids.get(case).copied());
         }
         self.connection
             .prepare_cached("SELECT id FROM test_case WHERE name = ?1")
             .and_then(|mut find| find.query_row([case], |row| row.get(0)).optional())
-            .map(|id| id.map(CaseId))
+            .map(|id| id.map(CaseNumber))
             .map_err(HistoryError::database(&self.path))
     }
 
@@ -180,7 +180,7 @@ impl History {
     ///
     /// # Errors
     /// If the file cannot be read, or has no such case.
-    pub fn case_name(&self, case: CaseId) -> Result<Rc<str>, HistoryError> {
+    pub fn case_name(&self, case: CaseNumber) -> Result<Rc<str>, HistoryError> {
         let index = (case.0 as usize).wrapping_sub(1);
         let name = self.all_cases()?.names.get(index).cloned();
         name.ok_or_else(|| HistoryError::damaged(&self.path, format!("no case {case}")))
@@ -206,7 +206,7 @@ impl History {
             let (id, name): (u32, String) = row.map_err(&wrong)?;
             let name: Rc<str> = name.into();
             cases.names.push(Rc::clone(&name));
-            cases.ids.insert(name, CaseId(id));
+            cases.ids.insert(name, CaseNumber(id));
             if id as usize != cases.names.len() {
                 return Err(HistoryError::damaged(
                     &self.path,
@@ -245,7 +245,10 @@ impl History {
     ///
     /// # Errors
     /// If the file cannot be read or is damaged.
-    pub fn records(&self, adapter: &AdapterRun) -> Result<Vec<(CaseId, OutcomeId)>, HistoryError> {
+    pub fn records(
+        &self,
+        adapter: &AdapterRun,
+    ) -> Result<Vec<(CaseNumber, OutcomeId)>, HistoryError> {
         let packed: Vec<u8> = self
             .connection
             .prepare_cached("SELECT outcomes FROM state WHERE id = ?1")
@@ -265,7 +268,7 @@ impl History {
         match outcomes {
             Some(outcomes) if outcomes.len() == cases.len() => Ok(cases
                 .into_iter()
-                .map(CaseId)
+                .map(CaseNumber)
                 .zip(outcomes.into_iter().map(OutcomeId))
                 .collect()),
             _ => {
@@ -280,7 +283,7 @@ impl History {
     ///
     /// # Errors
     /// If the file cannot be read.
-    pub fn has_record(&self, adapter: &AdapterRun, case: CaseId) -> Result<bool, HistoryError> {
+    pub fn has_record(&self, adapter: &AdapterRun, case: CaseNumber) -> Result<bool, HistoryError> {
         Ok(self.drawn(adapter.drawn)?.contains(case.0))
     }
 

@@ -35,7 +35,7 @@ id! {
 }
 id! {
     /// A case.
-    CaseId
+    CaseNumber
 }
 id! {
     /// An outcome. Two records with the same outcome are equal in everything that the history keeps.

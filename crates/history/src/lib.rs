@@ -3,7 +3,7 @@
 //! [`read_runs`] reads what `etalon run`, `bench` and `bisect` wrote, and a [`Writer`] adds it. Nothing is
 //! ever changed or removed, and adding the same run twice has no effect. A [`History`] reads: its
 //! [runs](History::runs) with their [adapters](History::adapters), [one case](History::case_history) across
-//! all runs, a [comparison](History::compare) of two runs, [counts](History::tallies) by area and verdict,
+//! all runs, [counts](History::tallies) by area and verdict,
 //! [series](History::series) of frame times with the ruler, and [every record](History::each_record). The
 //! same file has a [log](TriageEntry) of what people say about changes.
 //!
@@ -18,7 +18,6 @@
 mod adapter;
 mod case_history;
 mod case_set;
-mod compare;
 mod connection;
 mod dates;
 mod digest;
@@ -46,12 +45,11 @@ mod writer;
 
 pub use adapter::Adapter;
 pub use case_history::{CaseHistory, Point};
-pub use compare::{AdapterComparison, Change, ChangeKind, Comparison};
 pub use dates::ReleaseDates;
 pub use error::HistoryError;
 pub use frame_times::FrameTimes;
 pub use history::History;
-pub use ids::{CaseId, MachineId, OutcomeId, RunId};
+pub use ids::{CaseNumber, MachineId, OutcomeId, RunId};
 pub use input::read_runs;
 pub use kind::Kind;
 pub use labels::{LabelError, Labels, parse_labels};

@@ -3,7 +3,7 @@
 use crate::error::HistoryError;
 use crate::frame_times::FrameTimes;
 use crate::history::History;
-use crate::ids::{CaseId, MachineId, RunId};
+use crate::ids::{CaseNumber, MachineId, RunId};
 use crate::packing::unpack_times;
 use rusqlite::Row;
 use std::collections::{BTreeMap, HashMap};
@@ -13,7 +13,7 @@ use std::rc::Rc;
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SeriesKey {
     /// The case.
-    pub case: CaseId,
+    pub case: CaseNumber,
     /// The timeline of the adapter.
     pub timeline: Rc<str>,
     /// The machine.
@@ -46,11 +46,11 @@ impl History {
             .prepare_cached("SELECT DISTINCT test_case, chain FROM frame_time")
             .map_err(&wrong)?;
         let rows = statement
-            .query_map([], |row| Ok((CaseId(row.get(0)?), row.get(1)?)))
+            .query_map([], |row| Ok((CaseNumber(row.get(0)?), row.get(1)?)))
             .map_err(&wrong)?;
         let mut keys = Vec::new();
         for row in rows {
-            let (case, chain): (CaseId, u32) = row.map_err(&wrong)?;
+            let (case, chain): (CaseNumber, u32) = row.map_err(&wrong)?;
             // An unknown chain was added after this history was opened.
             keys.extend(chains.get(&chain).map(|(timeline, machine)| SeriesKey {
                 case,

@@ -15,6 +15,7 @@ use crate::new_run::{NewAdapter, NewRun};
 use crate::outcome::Outcome;
 use crate::packing::{pack_times, unpack};
 use crate::triage::TriageEntry;
+use etalon_frame::CaseId;
 use rusqlite::{Connection, OptionalExtension, Transaction, TransactionBehavior, params};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::{Path, PathBuf};
@@ -256,8 +257,11 @@ impl<'a> Addition<'a> {
     fn tallies(&self, state: u32, outcomes: &BTreeMap<String, Outcome>) -> rusqlite::Result<()> {
         let mut counts: BTreeMap<(&str, &str, bool), u32> = BTreeMap::new();
         for (case, outcome) in outcomes {
-            let area = case.split('/').next().unwrap_or_default();
-            let key = (area, outcome.verdict.name(), outcome.unexpected());
+            let key = (
+                CaseId::new(case).area(),
+                outcome.verdict.name(),
+                outcome.unexpected(),
+            );
             *counts.entry(key).or_default() += 1;
         }
         let mut insert = self.connection.prepare_cached(

@@ -318,12 +318,12 @@ fn selections(
         for id in ids.difference(others) {
             let record = Record::new(id.as_str(), "", Verdict::Pass);
             // If the other selection lacks a whole area, the area is named instead of its files.
-            let area = format!("{}/", record.area());
+            let area = format!("{}/", record.parts().area());
             let is_whole_area = !others.iter().any(|other| other.starts_with(&area));
             let glob = if is_whole_area {
-                record.area().to_owned()
+                record.parts().area().to_owned()
             } else {
-                record.case_file().to_owned()
+                record.parts().file().to_owned()
             };
             *globs.entry(format!("{glob}/*")).or_default() += 1;
         }

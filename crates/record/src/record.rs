@@ -7,7 +7,8 @@ use crate::expected_symptom::Shown;
 use crate::measured::Measured;
 use crate::verdict::Verdict;
 use etalon_frame::{
-    Accuracy, Aspect, AspectStatistics, CounterOutcome, ErrorKind, Story, TexelCounts, WrongTexel,
+    Accuracy, Aspect, AspectStatistics, CaseId, CounterOutcome, ErrorKind, Story, TexelCounts,
+    WrongTexel,
 };
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
@@ -229,7 +230,7 @@ impl Record {
     /// file. On one adapter, records with the same reason show the same bug.
     pub fn excuse(&self) -> Option<&str> {
         if self.due_fail && self.verdict.is_violation() {
-            return Some(self.case_file());
+            return Some(self.parts().file());
         }
         let pictured = self.verdict.is_violation() || self.verdict == Verdict::Flaky;
         let expected = self.expected.as_ref().filter(|_| pictured);
@@ -263,14 +264,9 @@ impl Record {
         judged || channels || self.counters.iter().any(CounterOutcome::is_asserted)
     }
 
-    /// Returns the case's area: the first part of its id.
-    pub fn area(&self) -> &str {
-        self.case.split('/').next().unwrap_or_default()
-    }
-
-    /// Returns the id without its axis values, which is the same for all cases of one case file.
-    pub fn case_file(&self) -> &str {
-        case_file(&self.case)
+    /// Returns the parts of the case's id.
+    pub fn parts(&self) -> CaseId<'_> {
+        CaseId::new(&self.case)
     }
 }
 
@@ -282,23 +278,6 @@ impl From<&Record> for CaseResult {
             expected: record.expected.is_some(),
         }
     }
-}
-
-/// Returns an id without its axis values. An id that begins with an axis value is returned whole.
-pub fn case_file(id: &str) -> &str {
-    before_axes(id).unwrap_or(id)
-}
-
-/// Returns the parts of an id before its first axis value; `None` if it begins with one.
-pub fn before_axes(id: &str) -> Option<&str> {
-    let mut end = 0;
-    for part in id.split('/') {
-        if part.contains('=') {
-            break;
-        }
-        end += part.len() + 1;
-    }
-    id.get(..end.checked_sub(1)?)
 }
 
 /// The expectation that a record agrees with.
@@ -498,7 +477,12 @@ mod tests {
 
     #[test]
     fn the_case_file_is_the_id_without_axis_values() {
-        let file = |id: &str| Record::new(id, "cpu", Verdict::Pass).case_file().to_owned();
+        let file = |id: &str| {
+            Record::new(id, "cpu", Verdict::Pass)
+                .parts()
+                .file()
+                .to_owned()
+        };
         assert_eq!(
             file("depth/compare/compare=less/write=true"),
             "depth/compare"

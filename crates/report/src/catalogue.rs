@@ -8,6 +8,7 @@ use crate::error::ReportError;
 use crate::files::Destination;
 use crate::lists::Interner;
 use crate::picture::enlarged;
+use etalon_frame::CaseId;
 use etalon_frame::Frame;
 use serde::Serialize;
 use serde_json::Value;
@@ -76,7 +77,7 @@ pub(crate) fn write_scripts(
     let mut areas: BTreeMap<&str, Vec<&CatalogueCase>> = BTreeMap::new();
     for case in &catalogue.cases {
         areas
-            .entry(case.id.split('/').next().unwrap_or_default())
+            .entry(CaseId::new(&case.id).area())
             .or_default()
             .push(case);
     }

@@ -102,11 +102,11 @@ fn try_case(
     let mut seen: Vec<(Vec<Frame>, Sighting)> = Vec::new();
     let large = is_large(case);
     for mutant in share {
-        let foreign = mutant.record.mutant.area != case.area();
+        let foreign = mutant.record.mutant.area != case.parts().area();
         if large && foreign {
             continue;
         }
-        let area = mutant.area(case.area());
+        let area = mutant.area(case.parts().area());
         let tally = &mutant.record.areas[area];
         if !full && tally.fail > 0 {
             continue;

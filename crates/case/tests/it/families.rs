@@ -151,7 +151,7 @@ fn a_case_needs_few_pipelines() {
             }
         }
         // If the case tests the order of draws, or all state differs, it has more.
-        let most = match case.area() {
+        let most = match case.parts().area() {
             // Passes that depend on each other need many draws.
             "sequence" if !case.id.starts_with("sequence/state/") => continue,
             "early-z" | "order" | "combined" | "sequence" | "paths" => 5,

@@ -190,7 +190,7 @@ fn selected(arguments: &Arguments) -> Result<Vec<Case>, Failure> {
         let bad =
             |verdict: Verdict| matches!(Standing::from(verdict), Standing::Bad | Standing::Flaky);
         let records = run.records.iter();
-        let failed = records.filter(|r| bad(r.verdict) && r.area() != "selftest");
+        let failed = records.filter(|r| bad(r.verdict) && r.parts().area() != "selftest");
         let before = globs.len();
         globs.extend(failed.map(|r| etalon_glob::escape(&r.case)));
         if globs.len() == before {

@@ -54,14 +54,10 @@ fn tell_left_out(
 
 /// Returns the facts about a case that need no drawing.
 fn facts(case: &Case) -> Value {
-    let parts = case.id.split('/').filter_map(|part| part.split_once('='));
+    let parts = case.parts();
     let axes: Map<String, Value> = parts
+        .axes()
         .map(|(axis, value)| (axis.to_owned(), value.into()))
-        .collect();
-    let file: Vec<&str> = case
-        .id
-        .split('/')
-        .take_while(|part| !part.contains('='))
         .collect();
     let features: Vec<String> = case
         .requirements()
@@ -70,8 +66,8 @@ fn facts(case: &Case) -> Value {
         .collect();
     json!({
         "id": case.id,
-        "area": case.area(),
-        "file": file.join("/"),
+        "area": parts.area(),
+        "file": parts.file(),
         "about": case.about,
         "spec": case.spec,
         "axes": axes,

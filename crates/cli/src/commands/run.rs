@@ -539,7 +539,7 @@ fn asserted(run: &Run, percent: f64) -> (bool, String) {
     let counted = run
         .records
         .iter()
-        .filter(|r| !FrameTimes::AREAS.contains(&r.area()));
+        .filter(|r| !FrameTimes::AREAS.contains(&r.parts().area()));
     let total = counted.clone().count();
     if total == 0 {
         let line = "nothing was asserted: no selected case is judged (--min-asserted)";

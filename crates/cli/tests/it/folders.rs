@@ -97,7 +97,15 @@ fn no_command_writes_into_a_folder_of_somebody_else() {
         vec!["mutants", "depth/*", "--fuzz", "1", "--out", out],
         vec!["site", out, run],
         vec!["history", "report", "--db", db, "--out", out],
-        vec!["history", "export", "--db", db, "--format", "otava", out],
+        vec![
+            "history",
+            "export",
+            "--db",
+            db,
+            "--format",
+            "openmetrics",
+            out,
+        ],
     ] {
         let forced = ["run", "bench", "merge", "fuzz", "bisect", "site"];
         let takes_force = forced.contains(&command[0]) && !command.contains(&"--resume");

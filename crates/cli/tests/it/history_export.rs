@@ -7,10 +7,9 @@ use etalon_record::Verdict;
 use rusqlite::Connection;
 use std::fs;
 
-const FORMATS: [&str; 5] = [
+const FORMATS: [&str; 4] = [
     "parquet",
     "openmetrics",
-    "otava",
     "bencher",
     "github-action-benchmark",
 ];
@@ -97,18 +96,16 @@ fn a_part_of_the_runs_is_selected() {
         let expected = format!("{} rows in {files} {noun} in", files * 2);
         assert!(line.contains(&expected), "{flags:?}: {line}");
     }
-    let line = export(&place, "times", &["--format", "otava"], 0);
-    assert!(line.contains("0 rows in 1 file in"), "{line}");
 }
 
 #[test]
 fn what_is_no_date_or_no_history_is_wrong_usage() {
     let place = three_days();
-    let since = ["--format", "otava", "--since", "yesterday"];
+    let since = ["--format", "openmetrics", "--since", "yesterday"];
     let line = export(&place, "out", &since, 64);
     assert!(line.contains("is no date; write 2026-01-31"), "{line}");
     let none = Place::new();
-    let line = export(&none, "out", &["--format", "otava"], 64);
+    let line = export(&none, "out", &["--format", "openmetrics"], 64);
     assert!(line.contains("there is no history at"), "{line}");
     assert!(!place.path("out").exists() && !none.path("out").exists());
 }

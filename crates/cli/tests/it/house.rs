@@ -78,7 +78,7 @@ const TABLE: [(&str, &[&str], &[&str]); 33] = [
     ("explore", &["case", "frame", "scene"], &[]),
     ("history", &["frame", "record", "stats"], &[]),
     ("dashboards", &["record"], &[]),
-    ("export", &["dashboards", "history", "record"], &[]),
+    ("export", &["dashboards", "frame", "history", "record"], &[]),
     (
         "report",
         &[

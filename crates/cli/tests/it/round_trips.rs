@@ -85,7 +85,7 @@ fn what_came_through_a_wrong_read_back_is_blocked_and_the_rest_is_drawn() {
     let trips = |run: &Run| {
         run.records
             .iter()
-            .filter(|r| r.area() == "capabilities")
+            .filter(|r| r.parts().area() == "capabilities")
             .count()
     };
     assert_eq!((trips(&alone), trips(&full)), (0, 14));

@@ -636,7 +636,7 @@ fn a_time_limit_draws_first_what_finds_most() {
     // Then a case of each file, before any file has its second.
     let files: Vec<&str> = drawn[ranked.len()..]
         .iter()
-        .map(|id| etalon_record::case_file(id))
+        .map(|id| etalon_frame::CaseId::new(id).file())
         .collect();
     let of_all: BTreeSet<&str> = files.iter().copied().collect();
     let of_first: BTreeSet<&str> = files[..of_all.len()].iter().copied().collect();
@@ -735,7 +735,7 @@ fn what_a_version_requires_is_blocked_and_not_unsupported() {
         assert!(record.message.contains(words), "{}", record.message);
         assert!(!record.blocked_by.is_empty(), "{record:?}");
     }
-    let drawn = run.records.iter().filter(|r| r.area() == "depth");
+    let drawn = run.records.iter().filter(|r| r.parts().area() == "depth");
     assert!(drawn.clone().count() > 0 && drawn.clone().all(|r| r.verdict == Verdict::Pass));
 }
 

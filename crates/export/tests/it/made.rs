@@ -15,10 +15,9 @@ use std::path::{Path, PathBuf};
 pub(crate) const HOSTILE: &str = "../a\"b\\c\n/é";
 
 /// Every format.
-pub(crate) const FORMATS: [Format; 5] = [
+pub(crate) const FORMATS: [Format; 4] = [
     Format::Parquet,
     Format::OpenMetrics,
-    Format::Otava,
     Format::Bencher,
     Format::ActionBenchmark,
 ];

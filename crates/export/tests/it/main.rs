@@ -6,7 +6,6 @@ mod folder;
 mod latest;
 mod made;
 mod openmetrics;
-mod otava;
 mod random;
 mod selection;
 mod tables;

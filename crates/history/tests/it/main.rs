@@ -2,7 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 mod adding;
-mod comparing;
+mod counting;
 mod files;
 mod folders;
 mod made;

@@ -82,7 +82,7 @@ proptest! {
             Ok(run) => {
                 let _ = (run.missing(), run.header.expected_records());
                 for record in &run.records {
-                    let _ = (record.area(), record.case_file(), record.unexpected());
+                    let _ = (record.parts().area(), record.parts().file(), record.unexpected());
                     if let Some(frame) = &record.frame {
                         let _ = Run::read_frame(folder.path(), frame);
                     }

@@ -131,7 +131,7 @@ fn of_pair(
         for record in records {
             found.only.push(Only {
                 case: record.case.clone(),
-                case_file: record.case_file().to_owned(),
+                case_file: record.parts().file().to_owned(),
                 adapter: record.adapter.clone(),
                 side,
                 verdict: record.verdict,

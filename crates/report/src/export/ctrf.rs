@@ -188,7 +188,11 @@ fn test(record: &Record) -> Test<'_> {
         name: named(&record.case),
         status,
         duration: milliseconds(seconds(record)),
-        suite: vec![&record.adapter, record.area(), record.case_file()],
+        suite: vec![
+            &record.adapter,
+            record.parts().area(),
+            record.parts().file(),
+        ],
         message: match note(record) {
             _ if against => Some(headline(record)),
             Some(note) => Some(format!("{note}; {}", headline(record))),

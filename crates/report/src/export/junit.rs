@@ -46,7 +46,7 @@ fn well_formed(xml: &str) -> String {
 fn test_case(record: &Record) -> TestCase {
     let conclusion = Conclusion::of(record);
     let mut case = TestCase::new(record.case.as_str(), status(record, conclusion));
-    case.set_classname(record.case_file());
+    case.set_classname(record.parts().file());
     case.set_time(Duration::try_from_secs_f64(seconds(record)).unwrap_or_default());
     let against = matches!(conclusion, Conclusion::Failed | Conclusion::Broken);
     let mut lines = Vec::new();

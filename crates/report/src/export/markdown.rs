@@ -250,7 +250,7 @@ fn asserted(text: &mut Text, run: &Run) {
     let mut sums: BTreeMap<(&str, Aspect), Assertion> = BTreeMap::new();
     for record in &run.records {
         for assertion in &record.assertions {
-            sums.entry((record.area(), assertion.aspect))
+            sums.entry((record.parts().area(), assertion.aspect))
                 .and_modify(|sum| sum.add(assertion))
                 .or_insert(*assertion);
         }

@@ -1,6 +1,6 @@
 //! Families of cases, which share a case file as their ids suggest, and the areas of the families.
 
-use etalon_record::before_axes;
+use etalon_frame::CaseId;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -18,8 +18,14 @@ pub(super) struct Families {
 
 impl Families {
     pub(super) fn new(cases: &[Rc<str>]) -> Self {
-        let mut names: BTreeMap<&str, u32> = cases.iter().map(|case| (family(case), 0)).collect();
-        let mut areas: BTreeMap<&str, usize> = names.keys().map(|name| (area(name), 0)).collect();
+        let mut names: BTreeMap<&str, u32> = cases
+            .iter()
+            .map(|case| (CaseId::new(case).family(), 0))
+            .collect();
+        let mut areas: BTreeMap<&str, usize> = names
+            .keys()
+            .map(|name| (CaseId::new(name).area(), 0))
+            .collect();
         for (number, area) in areas.values_mut().enumerate() {
             *area = number;
         }
@@ -27,25 +33,17 @@ impl Families {
             *name = number as u32;
         }
         Self {
-            area_of: names.keys().map(|name| areas[area(name)]).collect(),
-            of: cases.iter().map(|case| names[family(case)]).collect(),
+            area_of: names
+                .keys()
+                .map(|name| areas[CaseId::new(name).area()])
+                .collect(),
+            of: cases
+                .iter()
+                .map(|case| names[CaseId::new(case).family()])
+                .collect(),
             names: names.keys().map(|name| (*name).to_owned()).collect(),
             areas: areas.keys().map(|area| (*area).to_owned()).collect(),
         }
-    }
-}
-
-/// Returns the first part of an id.
-fn area(id: &str) -> &str {
-    id.split('/').next().unwrap_or(id)
-}
-
-/// Returns the parts of an id before the first axis; without axes, all parts except the last.
-fn family(id: &str) -> &str {
-    match before_axes(id) {
-        None | Some("") => area(id),
-        Some(before) if before == id => id.rsplit_once('/').map_or(id, |(family, _)| family),
-        Some(some) => some,
     }
 }
 
@@ -55,18 +53,6 @@ mod tests {
 
     #[test]
     fn a_family_is_what_stands_before_the_axes() {
-        for (id, expected) in [
-            ("depth/compare/compare=less/write=true", "depth/compare"),
-            ("perf/matrix/fill/blend=off", "perf/matrix/fill"),
-            ("found/softpipe", "found"),
-            ("a=1/b", "a=1"),
-            ("alone", "alone"),
-            ("", ""),
-            ("/", ""),
-            ("ä/ö=1", "ä"),
-        ] {
-            assert_eq!(family(id), expected, "{id}");
-        }
         let cases: Vec<Rc<str>> = ["b/x/a=1", "a/y/a=1", "b/x/a=2"].map(Rc::from).to_vec();
         let families = Families::new(&cases);
         assert_eq!(families.names, ["a/y", "b/x"]);

@@ -374,7 +374,7 @@ impl<'a> Methods<'a> {
 
 /// Returns the family that a record belongs to.
 fn family<'a>(record: &'a Record, m: &'a Measured) -> &'a str {
-    let file = record.case_file();
+    let file = record.parts().file();
     match file.rsplit_once('/') {
         Some((_, name)) if !name.contains('=') => name,
         _ => &m.scene,
@@ -440,11 +440,7 @@ fn scene<'a>(
 
 /// Returns the axis values of a case's id, except its method and its parameter.
 fn settings<'a>(record: &'a Record, m: &'a Measured) -> impl Iterator<Item = (&'a str, &'a str)> {
-    let axes = record
-        .case
-        .split('/')
-        .filter_map(|part| part.split_once('='));
-    axes.filter(|(axis, _)| {
+    record.parts().axes().filter(|(axis, _)| {
         let parameter = m.parameter.as_ref().is_some_and(|p| p.name == *axis);
         *axis != "method" && !parameter
     })

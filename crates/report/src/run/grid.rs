@@ -58,9 +58,9 @@ impl<'a> Grid<'a> {
         let mut sorted: BTreeMap<&str, BTreeMap<&str, Rows<'_>>> = BTreeMap::new();
         for (index, record) in run.records.iter().enumerate() {
             let row = sorted
-                .entry(record.area())
+                .entry(record.parts().area())
                 .or_default()
-                .entry(record.case_file())
+                .entry(record.parts().file())
                 .or_default()
                 .entry(&record.case)
                 .or_insert_with(|| vec![None; adapters.len()]);

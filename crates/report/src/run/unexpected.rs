@@ -9,6 +9,6 @@ use std::cmp::Reverse;
 pub(crate) fn unexpected_records(run: &Run) -> Vec<&Record> {
     let mut bad: Vec<&Record> = run.all_records().filter(|r| r.unexpected()).collect();
     bad.sort_by_key(|r| (Reverse(r.verdict.severity()), &r.case, &r.adapter));
-    lists::spread(&mut bad, |r| (r.case_file(), &*r.adapter, r.verdict));
+    lists::spread(&mut bad, |r| (r.parts().file(), &*r.adapter, r.verdict));
     bad
 }

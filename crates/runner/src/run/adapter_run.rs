@@ -208,7 +208,7 @@ impl<'s> AdapterRun<'s, '_> {
         let mut state = self.queue.state();
         let kept = state
             .imprecise_frames
-            .entry(record.case_file().to_owned())
+            .entry(record.parts().file().to_owned())
             .or_default();
         *kept += 1;
         let most = match frames {

@@ -15,8 +15,6 @@ enum FormatName {
     Parquet,
     /// Counts of verdicts and medians of frame times, for Prometheus
     Openmetrics,
-    /// A CSV file per series of frame times, and Apache Otava's configuration
-    Otava,
     /// The latest times in Bencher's metric format
     Bencher,
     /// The latest times for github-action-benchmark
@@ -52,7 +50,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let format = match arguments.format {
         FormatName::Parquet => Format::Parquet,
         FormatName::Openmetrics => Format::OpenMetrics,
-        FormatName::Otava => Format::Otava,
         FormatName::Bencher => Format::Bencher,
         FormatName::GithubActionBenchmark => Format::ActionBenchmark,
     };

@@ -5,7 +5,7 @@ use super::series::{of_key, state_name, state_text};
 use super::show::subject;
 use super::verdicts::{is_meant, verdicts};
 use etalon_history::{
-    AdapterRun, CaseId, History, HistoryError, Labels, OutcomeId, TriageEntry, TriageState,
+    AdapterRun, CaseNumber, History, HistoryError, Labels, OutcomeId, TriageEntry, TriageState,
     TriageStates,
 };
 use etalon_record::Time;
@@ -33,7 +33,7 @@ fn last_records(
     history: &History,
     timeline: &str,
     labels: &Labels,
-) -> Result<BTreeMap<CaseId, OutcomeId>, HistoryError> {
+) -> Result<BTreeMap<CaseNumber, OutcomeId>, HistoryError> {
     let parts: Vec<&AdapterRun> = history
         .adapter_runs()
         .iter()

@@ -43,7 +43,7 @@ pub(super) fn change(
     }
     (!what.is_empty()).then(|| Change {
         case: before.case.clone(),
-        case_file: before.case_file().to_owned(),
+        case_file: before.parts().file().to_owned(),
         adapter: adapter.map(str::to_owned),
         direction: etalon_record::Change::between(before, after).into(),
         what,

@@ -17,7 +17,7 @@ pub(super) fn areas(adapter: [&str; 2], both: &[[&Record; 2]]) -> Vec<AreaTime> 
     };
     let mut by_area: BTreeMap<&str, [Vec<f64>; 2]> = BTreeMap::new();
     for [old, new] in both.iter().filter(|b| b.iter().all(|r| drawn(r))) {
-        let [before, after] = by_area.entry(old.area()).or_default();
+        let [before, after] = by_area.entry(old.parts().area()).or_default();
         before.push(old.seconds.draw);
         after.push(new.seconds.draw);
     }

@@ -7,7 +7,7 @@ use crate::page::adapter::adapter;
 use crate::page::link;
 use crate::table::Table;
 use crate::words::{Tone, plain};
-use etalon_record::case_file;
+use etalon_frame::CaseId;
 use maud::{Markup, html};
 
 /// The most rows of each kind.
@@ -43,7 +43,11 @@ fn kind(name: &str, entries: &[NewsEntry]) -> Markup {
     let mut shown: Vec<&NewsEntry> = entries.iter().collect();
     // The first of each case file and adapter comes before the second of any.
     lists::spread(&mut shown, |entry| {
-        (case_file(&entry.case), &*entry.adapter, entry.verdict)
+        (
+            CaseId::new(&entry.case).file(),
+            &*entry.adapter,
+            entry.verdict,
+        )
     });
     shown.truncate(ROWS);
     let table = Table::<&NewsEntry>::new("stacked")
