@@ -43,7 +43,7 @@ fn check(to: &Path, kind: &Kind, replace: bool) -> Result<(), ReportError> {
         Err(error) => return Err(unread(error)),
     }
     let file = to.join(kind.mark);
-    if !is_marked(&file) {
+    if !is_marked(to, kind.mark) {
         let kind = kind.names[1];
         return Err(ReportError::Occupied { path, kind });
     }
