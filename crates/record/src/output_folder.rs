@@ -27,6 +27,8 @@ pub struct OutputFolder {
 struct State {
     /// The paths of the files that etalon wrote, below the folder.
     listed: HashSet<String>,
+    /// True if these paths are in no list yet.
+    is_unlisted: bool,
     /// The list, once a path was added to it.
     list: Option<File>,
     /// Folders that exist and are no links.
@@ -39,14 +41,14 @@ impl OutputFolder {
     /// # Errors
     /// If its list cannot be read.
     pub fn open(folder: &Path) -> Result<Self, RecordError> {
-        let listed = match read_list(folder)? {
-            Some(listed) => listed,
-            None => unlisted::files(folder),
-        };
+        let list = read_list(folder)?;
+        let is_unlisted = list.is_none();
+        let listed = list.unwrap_or_else(|| unlisted::files(folder));
         Ok(Self {
             folder: folder.to_owned(),
             state: Mutex::new(State {
                 listed,
+                is_unlisted,
                 list: None,
                 real: HashSet::new(),
             }),
@@ -249,8 +251,9 @@ impl OutputFolder {
             }
             None => {}
         }
-        if state.listed.insert(name.clone()) || state.list.is_none() {
+        if state.listed.insert(name.clone()) || state.is_unlisted {
             self.append(&mut state, &name)?;
+            state.is_unlisted = false;
         }
         Ok(())
     }
@@ -387,6 +390,7 @@ impl OutputFolder {
             .and_then(|()| fs::rename(&beside, &list))
             .map_err(RecordError::io("write", &list))?;
         state.list = None;
+        state.is_unlisted = false;
         Ok(())
     }
 
@@ -579,6 +583,14 @@ mod tests {
         out.write("junit.xml", b"").unwrap();
         let listed = read_list(folder.path()).unwrap().unwrap();
         assert_eq!(listed.len(), 2, "{listed:?}");
+        // A file that is written again is listed already.
+        let list = text(&folder.path().join(LIST));
+        for _ in 0..2 {
+            let again = OutputFolder::open(folder.path()).unwrap();
+            again.write("junit.xml", b"2").unwrap();
+            again.write("run.jsonl", b"2").unwrap();
+        }
+        assert_eq!(text(&folder.path().join(LIST)), list);
         // A missing line end joins no names.
         let list = text(&folder.path().join(LIST));
         fs::write(folder.path().join(LIST), list.trim_end()).unwrap();
