@@ -5,7 +5,7 @@
 
 use crate::content::Content;
 use crate::error::RecordError;
-use crate::folder::{FolderKind, LIST, LIST_MARK, WORK_FOLDER};
+use crate::folder::{FolderKind, LIST, LIST_MARK, RUN_FILE, WORK_FOLDER};
 use crate::list::read_list;
 use crate::lock::LOCK_FILE;
 use crate::paths::{below, lowest_real};
@@ -15,6 +15,9 @@ use std::fs::{self, File, FileType, OpenOptions};
 use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// More bytes than the list and the header of a new recording have.
+const FIRST_FILES: usize = 1 << 20;
 
 /// A folder that files are written to.
 #[derive(Debug)]
@@ -299,8 +302,34 @@ impl OutputFolder {
     /// file of `kept`. Links and other files stay.
     ///
     /// # Errors
-    /// If a file cannot be removed.
+    /// If a file cannot be removed, or if the disk has no room for the first files of a new recording. Nothing is
+    /// removed then.
     pub fn clear(&self, kept: Option<FolderKind>) -> Result<(), RecordError> {
+        if !self.state().listed.is_empty() {
+            self.check_room()?;
+        }
+        self.remove_listed(kept)
+    }
+
+    /// Checks that the disk has room for a list and a header.
+    fn check_room(&self) -> Result<(), RecordError> {
+        let path = self
+            .folder
+            .join(format!(".{RUN_FILE}.{}", std::process::id()));
+        let written = remove_if_there(&path).and_then(|()| {
+            let mut options = OpenOptions::new();
+            let mut file = options.write(true).create_new(true).open(&path)?;
+            file.write_all(&vec![0; FIRST_FILES])?;
+            // Some file systems allocate late.
+            file.sync_all()
+        });
+        let removed = remove_if_there(&path);
+        written
+            .and(removed)
+            .map_err(RecordError::io("write", &self.folder.join(LIST)))
+    }
+
+    fn remove_listed(&self, kept: Option<FolderKind>) -> Result<(), RecordError> {
         let mut state = self.state();
         let is_mark = |name: &str| FolderKind::ALL.iter().any(|kind| kind.file() == name);
         let (marks, files): (Vec<String>, Vec<String>) =
@@ -342,7 +371,7 @@ impl OutputFolder {
     /// # Errors
     /// If a file cannot be removed.
     pub fn remove_all(&self) -> Result<(), RecordError> {
-        self.clear(None)?;
+        self.remove_listed(None)?;
         for name in [LIST, LOCK_FILE] {
             let path = self.folder.join(name);
             remove_if_there(&path).map_err(RecordError::io("remove", &path))?;
