@@ -9,12 +9,13 @@ use crate::output::say;
 use clap::Args;
 use etalon_record::{
     BESIDE_FILE, CASES_FILE, Content, DEAD_FILE, FolderKind, MISSING_FILE, OutputFolder, RUN_FILE,
-    RecordError,
+    RecordError, open_below,
 };
 use etalon_report::plain;
 use flate2::read::GzDecoder;
+use std::cell::Cell;
 use std::fs::{self, File};
-use std::io::{self, Read};
+use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Component, Path, PathBuf};
 use tar::{Archive, EntryType};
 
@@ -28,6 +29,9 @@ const EXTENSION: &str = ".tar.gz";
 const FILES: [&str; 5] = [RUN_FILE, CASES_FILE, MISSING_FILE, DEAD_FILE, BESIDE_FILE];
 /// The folders whose files are taken, and the ends of the files' names.
 const FOLDERS: [(&str, &[&str]); 2] = [("frames", &[".json.gz", ".json"]), ("pictures", &[".png"])];
+/// The maximum number of bytes of an entry's header, with a long name and attributes: the reader of archives holds
+/// them in memory.
+const MAX_HEADER: u64 = 64 << 10;
 /// The number of files left out that are named, and the length of a name.
 const NAMED: usize = 20;
 const LONGEST: usize = 120;
@@ -138,13 +142,21 @@ impl UnpackArguments {
         path: &Path,
         mut call: impl FnMut(&Path, &mut dyn Read) -> io::Result<()>,
     ) -> io::Result<()> {
+        let header_left = Cell::new(MAX_HEADER);
         let text = Bounded {
             inner: GzDecoder::new(File::open(path)?),
             left: self.max_unpacked << 20,
             max: self.max_unpacked,
+            header_left: &header_left,
         };
-        for entry in Archive::new(text).entries()? {
-            let mut entry = entry?;
+        let mut archive = Archive::new(text);
+        let mut entries = archive.entries()?;
+        for number in 1_u64.. {
+            header_left.set(MAX_HEADER);
+            let Some(entry) = entries.next() else { break };
+            let mut entry =
+                entry.map_err(|e| io::Error::new(e.kind(), format!("its entry {number}: {e}")))?;
+            header_left.set(u64::MAX);
             let name = entry.path()?.into_owned();
             let shown = plain(&name.to_string_lossy(), LONGEST);
             let is_sparse = name.iter().any(|part| {
@@ -153,7 +165,10 @@ impl UnpackArguments {
             });
             match entry.header().entry_type() {
                 EntryType::Regular | EntryType::Continuous if !is_sparse => {}
-                EntryType::Directory | EntryType::XGlobalHeader => continue,
+                EntryType::Directory | EntryType::XGlobalHeader => {
+                    io::copy(&mut entry, &mut io::sink())?;
+                    continue;
+                }
                 kind => {
                     let kind = if is_sparse { SPARSE } else { entry_type(kind) };
                     return Err(io::Error::other(format!(
@@ -166,6 +181,8 @@ impl UnpackArguments {
                 return Err(io::Error::other(format!("{shown} leads out of the folder")));
             }
             call(&name, &mut entry)?;
+            // What is read before the next entry is then its header alone.
+            io::copy(&mut entry, &mut io::sink())?;
         }
         Ok(())
     }
@@ -221,16 +238,25 @@ fn left_out_text(path: &Path, left_out: &[String]) -> String {
 }
 
 /// A reader that fails behind a number of bytes.
-struct Bounded<R> {
+struct Bounded<'a, R> {
     inner: R,
     left: u64,
     /// The limit in MiB, for the error.
     max: u64,
+    /// The bytes that may follow before a header ends.
+    header_left: &'a Cell<u64>,
 }
 
-impl<R: Read> Read for Bounded<R> {
+impl<R: Read> Read for Bounded<'_, R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let length = self.inner.read(buffer)?;
+        let header_left = self.header_left.get().checked_sub(length as u64);
+        self.header_left.set(header_left.ok_or_else(|| {
+            io::Error::other(format!(
+                "its name and attributes have more than {} KiB; pack the run again",
+                MAX_HEADER >> 10
+            ))
+        })?);
         self.left = self.left.checked_sub(length as u64).ok_or_else(|| {
             io::Error::other(format!(
                 "it unpacks to more than {} MiB; --max-unpacked raises the limit",
@@ -264,7 +290,17 @@ fn place(beside: &Path, folder: &Path) -> io::Result<bool> {
 
 /// Returns true if two folders have the same records.
 fn same(folder: &Path, other: &Path) -> io::Result<bool> {
-    Ok(fs::read(folder.join(RUN_FILE))? == fs::read(other.join(RUN_FILE))?)
+    let open = |folder| open_below(folder, RUN_FILE).map_err(io::Error::other);
+    let [mut one, mut other] = [open(folder)?, open(other)?].map(BufReader::new);
+    loop {
+        let (left, right) = (one.fill_buf()?, other.fill_buf()?);
+        let length = left.len().min(right.len());
+        if length == 0 || left[..length] != right[..length] {
+            return Ok(left.is_empty() && right.is_empty());
+        }
+        one.consume(length);
+        other.consume(length);
+    }
 }
 
 #[cfg(test)]
@@ -412,6 +448,42 @@ mod tests {
             }
             assert_eq!(fs::read_dir(above.path()).unwrap().count(), 1);
         });
+    }
+
+    #[test]
+    fn a_name_and_attributes_of_an_entry_have_a_largest_size() {
+        let above = tempfile::tempdir().unwrap();
+        let path = above.path().join("mine.tar.gz");
+        let file = ("frames/a.json", EntryType::Regular, &b"{}"[..]);
+        let attribute = |length: usize| {
+            let text = format!(" comment={}\n", "a".repeat(length));
+            // The length counts its own digits.
+            let digits = (text.len() + 8).to_string().len();
+            format!("{}{text}", text.len() + digits).into_bytes()
+        };
+        for kind in [
+            EntryType::GNULongName,
+            EntryType::GNULongLink,
+            EntryType::XHeader,
+        ] {
+            let content = |length| match kind {
+                EntryType::XHeader => attribute(length),
+                _ => [&b"frames/"[..], &b"a".repeat(length)].concat(),
+            };
+            archive(&path, &[RUN, ("long", kind, &content(8 << 20)), file]);
+            let refused = DEFAULT.folder(&path).unwrap_err().message;
+            let words = "its entry 2: its name and attributes have more than 64 KiB";
+            assert!(refused.contains(words), "{kind:?}: {refused}");
+            assert_eq!(fs::read_dir(above.path()).unwrap().count(), 1);
+            // The content of a file left out is no header.
+            let large = vec![b'x'; 8 << 20];
+            let other = ("notes.txt", EntryType::Regular, large.as_slice());
+            archive(
+                &path,
+                &[RUN, other, ("long", kind, &content(4 << 10)), file],
+            );
+            fs::remove_dir_all(DEFAULT.folder(&path).unwrap()).unwrap();
+        }
     }
 
     #[test]

@@ -69,6 +69,12 @@ pub(crate) fn for_reading(path: &Path, patience: Duration) -> Result<Connection,
 
 fn open(path: &Path, flags: OpenFlags, patience: Duration) -> Result<Connection, HistoryError> {
     let wrong = HistoryError::database(path);
+    // Opening a pipe waits until another process writes to it.
+    if fs::metadata(path).is_ok_and(|found| !found.is_file()) {
+        return Err(HistoryError::Other {
+            path: path.to_owned(),
+        });
+    }
     let connection = Connection::open_with_flags(path, flags | OpenFlags::SQLITE_OPEN_NO_MUTEX)
         .map_err(&wrong)?;
     connection.busy_timeout(patience).map_err(&wrong)?;

@@ -9,10 +9,10 @@ use crate::dates::ReleaseDates;
 use crate::digest::Digesting;
 use crate::error::HistoryError;
 use crate::new_run::NewRun;
-use etalon_record::{BENCH_FILE, RUN_FILE, VERSIONS_FILE};
+use etalon_record::{BENCH_FILE, RUN_FILE, VERSIONS_FILE, open_below};
 use flate2::read::MultiGzDecoder;
 use serde_json::{Map, Value};
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
@@ -44,12 +44,16 @@ fn in_folder(folder: &Path) -> Result<PathBuf, HistoryError> {
     let plain = [BENCH_FILE, RUN_FILE, VERSIONS_FILE];
     let packed = plain.map(|name| format!("{name}.gz"));
     let names = plain.into_iter().chain(packed.iter().map(String::as_str));
-    let mut paths = names.map(|name| folder.join(name));
-    paths
-        .find(|path| path.is_file())
-        .ok_or_else(|| HistoryError::NoRun {
-            path: folder.to_owned(),
-        })
+    for name in names {
+        let path = folder.join(name);
+        if fs::symlink_metadata(&path).is_ok() {
+            open_below(folder, name)?;
+            return Ok(path);
+        }
+    }
+    Err(HistoryError::NoRun {
+        path: folder.to_owned(),
+    })
 }
 
 /// The content of a file.
@@ -91,6 +95,12 @@ impl What {
 /// Opens a file, compressed or not, and digests its decompressed bytes.
 fn open(path: &Path) -> Result<Digesting<Box<dyn Read>>, HistoryError> {
     let opened = || File::open(path).map_err(HistoryError::io("read", path));
+    // Opening a pipe waits until another process writes to it, and it can be read only once.
+    if fs::metadata(path).is_ok_and(|found| !found.is_file()) {
+        return Err(HistoryError::NoRun {
+            path: path.to_owned(),
+        });
+    }
     let mut begin = Vec::new();
     opened()?
         .take(GZIP.len() as u64)

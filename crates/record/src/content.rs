@@ -5,9 +5,10 @@
 //! other programs' folders can have files with the same names.
 
 use crate::error::RecordError;
-use crate::folder::{FolderKind, open};
+use crate::folder::FolderKind;
 use crate::list::read_list;
 use crate::lock::LOCK_FILE;
+use crate::paths::open_below;
 use serde::de::IgnoredAny;
 use std::collections::{BTreeMap, HashSet};
 use std::fs;
@@ -36,7 +37,7 @@ impl Content {
             Err(e) if e.kind() == ErrorKind::NotFound => return Ok(Self::Empty),
             Err(e) => return Err(RecordError::io("read", folder)(e)),
         };
-        let marked = |kind: &FolderKind| is_marked(&folder.join(kind.file()));
+        let marked = |kind: &FolderKind| is_marked(folder, kind.file());
         if let Some(kind) = FolderKind::ALL.into_iter().find(marked) {
             return Ok(Self::Recorded(kind));
         }
@@ -64,10 +65,17 @@ impl Content {
     /// If the folder holds anything else, or cannot be read.
     pub fn writable(folder: &Path) -> Result<Self, RecordError> {
         match Self::of(folder)? {
-            Self::Other => Err(RecordError::Foreign {
-                path: folder.to_owned(),
-                damaged: FolderKind::of(folder),
-            }),
+            Self::Other => {
+                let damaged = FolderKind::of(folder);
+                let file = damaged.map(|kind| folder.join(kind.file()));
+                Err(match file.filter(|path| path.is_symlink()) {
+                    Some(path) => RecordError::Link { path },
+                    None => RecordError::Foreign {
+                        path: folder.to_owned(),
+                        damaged,
+                    },
+                })
+            }
             content => Ok(content),
         }
     }
@@ -92,16 +100,15 @@ fn is_process(ending: &str) -> bool {
 /// The maximum number of bytes of a header that are read to recognize it.
 const MAX_MARK: u64 = 64 << 20;
 
-/// Returns true if a file begins with a header of etalon: a line with a JSON object that has the key
+/// Returns true if a file of a folder begins with a header of etalon: a line with a JSON object that has the key
 /// `etalon`.
-pub fn is_marked(file: &Path) -> bool {
+pub fn is_marked(folder: &Path, name: &str) -> bool {
     let mut line = Vec::new();
-    let mut read = || {
-        let file = open(file)?.take(MAX_MARK);
-        BufReader::new(file).read_until(b'\n', &mut line)
-    };
-    // Reading a pipe would block.
-    file.is_file() && read().is_ok() && has_key(&line)
+    let read = open_below(folder, name).is_ok_and(|file| {
+        let mut file = BufReader::new(file.take(MAX_MARK));
+        file.read_until(b'\n', &mut line).is_ok()
+    });
+    read && has_key(&line)
 }
 
 /// Returns true if a line is a JSON object with the key `etalon`.

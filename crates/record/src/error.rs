@@ -226,9 +226,10 @@ impl RecordError {
         }
     }
 
-    /// Returns true if a file does not exist.
+    /// Returns true if a file does not exist, or what should be its folder is a file.
     pub(crate) fn is_missing(&self) -> bool {
-        matches!(self, Self::Io { source, .. } if source.kind() == io::ErrorKind::NotFound)
+        use io::ErrorKind::{NotADirectory, NotFound};
+        matches!(self, Self::Io { source, .. } if matches!(source.kind(), NotFound | NotADirectory))
     }
 
     pub(crate) fn serialize(what: &'static str) -> impl FnOnce(serde_json::Error) -> Self {

@@ -1,7 +1,6 @@
 //! The names of the files in a recorded folder, and the folder's kind.
 
-use std::fs::{self, File};
-use std::io;
+use std::fs;
 use std::path::Path;
 
 /// The file of a run folder that holds the header and the records.
@@ -131,18 +130,13 @@ impl FolderKind {
         names.filter(move |name| *name != self.file() && !RECORDED.contains(name))
     }
 
-    /// Returns the kind of a folder, by the file in it; `None` if it holds no such file or is not a folder.
+    /// Returns the kind of a folder, by the file in it; `None` if it holds no such file or is not a folder. A link
+    /// counts as the file, so that an error names it.
     pub fn of(folder: &Path) -> Option<Self> {
         let mut kinds = Self::ALL.into_iter();
-        kinds.find(|kind| folder.join(kind.file()).is_file())
-    }
-}
-
-/// Opens a file of a recorded folder. It must be a regular file: opening a pipe waits until another process writes to it.
-pub(crate) fn open(path: &Path) -> io::Result<File> {
-    if fs::metadata(path)?.is_file() {
-        File::open(path)
-    } else {
-        Err(io::Error::other("it is not a regular file"))
+        kinds.find(|kind| {
+            let found = fs::symlink_metadata(folder.join(kind.file()));
+            found.is_ok_and(|found| found.is_file() || found.is_symlink())
+        })
     }
 }

@@ -5,7 +5,7 @@
 
 use crate::content::Content;
 use crate::error::RecordError;
-use crate::folder::{FolderKind, LIST, LIST_MARK, WORK_FOLDER};
+use crate::folder::{FolderKind, LIST, LIST_MARK, RUN_FILE, WORK_FOLDER};
 use crate::list::read_list;
 use crate::lock::LOCK_FILE;
 use crate::paths::{below, lowest_real};
@@ -16,6 +16,9 @@ use std::fs::{self, File, FileType, OpenOptions};
 use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// More bytes than the list and the header of a new recording have.
+const FIRST_FILES: usize = 1 << 20;
 
 /// A folder that files are written to.
 #[derive(Debug)]
@@ -28,6 +31,8 @@ pub struct OutputFolder {
 struct State {
     /// The paths of the files that etalon wrote, below the folder.
     listed: HashSet<String>,
+    /// True if these paths are in no list yet.
+    is_unlisted: bool,
     /// The list, once a path was added to it.
     list: Option<File>,
     /// Folders that exist and are no links.
@@ -40,14 +45,14 @@ impl OutputFolder {
     /// # Errors
     /// If its list cannot be read.
     pub fn open(folder: &Path) -> Result<Self, RecordError> {
-        let listed = match read_list(folder)? {
-            Some(listed) => listed,
-            None => unlisted::files(folder),
-        };
+        let list = read_list(folder)?;
+        let is_unlisted = list.is_none();
+        let listed = list.unwrap_or_else(|| unlisted::files(folder));
         Ok(Self {
             folder: folder.to_owned(),
             state: Mutex::new(State {
                 listed,
+                is_unlisted,
                 list: None,
                 real: HashSet::new(),
             }),
@@ -268,8 +273,9 @@ impl OutputFolder {
             }
             None => {}
         }
-        if state.listed.insert(name.clone()) || state.list.is_none() {
+        if state.listed.insert(name.clone()) || state.is_unlisted {
             self.append(&mut state, &name)?;
+            state.is_unlisted = false;
         }
         Ok(())
     }
@@ -315,8 +321,34 @@ impl OutputFolder {
     /// file of `kept`. Links and other files stay.
     ///
     /// # Errors
-    /// If a file cannot be removed.
+    /// If a file cannot be removed, or if the disk has no room for the first files of a new recording. Nothing is
+    /// removed then.
     pub fn clear(&self, kept: Option<FolderKind>) -> Result<(), RecordError> {
+        if !self.state().listed.is_empty() {
+            self.check_room()?;
+        }
+        self.remove_listed(kept)
+    }
+
+    /// Checks that the disk has room for a list and a header.
+    fn check_room(&self) -> Result<(), RecordError> {
+        let path = self
+            .folder
+            .join(format!(".{RUN_FILE}.{}", std::process::id()));
+        let written = remove_if_there(&path).and_then(|()| {
+            let mut options = OpenOptions::new();
+            let mut file = options.write(true).create_new(true).open(&path)?;
+            file.write_all(&vec![0; FIRST_FILES])?;
+            // Some file systems allocate late.
+            file.sync_all()
+        });
+        let removed = remove_if_there(&path);
+        written
+            .and(removed)
+            .map_err(RecordError::io("write", &self.folder.join(LIST)))
+    }
+
+    fn remove_listed(&self, kept: Option<FolderKind>) -> Result<(), RecordError> {
         let mut state = self.state();
         let is_mark = |name: &str| FolderKind::ALL.iter().any(|kind| kind.file() == name);
         let (marks, files): (Vec<String>, Vec<String>) =
@@ -358,7 +390,7 @@ impl OutputFolder {
     /// # Errors
     /// If a file cannot be removed.
     pub fn remove_all(&self) -> Result<(), RecordError> {
-        self.clear(None)?;
+        self.remove_listed(None)?;
         for name in [LIST, LOCK_FILE] {
             let path = self.folder.join(name);
             remove_if_there(&path).map_err(RecordError::io("remove", &path))?;
@@ -406,6 +438,7 @@ impl OutputFolder {
             .and_then(|()| fs::rename(&beside, &list))
             .map_err(RecordError::io("write", &list))?;
         state.list = None;
+        state.is_unlisted = false;
         Ok(())
     }
 
@@ -598,6 +631,14 @@ mod tests {
         out.write("junit.xml", b"").unwrap();
         let listed = read_list(folder.path()).unwrap().unwrap();
         assert_eq!(listed.len(), 2, "{listed:?}");
+        // A file that is written again is listed already.
+        let list = text(&folder.path().join(LIST));
+        for _ in 0..2 {
+            let again = OutputFolder::open(folder.path()).unwrap();
+            again.write("junit.xml", b"2").unwrap();
+            again.write("run.jsonl", b"2").unwrap();
+        }
+        assert_eq!(text(&folder.path().join(LIST)), list);
         // A missing line end joins no names.
         let list = text(&folder.path().join(LIST));
         fs::write(folder.path().join(LIST), list.trim_end()).unwrap();

@@ -1,7 +1,7 @@
 //! Reading a run folder.
 
 use crate::error::RecordError;
-use crate::folder::{BESIDE_FILE, RUN_FILE, open};
+use crate::folder::{BESIDE_FILE, RUN_FILE};
 use crate::frame_file::FrameFile;
 use crate::header::{FORMAT, Header};
 use crate::json::without_position;
@@ -11,7 +11,7 @@ use crate::paths::{is_of_record, open_below};
 use crate::record::{MAX_LINE, Record};
 use flate2::read::GzDecoder;
 use std::collections::HashSet;
-use std::io::{ErrorKind, Read};
+use std::io::Read;
 use std::path::Path;
 
 /// A recorded run.
@@ -71,11 +71,11 @@ impl Run {
     /// Like [`Run::read`], and also returns the length of the header and the whole records in bytes.
     pub(crate) fn read_prefix(folder: &Path) -> Result<(Self, u64), RecordError> {
         let path = folder.join(RUN_FILE);
-        let file = open(&path).map_err(|e| match e.kind() {
-            ErrorKind::NotFound => RecordError::NoRun {
+        let file = open_below(folder, RUN_FILE).map_err(|e| match e {
+            e if e.is_missing() => RecordError::NoRun {
                 path: folder.to_owned(),
             },
-            _ => RecordError::io("read", &path)(e),
+            e => e,
         })?;
         let begin = |header| Self {
             header,

@@ -2,9 +2,10 @@
 
 use crate::content::is_marked;
 use crate::folder::FolderKind;
+use crate::paths::open_below;
 use crate::run::Run;
 use std::collections::HashSet;
-use std::fs::{self, File};
+use std::fs;
 use std::io::Read;
 use std::path::Path;
 
@@ -16,7 +17,7 @@ const SCRIPT: &[u8] = b"etalonArea(";
 pub(crate) fn files(folder: &Path) -> HashSet<String> {
     let mut files = HashSet::new();
     for kind in FolderKind::ALL {
-        if is_marked(&folder.join(kind.file())) {
+        if is_marked(folder, kind.file()) {
             let names = kind.names().iter().filter(|name| !name.ends_with('/'));
             files.extend(names.map(|name| (*name).to_owned()));
             if kind == FolderKind::Run {
@@ -48,14 +49,15 @@ fn add_named(folder: &Path, files: &mut HashSet<String>) {
     }
     let scripts = fs::read_dir(folder.join("cases"));
     for entry in scripts.into_iter().flatten().flatten() {
-        if entry.file_type().is_ok_and(|kind| kind.is_file()) && is_script(&entry.path()) {
-            files.insert(format!("cases/{}", entry.file_name().to_string_lossy()));
+        let name = format!("cases/{}", entry.file_name().to_string_lossy());
+        if is_script(folder, &name) {
+            files.insert(name);
         }
     }
 }
 
-fn is_script(path: &Path) -> bool {
+fn is_script(folder: &Path, name: &str) -> bool {
     let mut start = [0; SCRIPT.len()];
-    let read = File::open(path).and_then(|mut file| file.read_exact(&mut start));
-    read.is_ok() && start == SCRIPT
+    let read = open_below(folder, name).is_ok_and(|mut file| file.read_exact(&mut start).is_ok());
+    read && start == SCRIPT
 }

@@ -4,11 +4,12 @@
 //! neighbours if both have the same, and a release in the middle of each such span is drawn to check this.
 
 use crate::error::RecordError;
-use crate::folder::{VERSIONS_FILE, open};
+use crate::folder::VERSIONS_FILE;
 use crate::json::json_line;
 use crate::json_lines::JsonLines;
 use crate::machine::Machine;
 use crate::output_folder::OutputFolder;
+use crate::paths::open_below;
 use crate::standing::Standing;
 use crate::verdict::Verdict;
 use serde::{Deserialize, Serialize};
@@ -143,9 +144,8 @@ impl Versions {
     /// # Errors
     /// If the file does not exist or is damaged.
     pub fn read(folder: &Path) -> Result<Self, RecordError> {
-        let path = folder.join(VERSIONS_FILE);
-        let file = open(&path).map_err(RecordError::io("open", &path))?;
-        Self::parse(&path, file)
+        let file = open_below(folder, VERSIONS_FILE)?;
+        Self::parse(&folder.join(VERSIONS_FILE), file)
     }
 
     /// Reads the lines of such a file from any source. Errors name `path`.

@@ -42,25 +42,17 @@ fn check(to: &Path, kind: &Kind, replace: bool) -> Result<(), ReportError> {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
         Err(error) => return Err(unread(error)),
     }
-    let file = to.join(kind.mark);
-    if !is_marked(&file) {
+    if !is_marked(to, kind.mark) {
         let kind = kind.names[1];
         return Err(ReportError::Occupied { path, kind });
     }
-    let text = fs::read(&file).map_err(&unread)?;
-    let value: Value = serde_json::from_slice(&text).unwrap_or_default();
-    let listed = value["files"].as_array();
-    let listed: Option<HashSet<&str>> =
-        listed.map(|files| files.iter().filter_map(Value::as_str).collect());
-    // Earlier versions listed no files, so any of them can be somebody else's.
-    let is_listed = |path: &Path| {
-        let name = path.to_string_lossy();
-        listed.as_ref().is_some_and(|files| files.contains(&*name))
-    };
+    let listed = listed(to, kind).map_err(&unread)?;
     let mut paths = Vec::new();
     files(to, Path::new(""), &mut paths).map_err(&unread)?;
     paths.sort_unstable();
-    let foreign = |path: &PathBuf| path.as_os_str() != kind.mark && !is_listed(path);
+    let foreign = |path: &PathBuf| {
+        path.as_os_str() != kind.mark && !listed.contains(&*path.to_string_lossy())
+    };
     match paths.into_iter().find(foreign) {
         _ if !replace => Err(ReportError::HasPages {
             path,
@@ -71,6 +63,73 @@ fn check(to: &Path, kind: &Kind, replace: bool) -> Result<(), ReportError> {
             kind: kind.names[0],
         }),
         None => Ok(()),
+    }
+}
+
+/// Returns the files that the marking file of a folder lists. Earlier versions listed none, so any of the folder's can
+/// be somebody else's.
+fn listed(folder: &Path, kind: &Kind) -> io::Result<HashSet<String>> {
+    let text = fs::read(folder.join(kind.mark))?;
+    let value: Value = serde_json::from_slice(&text).unwrap_or_default();
+    let names = value["files"].as_array().into_iter().flatten();
+    Ok(names.filter_map(Value::as_str).map(str::to_owned).collect())
+}
+
+/// Removes a folder with the files that it lists; other files stay, with their folders. The marking file is removed
+/// last, so that the next process can go on if this one is killed.
+fn remove(folder: &Path, kind: &Kind) -> io::Result<()> {
+    if !is_marked(folder, kind.mark) {
+        return fs::remove_dir(folder);
+    }
+    let listed = listed(folder, kind)?;
+    let mut paths = Vec::new();
+    files(folder, Path::new(""), &mut paths)?;
+    let mut folders = BTreeSet::new();
+    for path in &paths {
+        folders.extend(path.ancestors().skip(1).map(Path::to_owned));
+        if listed.contains(&*path.to_string_lossy()) {
+            fs::remove_file(folder.join(path))?;
+        }
+    }
+    // What is below a folder sorts behind it.
+    for below in folders
+        .iter()
+        .rev()
+        .filter(|path| !path.as_os_str().is_empty())
+    {
+        // A folder with another file stays.
+        let _ = fs::remove_dir(folder.join(below));
+    }
+    fs::remove_file(folder.join(kind.mark))?;
+    fs::remove_dir(folder)
+}
+
+/// Returns a path beside another at which there is nothing: `.NAME.ending`, or with a number.
+fn beside(to: &Path, ending: &str) -> PathBuf {
+    let name = to.file_name().unwrap_or_default().to_string_lossy();
+    let first = to.with_file_name(format!(".{name}.{ending}"));
+    let more = (2..).map(|number| to.with_file_name(format!(".{name}.{ending}-{number}")));
+    let mut paths = std::iter::once(first.clone()).chain(more);
+    paths
+        .find(|path| fs::symlink_metadata(path).is_err())
+        .unwrap_or(first)
+}
+
+/// The ending of the name under which the earlier folder is kept until the new one is in its place.
+const OLD: &str = "old";
+
+/// Ends what a killed process began: puts an earlier folder back, or removes what is left of it.
+fn recover(to: &Path, kind: &Kind) -> Result<(), ReportError> {
+    let name = to.file_name().unwrap_or_default().to_string_lossy();
+    let old = to.with_file_name(format!(".{name}.{OLD}"));
+    if !is_marked(&old, kind.mark) {
+        Ok(())
+    } else if fs::symlink_metadata(to).is_err() {
+        fs::rename(&old, to).map_err(ReportError::unwritten(to))
+    } else {
+        // A file of somebody else in it stays.
+        let _ = remove(&old, kind);
+        Ok(())
     }
 }
 
@@ -149,18 +208,18 @@ impl Staged {
         } else {
             to
         };
-        check(to, kind, replace)?;
-        let Some(name) = to.file_name() else {
+        if to.file_name().is_none() {
             return Err(ReportError::NoFile {
                 path: to.to_owned(),
             });
-        };
-        let hidden = format!(".{}.{}", name.to_string_lossy(), std::process::id());
+        }
+        recover(to, kind)?;
+        check(to, kind, replace)?;
         Ok(Self {
             kind,
             replace,
             to: to.to_owned(),
-            beside: to.with_file_name(hidden),
+            beside: beside(to, &std::process::id().to_string()),
             written: Mutex::default(),
         })
     }
@@ -206,7 +265,7 @@ impl Staged {
         self.write("index.html", start)?;
         about["files"] = json!(self.written().names);
         self.write(self.kind.mark, about.to_string().as_bytes())?;
-        let old = self.beside.with_extension("old");
+        let old = beside(&self.to, OLD);
         let replaces = self.to.exists();
         if replaces {
             // A file can have come since the beginning.
@@ -225,7 +284,7 @@ impl Staged {
             return Err(ReportError::unwritten(&self.to)(source));
         }
         if replaces {
-            fs::remove_dir_all(&old).map_err(ReportError::unwritten(&old))?;
+            remove(&old, self.kind).map_err(ReportError::unwritten(&old))?;
         }
         let written = self.written();
         Ok(WrittenFolder {

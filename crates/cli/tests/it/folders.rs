@@ -1,7 +1,7 @@
 //! What a command finds in its output folder: foreign files stay unchanged.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
-use crate::etalon::etalon;
+use crate::etalon::{BINARY, REMOVED, etalon};
 use predicates::str::contains;
 use serde_json::json;
 use std::collections::BTreeMap;
@@ -587,5 +587,42 @@ fn a_page_of_a_comparison_replaces_only_such_a_page() {
         std::os::unix::fs::symlink("other.html", &page).unwrap();
         diff().assert().code(64);
         assert!(page.is_symlink());
+    }
+}
+
+/// What a full disk does, too.
+#[cfg(unix)]
+#[test]
+fn a_command_that_cannot_write_its_first_file_removes_nothing() {
+    let work = tempfile::tempdir().unwrap();
+    let run = work.path().join("run");
+    etalon(&[
+        "run",
+        CASE,
+        "--adapter",
+        "gl:softpipe",
+        "--expect-only",
+        "--out",
+    ])
+    .arg(&run)
+    .assert()
+    .code(1);
+    let before = files(&run);
+    let out = run.to_str().unwrap();
+    for words in [
+        format!("run {CASE} --adapter cpu --force --out {out}"),
+        format!("bench perf/matrix/clear/* --rounds 1 --adapter cpu --force --out {out}"),
+        format!("fuzz --adapter cpu --count 1 --force --out {out}"),
+        format!("mutants cull/* --case {CASE} --force --out {out}"),
+    ] {
+        let script = format!("ulimit -f 0; exec \"$0\" {words}");
+        let mut command = std::process::Command::new("bash");
+        for name in REMOVED {
+            command.env_remove(name);
+        }
+        let output = command.args(["-c", &script, BINARY]).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(3), "{words}: {said}");
+        assert!(files(&run) == before, "{words}: {said}");
     }
 }

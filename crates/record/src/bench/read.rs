@@ -5,10 +5,11 @@ use super::header::{BENCH_FORMAT, BenchHeader};
 use super::line::{BenchLine, Done, Ended, Picture, Round};
 use super::record::BenchRecord;
 use crate::error::RecordError;
-use crate::folder::{BENCH_FILE, open};
+use crate::folder::BENCH_FILE;
 use crate::json_lines::JsonLines;
+use crate::paths::open_below;
 use std::collections::HashMap;
-use std::io::{ErrorKind, Read};
+use std::io::Read;
 use std::path::Path;
 
 /// A recorded bench.
@@ -40,11 +41,11 @@ impl Bench {
     /// [`Bench::read`], with the number of bytes that the header and the whole lines take.
     pub(crate) fn read_prefix(folder: &Path) -> Result<(Self, u64), RecordError> {
         let path = folder.join(BENCH_FILE);
-        let file = open(&path).map_err(|e| match e.kind() {
-            ErrorKind::NotFound | ErrorKind::NotADirectory => RecordError::NoBench {
+        let file = open_below(folder, BENCH_FILE).map_err(|e| match e {
+            e if e.is_missing() => RecordError::NoBench {
                 path: folder.to_owned(),
             },
-            _ => RecordError::io("read", &path)(e),
+            e => e,
         })?;
         Self::parse_prefix(&path, file)
     }

@@ -5,10 +5,12 @@ use etalon_frame::{
     DepthTest, Distance, Effect, ErrorKind, Event, Limits, Origin, Rejection, SceneName, Step,
     Story, TexelCounts, ToldLine, ValueRange, WrongTexel,
 };
+use etalon_record::beside;
 use etalon_record::{
-    AdapterRecord, Assertion, Expected, FORMAT, FrameFile, FrameImage, Header, LossKind, MAX_LINE,
-    MAX_WRONG_TEXELS, Machine, Measured, OutputFolder, Parameter, ProcessEnd, Record, RecordError,
-    Run, RunWriter, Seconds, Settings, Shard, Times, Verdict, read_cases, selection_digest,
+    AdapterRecord, Assertion, Bench, Content, Dead, Expected, FORMAT, FolderKind, FrameFile,
+    FrameImage, Header, Hunt, LossKind, MAX_LINE, MAX_WRONG_TEXELS, Machine, Measured,
+    OutputFolder, Parameter, ProcessEnd, Record, RecordError, Run, RunWriter, Seconds, Settings,
+    Shard, Times, Verdict, Versions, read_cases, selection_digest,
 };
 use proptest::prelude::*;
 use std::fs;
@@ -662,4 +664,48 @@ fn a_broken_header_is_no_line_to_remove() {
         error.contains("run.jsonl:2: ") && error.contains("remove the line"),
         "{error}"
     );
+}
+
+/// A link in a folder from somebody else can lead to any file of the machine.
+#[cfg(unix)]
+#[test]
+fn no_file_of_a_folder_is_read_through_a_link() {
+    type Reading = fn(&Path) -> Option<RecordError>;
+    let readings: [(&str, Reading); 7] = [
+        ("run.jsonl", |folder| Run::read(folder).err()),
+        ("bench.jsonl", |folder| Bench::read(folder).err()),
+        ("versions.jsonl", |folder| Versions::read(folder).err()),
+        ("mutants.json", |folder| Hunt::read(folder).err()),
+        ("cases.txt", |folder| read_cases(folder, &header()).err()),
+        ("dead-expectations.json", |folder| Dead::read(folder).err()),
+        ("beside.json", |folder| beside::read(folder).err()),
+    ];
+    let work = tempfile::tempdir().unwrap();
+    let secret = work.path().join("secret");
+    for (name, read) in readings {
+        let folder = work.path().join(format!("folder-{name}"));
+        fs::create_dir(&folder).unwrap();
+        let path = folder.join(name);
+        std::os::unix::fs::symlink(&secret, &path).unwrap();
+        for text in [None, Some("{\"format\":1,\"etalon\":\"1\"}\n")] {
+            if let Some(text) = text {
+                fs::write(&secret, text).unwrap();
+            }
+            let refused = read(&folder).unwrap();
+            let said = refused.to_string();
+            let is_named =
+                matches!(&refused, RecordError::Irregular { path: named } if *named == path);
+            assert!(
+                is_named && said.contains("put the file itself there"),
+                "{name}: {said}"
+            );
+        }
+        // Neither is its folder recognized as one of etalon, but the link is what is named.
+        if let Some(kind) = FolderKind::of(&folder) {
+            assert_eq!(kind.file(), name);
+            let refused = Content::writable(&folder).unwrap_err();
+            assert!(matches!(refused, RecordError::Link { .. }), "{refused}");
+        }
+        fs::remove_file(&secret).unwrap();
+    }
 }

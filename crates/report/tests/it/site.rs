@@ -157,6 +157,53 @@ fn a_site_replaces_nothing_but_a_site() {
 }
 
 #[test]
+fn what_a_killed_process_left_beside_a_site_blocks_no_other() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let (run, site, old) = (path("run"), path("site"), path(".site.old"));
+    fs::create_dir(&run).unwrap();
+    made::write(&run);
+    let write = |force| write_site(&site, &[run.clone()], None, &|_, _| None, force);
+    write(false).unwrap();
+    let whole = files(&site);
+    let pid = std::process::id().to_string();
+    // Killed before the new site was renamed.
+    fs::rename(&site, &old).unwrap();
+    let refused = write(false).unwrap_err().to_string();
+    assert!(refused.contains("--force replaces it"), "{refused}");
+    assert_eq!(files(&site), whole);
+    // Killed while the old site was removed; an unfinished site of a process with the same id.
+    copy(&site, &old);
+    fs::remove_file(old.join("index.html")).unwrap();
+    fs::create_dir(path(&format!(".site.{pid}"))).unwrap();
+    fs::write(path(&format!(".site.{pid}/half.js")), "half").unwrap();
+    write(true).unwrap();
+    assert!(!old.exists());
+    assert_eq!(files(&site), whole);
+    // What somebody else has under this name stays.
+    for mine in ["notes.txt", SITE_FILE] {
+        fs::create_dir(&old).unwrap();
+        fs::write(old.join(mine), "mine").unwrap();
+        write(true).unwrap();
+        assert_eq!(fs::read_to_string(old.join(mine)).unwrap(), "mine");
+        fs::remove_dir_all(&old).unwrap();
+    }
+    copy(&site, &old);
+    fs::write(old.join("runs/run/notes.txt"), "mine").unwrap();
+    write(true).unwrap();
+    assert_eq!(files(&old), BTreeSet::from(["runs/run/notes.txt".into()]));
+    assert_eq!(files(&site), whole);
+}
+
+fn copy(from: &Path, to: &Path) {
+    for name in files(from) {
+        let path = to.join(&name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::copy(from.join(name), path).unwrap();
+    }
+}
+
+#[test]
 fn a_site_has_nothing_that_it_did_not_make() {
     let folder = tempfile::tempdir().unwrap();
     let run = folder.path().join("run");
