@@ -64,7 +64,7 @@ pub use bench::{
     Time, cell,
 };
 pub use change::{CaseResult, Change};
-pub use content::{Content, is_marked, overlap};
+pub use content::{Content, check_folder, is_marked, overlap};
 pub use dead::{Dead, DeadKind};
 pub use driver_version::version_of;
 pub use error::RecordError;

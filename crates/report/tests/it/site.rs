@@ -163,7 +163,7 @@ fn what_a_killed_process_left_beside_a_site_blocks_no_other() {
     let (run, site, old) = (path("run"), path("site"), path(".site.old"));
     fs::create_dir(&run).unwrap();
     made::write(&run);
-    let write = |force| write_site(&site, &[run.clone()], None, &|_, _| None, force);
+    let write = |force| write_site(&site, std::slice::from_ref(&run), None, &|_, _| None, force);
     write(false).unwrap();
     let whole = files(&site);
     let pid = std::process::id().to_string();
