@@ -67,6 +67,6 @@ mod tests {
         empty(&new).unwrap();
         fs::write(new.join("x"), "").unwrap();
         assert!(matches!(empty(&new), Err(ExportError::NotEmpty { .. })));
-        assert!(matches!(empty(&new.join("x")), Err(ExportError::Io { .. })));
+        assert!(matches!(empty(&new.join("x")), Err(ExportError::Folder(_))));
     }
 }
