@@ -3,7 +3,7 @@
 use crate::cases::ids;
 use crate::expectations::{today, write};
 use crate::failure::Failure;
-use crate::named_files::replace;
+use crate::named_files::{check_file, replace};
 use crate::output::say;
 use etalon_diagnose::Blessing;
 use etalon_record::{Expectations, Run, Source};
@@ -26,7 +26,12 @@ pub(crate) fn to_bless(named: &[PathBuf]) -> Result<PathBuf, Failure> {
         ));
     }
     match named {
-        [path] => Ok(path.clone()),
+        [path] => {
+            if !path.is_dir() {
+                check_file(path)?;
+            }
+            Ok(path.clone())
+        }
         [_, ..] => Err(Failure::usage(
             "--bless writes one list or folder; name it with one --expect",
         )),

@@ -82,6 +82,6 @@ pub(crate) fn failure(error: HistoryError) -> Failure {
         HistoryError::Busy { .. } | HistoryError::Full { .. } | HistoryError::Database { .. } => {
             Failure::incomplete(error)
         }
-        _ => Failure::usage(error),
+        _ => Failure::of(error),
     }
 }

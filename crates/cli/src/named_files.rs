@@ -1,6 +1,7 @@
 //! Files that a command adds to a folder, which can hold other files.
 
 use crate::failure::Failure;
+use etalon_record::check_folder;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -21,6 +22,7 @@ impl NamedFiles<'_> {
         self,
         names: impl IntoIterator<Item = N>,
     ) -> Result<(), Failure> {
+        check_folder(self.folder).map_err(Failure::usage)?;
         for name in names {
             let path = self.folder.join(name);
             let shown = path.display();
@@ -65,6 +67,7 @@ impl NamedFiles<'_> {
 pub(crate) fn check_page(path: &Path) -> Result<(), Failure> {
     /// A part of every page's last line.
     const MADE: &[u8] = b"Made by etalon from ";
+    check_file(path)?;
     let Ok(found) = fs::symlink_metadata(path) else {
         return Ok(());
     };
@@ -80,14 +83,43 @@ pub(crate) fn check_page(path: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Checks that a file that the user named can be written. A regular file, or a link to one, can be replaced; a new file
+/// needs a folder. Writes nothing.
+///
+/// # Errors
+/// If something else is there.
+pub(crate) fn check_file(path: &Path) -> Result<(), Failure> {
+    let shown = path.display();
+    let folder = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
+    Err(Failure::usage(match fs::metadata(path) {
+        // Renaming a file to the place of a device or a pipe would remove that.
+        Ok(found) if !found.is_file() => {
+            format!("{shown} is no regular file; name another file")
+        }
+        Ok(_) => return Ok(()),
+        Err(_) if path.is_symlink() => {
+            format!("{shown} is a link that leads nowhere; remove it, or name another file")
+        }
+        Err(_) => match folder {
+            Some(folder) if !folder.is_dir() => format!(
+                "{shown} cannot be written: {} is no folder; make it, or name another file",
+                folder.display()
+            ),
+            _ => return Ok(()),
+        },
+    }))
+}
+
 /// Writes a file that the user named. A reader sees the old file or the new one. A link stays a link: its target
 /// is replaced.
 ///
 /// # Errors
 /// If the system refuses.
 pub(crate) fn replace(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let failed =
-        |e: std::io::Error| Failure::incomplete(format!("cannot write {}: {e}", path.display()));
+    check_file(path)?;
+    let failed = |e: std::io::Error| Failure::of_file("write", path, &e);
     let target = if path.is_symlink() {
         fs::canonicalize(path).map_err(failed)?
     } else {

@@ -44,7 +44,7 @@ pub fn bless(
     let mut better = vec![0_u64; expectations.all().len()];
     let mut worse = vec![0_u64; expectations.all().len()];
     let mut new = Vec::new();
-    for record in &run.records {
+    for record in run.all_records() {
         let Some(adapter) = run.header.adapter(&record.adapter) else {
             continue;
         };
@@ -60,7 +60,7 @@ pub fn bless(
         }
         // If its round trip is recorded, the case is expected as soon as the round trip is.
         let follows = record.blocked_by.iter().any(|id| {
-            let mut records = run.records.iter();
+            let mut records = run.all_records();
             records.any(|r| r.adapter == record.adapter && r.case == *id)
         });
         if !record.verdict.is_bad() {
@@ -167,8 +167,7 @@ fn findings(new: &[(&Record, Entry)], run: &Run, today: &str) -> Vec<(String, Fi
             .first()
             .map_or("", |(record, _)| record.adapter.as_str());
         let on_adapter = run
-            .records
-            .iter()
+            .all_records()
             .filter(|r| r.adapter == name && r.parts().file() == file);
         let drawn =
             on_adapter.filter(|r| !matches!(r.verdict, Verdict::NotSupported | Verdict::Skipped));

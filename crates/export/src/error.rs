@@ -1,6 +1,7 @@
 //! Errors of exports.
 
 use etalon_history::HistoryError;
+use etalon_record::RecordError;
 use parquet::errors::ParquetError;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -24,6 +25,9 @@ pub enum ExportError {
         /// The folder.
         path: PathBuf,
     },
+    /// The folder cannot be made.
+    #[error(transparent)]
+    Folder(#[from] RecordError),
     /// The system refused to write.
     #[error("cannot write {}: {source}; free space or name another folder", path.display())]
     Io {

@@ -1,6 +1,7 @@
 //! The folder of an export, and the names in it.
 
 use crate::error::ExportError;
+use etalon_record::check_folder;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
@@ -11,6 +12,7 @@ const LONGEST: usize = 180;
 
 /// Creates the folder of an export. An existing folder must be empty.
 pub(crate) fn empty(path: &Path) -> Result<(), ExportError> {
+    check_folder(path)?;
     fs::create_dir_all(path).map_err(ExportError::io(path))?;
     let mut entries = fs::read_dir(path).map_err(ExportError::io(path))?;
     match entries.next() {
@@ -65,6 +67,6 @@ mod tests {
         empty(&new).unwrap();
         fs::write(new.join("x"), "").unwrap();
         assert!(matches!(empty(&new), Err(ExportError::NotEmpty { .. })));
-        assert!(matches!(empty(&new.join("x")), Err(ExportError::Io { .. })));
+        assert!(matches!(empty(&new.join("x")), Err(ExportError::Folder(_))));
     }
 }

@@ -7,8 +7,9 @@
 
 use crate::error::HistoryError;
 use crate::schema::{self, Found, MIGRATIONS, SCHEMA};
+use etalon_record::check_folder;
 use rusqlite::{Connection, OpenFlags};
-use std::fs;
+use std::fs::{self, File};
 use std::path::Path;
 use std::time::Duration;
 
@@ -20,11 +21,18 @@ const CACHE_KIB: i64 = 256 << 10;
 
 /// Opens a file for writing, and creates it if it does not exist.
 pub(crate) fn for_writing(path: &Path, patience: Duration) -> Result<Connection, HistoryError> {
+    check_folder(path.parent().unwrap_or(path))?;
     if let Some(folder) = path.parent().filter(|f| !f.as_os_str().is_empty()) {
         fs::create_dir_all(folder).map_err(HistoryError::io("create", folder))?;
     }
-    let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_CREATE;
-    let mut connection = open(path, flags, patience)?;
+    // SQLite does not say why it cannot create a file.
+    check_folder(path.parent().unwrap_or(path))?;
+    if !path.try_exists().unwrap_or(false) {
+        let mut options = File::options();
+        let created = options.append(true).create(true).open(path);
+        created.map_err(HistoryError::io("create", path))?;
+    }
+    let mut connection = open(path, OpenFlags::SQLITE_OPEN_READ_WRITE, patience)?;
     schema::migrate(path, &mut connection, &MIGRATIONS)?;
     let set = |name: &str, value: i64| {
         connection
@@ -39,7 +47,8 @@ pub(crate) fn for_writing(path: &Path, patience: Duration) -> Result<Connection,
 
 /// Opens a file for reading. An older schema is migrated first, which needs permission to write.
 pub(crate) fn for_reading(path: &Path, patience: Duration) -> Result<Connection, HistoryError> {
-    if !path.try_exists().unwrap_or(true) {
+    check_folder(path.parent().unwrap_or(path))?;
+    if !path.try_exists().map_err(HistoryError::io("read", path))? {
         return Err(HistoryError::None {
             path: path.to_owned(),
         });

@@ -32,6 +32,7 @@ impl Content {
     /// # Errors
     /// If it cannot be read.
     pub fn of(folder: &Path) -> Result<Self, RecordError> {
+        check_folder(folder)?;
         let mut entries = match fs::read_dir(folder) {
             Ok(entries) => entries,
             Err(e) if e.kind() == ErrorKind::NotFound => return Ok(Self::Empty),
@@ -78,6 +79,24 @@ impl Content {
             }
             content => Ok(content),
         }
+    }
+}
+
+/// Checks that a path is a folder, or that one can be made there.
+///
+/// # Errors
+/// If the path, or what it is in, is a file or a link that leads nowhere.
+pub fn check_folder(path: &Path) -> Result<(), RecordError> {
+    let mut above = path.ancestors();
+    match above.find(|path| fs::symlink_metadata(path).is_ok()) {
+        Some(path) if !path.is_dir() => {
+            let path = path.to_owned();
+            Err(match fs::metadata(&path) {
+                Ok(_) => RecordError::NoFolder { path },
+                Err(_) => RecordError::DeadLink { path },
+            })
+        }
+        _ => Ok(()),
     }
 }
 

@@ -93,6 +93,18 @@ pub enum RecordError {
         /// The number of rounds that the bench lacks.
         missing: u64,
     },
+    /// A file is in the place of a folder.
+    #[error("{} is no folder; name another", path.display())]
+    NoFolder {
+        /// The path.
+        path: PathBuf,
+    },
+    /// A link that leads nowhere is in the place of a folder or a file.
+    #[error("{} is a link that leads nowhere; remove it, or name another path", path.display())]
+    DeadLink {
+        /// The link.
+        path: PathBuf,
+    },
     /// Another process is writing to the folder.
     #[error(
         "another etalon is writing into {}; wait until it ends, or choose another folder with --out",

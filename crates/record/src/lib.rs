@@ -65,7 +65,7 @@ pub use bench::{
     Time, cell,
 };
 pub use change::{CaseResult, Change};
-pub use content::{Content, is_marked, overlap};
+pub use content::{Content, check_folder, is_marked, overlap};
 pub use dead::{Dead, DeadKind, DeadSearch};
 pub use driver_version::version_of;
 pub use error::RecordError;

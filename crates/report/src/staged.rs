@@ -2,7 +2,7 @@
 
 use crate::error::ReportError;
 use crate::files::Destination;
-use etalon_record::is_marked;
+use etalon_record::{check_folder, is_marked};
 use serde_json::{Value, json};
 use std::collections::{BTreeSet, HashSet};
 use std::fs;
@@ -202,6 +202,7 @@ impl Staged {
         kind: &'static Kind,
         replace: bool,
     ) -> Result<Self, ReportError> {
+        check_folder(to)?;
         // A link to a folder stays a link.
         let to = if to.is_symlink() {
             &fs::canonicalize(to).map_err(ReportError::unread(to))?

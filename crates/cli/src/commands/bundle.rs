@@ -26,7 +26,7 @@ use etalon_explore::{Candidate, states};
 use etalon_frame::threads::share;
 use etalon_frame::{ChannelMismatch, Frame, WrongTexel};
 use etalon_judge::{Judge, Judged, judge_texel};
-use etalon_record::{AdapterRecord, Finding, Machine, Record, Source};
+use etalon_record::{AdapterRecord, Finding, Machine, Record, Source, check_folder};
 use etalon_report::{ReducedCase, story_text};
 use etalon_runner::{Launch, Recorded, Worker, smallest};
 use serde_json::{Value, json};
@@ -153,6 +153,7 @@ fn saved(arguments: &Arguments, run: &Path) -> Result<u8, Failure> {
 
 /// Fails if the folder has a bundle of this name that must not be replaced.
 fn free(arguments: &Arguments, name: &str) -> Result<(), Failure> {
+    check_folder(&arguments.out).map_err(Failure::usage)?;
     etalon_bundle::free(&arguments.out, name, arguments.force).map_err(Failure::usage)
 }
 
@@ -279,7 +280,7 @@ impl Bundled<'_> {
         let report = self.report(evidence, program.language, (run, built), &files);
         files.insert(0, File::text("report.md", "the report", report.markdown()));
         let written = etalon_bundle::write(&arguments.out, name, &files, arguments.force)
-            .map_err(Failure::incomplete)?;
+            .map_err(Failure::of)?;
         print(arguments, &report, &written)?;
         Ok(0)
     }

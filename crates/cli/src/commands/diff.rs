@@ -107,7 +107,7 @@ fn of_runs(arguments: &Arguments, folders: [&Path; 2]) -> Result<u8, Failure> {
         return Err(Failure::nothing("neither run holds a record"));
     }
     let page = match &arguments.out {
-        Some(path) => Some(runs::write_page(path, &diff, folders).map_err(Failure::incomplete)?),
+        Some(path) => Some(runs::write_page(path, &diff, folders).map_err(Failure::of)?),
         None => None,
     };
     report(arguments, &diff, page, || {
@@ -151,7 +151,7 @@ fn of_benches(arguments: &Arguments) -> Result<u8, Failure> {
         )));
     }
     let page = match &arguments.out {
-        Some(path) => Some(etalon_report::write_diff(path, &diff).map_err(Failure::incomplete)?),
+        Some(path) => Some(etalon_report::write_diff(path, &diff).map_err(Failure::of)?),
         None => None,
     };
     report(arguments, &diff, page, || {

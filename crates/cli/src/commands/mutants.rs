@@ -3,7 +3,7 @@
 use crate::cases::{build, library};
 use crate::failure::{Failure, UNEXPECTED};
 use crate::flags::{CaseProfile, Format};
-use crate::named_files::replace;
+use crate::named_files::{check_file, replace};
 use crate::out_folder::{Claim, Out};
 use crate::output::{print, print_json, summarize, table_options};
 use crate::processors::processors;
@@ -76,6 +76,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let chosen = chosen(&arguments.globs)?;
     if arguments.list {
         return list(&chosen, arguments.format);
+    }
+    if let Some(path) = &arguments.order {
+        check_file(path)?;
     }
     let claim = Out {
         folder: &arguments.out,

@@ -78,8 +78,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         let png = png.ok_or_else(|| {
             Failure::usage(format!("{} has no picture of a suitable size", case.id))
         })?;
-        fs::write(path, png)
-            .map_err(|e| Failure::usage(format!("cannot write {}: {e}", path.display())))?;
+        fs::write(path, png).map_err(|e| Failure::of_file("write", path, &e))?;
         say!("{}: the rasterizer's picture", path.display());
     }
     Ok(0)

@@ -6,7 +6,7 @@ use crate::output::summarize;
 use crate::saved_run::UnpackArguments;
 use clap::Args;
 use etalon_record::Run;
-use etalon_report::{ReportError, write_site};
+use etalon_report::write_site;
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
@@ -38,10 +38,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         built_in.then(|| catalogue_of(run, None).ok()).flatten()
     };
     let site = write_site(&arguments.to, &folders, page, &cases_of, arguments.force);
-    let site = site.map_err(|error| match error {
-        ReportError::Io { .. } => Failure::incomplete(error),
-        other => Failure::usage(other),
-    })?;
+    let site = site.map_err(Failure::of)?;
     summarize(&format!(
         "Site: {}, {} files, {:.1} MB\n",
         site.html.display(),

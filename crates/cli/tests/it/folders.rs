@@ -626,3 +626,114 @@ fn a_command_that_cannot_write_its_first_file_removes_nothing() {
         assert!(files(&run) == before, "{words}: {said}");
     }
 }
+
+/// What is in the place of an output, each below a new folder.
+#[cfg(unix)]
+fn places(work: &Path) -> Vec<(&'static str, PathBuf)> {
+    let made = |program: &str, path: &Path, more: &[&str]| {
+        let mut command = std::process::Command::new(program);
+        let status = command.arg(path).args(more).status().unwrap();
+        // Only root makes a device; for others, a second pipe is as good.
+        if !status.success() {
+            let status = std::process::Command::new("mkfifo").arg(path).status();
+            assert!(status.unwrap().success());
+        }
+    };
+    let path = |name: &str| work.join(name);
+    fs::write(path("file"), "mine").unwrap();
+    made("mkfifo", &path("pipe"), &[]);
+    made("mknod", &path("device"), &["c", "1", "3"]);
+    std::os::unix::fs::symlink("nowhere", path("dead-link")).unwrap();
+    std::os::unix::fs::symlink("loop", path("loop")).unwrap();
+    vec![
+        ("file", path("file")),
+        ("pipe", path("pipe")),
+        ("device", path("device")),
+        ("dead-link", path("dead-link")),
+        ("loop", path("loop")),
+        ("file", path("file/below")),
+        ("dead-link", path("dead-link/below")),
+        ("/proc/none", "/proc/none".into()),
+    ]
+}
+
+/// The table: each command that writes a folder or a file, and each kind of place where it cannot. Such a place is bad
+/// input, and stays as it is.
+#[cfg(unix)]
+#[test]
+fn a_place_that_cannot_be_written_is_named_as_bad_input_and_stays() {
+    let work = tempfile::tempdir().unwrap();
+    let mut commands = writing(work.path());
+    let path = |name: &str| work.path().join(name).display().to_string();
+    let run = path("run");
+    let file = |arguments: &[&str]| Writing::new("", arguments);
+    let softpipe = ["run", CASE, "--adapter", "gl:softpipe", "--expect-only"];
+    let bless = [
+        "--bless",
+        "--force",
+        "--out",
+        &path("blessed"),
+        "--expect",
+        "OUT",
+    ];
+    let order = [
+        "mutants",
+        "cull/*",
+        "--full",
+        "--case",
+        CASE,
+        "--out",
+        &path("hunt"),
+    ];
+    let files = [
+        file(&["diff", &run, &run, "--out", "OUT"]),
+        file(&[&softpipe[..], &bless].concat()),
+        file(&[&order[..], &["--order", "OUT"]].concat()),
+        file(&["history", "add", &run, "--db", "OUT"]),
+        file(&["history", "show", CASE, "--db", "OUT"]),
+        file(&["report", "OUT"]),
+    ];
+    let first_file = commands.len();
+    commands.extend(files);
+    let places = places(work.path());
+    let kinds = || {
+        let kind = |name: &str| {
+            fs::symlink_metadata(work.path().join(name))
+                .unwrap()
+                .file_type()
+        };
+        ["file", "pipe", "device", "dead-link", "loop"].map(kind)
+    };
+    let before = kinds();
+    for command in &commands {
+        for (name, place) in &places {
+            // A database can be made behind a link, as by SQLite itself; an order of cases replaces a file.
+            let has = |word: &str| command.arguments.iter().any(|argument| argument == word);
+            if has("add") && place.ends_with("dead-link")
+                || has("--order") && place.ends_with("file")
+            {
+                continue;
+            }
+            let (code, said) = command.run(place, false);
+            let what = format!("{:?} into {}: {said}", command.arguments, place.display());
+            assert_eq!(code, 64, "{what}");
+            assert!(said.contains(name), "{what}");
+            let says = ["name ", "remove it", "needs adapter", "makes one"]
+                .iter()
+                .any(|word| said.contains(word));
+            assert!(says || *name == "/proc/none" || *name == "loop", "{what}");
+            assert_eq!(kinds(), before, "{what}");
+        }
+    }
+    assert_eq!(
+        fs::read_to_string(work.path().join("file")).unwrap(),
+        "mine"
+    );
+    assert!(!work.path().join("nowhere").exists());
+    // A folder is made for a folder, but not for a file.
+    let (code, said) = commands[first_file].run(&work.path().join("none/page.html"), false);
+    assert!(
+        code == 64 && said.contains("none is no folder; make it"),
+        "{said}"
+    );
+}

@@ -313,3 +313,29 @@ fn the_reader_of_benches_is_that_of_records() {
     assert_eq!(Bench::read(folder.path()).unwrap().records.len(), 2);
     assert!(Run::read(folder.path()).is_err());
 }
+
+#[cfg(unix)]
+#[test]
+fn no_run_is_read_through_a_link_in_a_folder_and_no_pipe_is_waited_for() {
+    let work = tempfile::tempdir().unwrap();
+    let elsewhere = work.path().join("elsewhere");
+    for name in ["run.jsonl", "run.jsonl.gz"] {
+        let folder = work.path().join(format!("folder-{name}"));
+        fs::create_dir(&folder).unwrap();
+        fs::write(&elsewhere, "{\"format\":3}\n").unwrap();
+        std::os::unix::fs::symlink(&elsewhere, folder.join(name)).unwrap();
+        let said = read(&folder).unwrap_err().to_string();
+        assert!(said.contains("is a link") && said.contains(name), "{said}");
+    }
+    let pipe = work.path().join("pipe");
+    let status = std::process::Command::new("mkfifo").arg(&pipe).status();
+    assert!(status.unwrap().success());
+    let refused = read(&pipe).unwrap_err();
+    assert!(matches!(refused, HistoryError::NoRun { .. }), "{refused}");
+    for opened in [Writer::open(&pipe).err(), History::open_read(&pipe).err()] {
+        assert!(
+            matches!(opened, Some(HistoryError::Other { .. })),
+            "{opened:?}"
+        );
+    }
+}

@@ -70,9 +70,9 @@ fn failure(error: ExportError) -> Failure {
     match error {
         ExportError::History(error) => history_file::failure(error),
         ExportError::NoRuns { .. } => Failure::nothing(error),
-        ExportError::NotEmpty { .. } => Failure::usage(error),
-        ExportError::Io { .. } | ExportError::Json { .. } | ExportError::Table { .. } => {
-            Failure::incomplete(error)
+        ExportError::NotEmpty { .. } | ExportError::Folder(_) | ExportError::Io { .. } => {
+            Failure::of(error)
         }
+        ExportError::Json { .. } | ExportError::Table { .. } => Failure::incomplete(error),
     }
 }

@@ -28,9 +28,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let history = History::open_read(&arguments.database.path()).map_err(failure)?;
     let written = write_history(&history, &labels, &arguments.out, arguments.force);
     let written = written.map_err(|error| match error {
-        ReportError::Io { .. } => Failure::incomplete(error),
         ReportError::History(error) => failure(error),
-        other => Failure::usage(other),
+        other => Failure::of(other),
     })?;
     summarize(&format!(
         "History: {}, {:.2} MB, with {} files of {:.1} MB in all\n",
