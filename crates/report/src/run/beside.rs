@@ -22,8 +22,7 @@ pub(super) fn section(run: &Run) -> Markup {
         @if !records.is_empty() {
             section id="beside" {
                 h2 { "Beside the selected cases" }
-                p { "What an adapter denies although its API's version requires it, and workers that failed after \
-                     their last case." }
+                p { "Workers that failed after their last case." }
                 (table.folded(&records))
             }
         }
