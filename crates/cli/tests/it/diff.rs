@@ -293,8 +293,8 @@ fn other_folders_are_refused() {
             &good,
             &good,
             vec!["--out", "/nowhere/diff.html"],
-            3,
-            "cannot write",
+            64,
+            "is no folder; make it",
         ),
         (&empty, &empty, vec![], 4, "neither run holds a record"),
     ] {
