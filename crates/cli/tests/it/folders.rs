@@ -9,6 +9,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 const CASE: &str = "cull/points/cull=none/front_face=cw";
+/// A run with a failure, so that it has a frame.
+#[cfg(unix)]
+const FAILING: [&str; 5] = ["run", CASE, "--adapter", "gl:softpipe", "--expect-only"];
 
 /// Writes the files of a foreign project.
 fn project(folder: &Path) {
@@ -483,19 +486,7 @@ fn links_in_a_folder_are_neither_written_through_nor_copied() {
     let secret = work.path().join("secret");
     fs::write(&secret, "the secret").unwrap();
     let out = work.path().join("run");
-    let failing = |more: &[&str]| {
-        etalon(&[
-            "run",
-            CASE,
-            "--adapter",
-            "gl:softpipe",
-            "--expect-only",
-            "--out",
-        ])
-        .arg(&out)
-        .args(more)
-        .assert()
-    };
+    let failing = |more: &[&str]| etalon(&FAILING).arg("--out").arg(&out).args(more).assert();
     for name in [
         "index.html",
         "junit.xml",
@@ -596,17 +587,7 @@ fn a_page_of_a_comparison_replaces_only_such_a_page() {
 fn a_command_that_cannot_write_its_first_file_removes_nothing() {
     let work = tempfile::tempdir().unwrap();
     let run = work.path().join("run");
-    etalon(&[
-        "run",
-        CASE,
-        "--adapter",
-        "gl:softpipe",
-        "--expect-only",
-        "--out",
-    ])
-    .arg(&run)
-    .assert()
-    .code(1);
+    etalon(&FAILING).arg("--out").arg(&run).assert().code(1);
     let before = files(&run);
     let out = run.to_str().unwrap();
     for words in [
@@ -667,7 +648,6 @@ fn a_place_that_cannot_be_written_is_named_as_bad_input_and_stays() {
     let path = |name: &str| work.path().join(name).display().to_string();
     let run = path("run");
     let file = |arguments: &[&str]| Writing::new("", arguments);
-    let softpipe = ["run", CASE, "--adapter", "gl:softpipe", "--expect-only"];
     let bless = [
         "--bless",
         "--force",
@@ -687,7 +667,7 @@ fn a_place_that_cannot_be_written_is_named_as_bad_input_and_stays() {
     ];
     let files = [
         file(&["diff", &run, &run, "--out", "OUT"]),
-        file(&[&softpipe[..], &bless].concat()),
+        file(&[&FAILING[..], &bless].concat()),
         file(&[&order[..], &["--order", "OUT"]].concat()),
         file(&["history", "add", &run, "--db", "OUT"]),
         file(&["history", "show", CASE, "--db", "OUT"]),
