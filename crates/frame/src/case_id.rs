@@ -73,7 +73,16 @@ mod tests {
             ),
             ("depth", "depth", "depth", "depth"),
             ("a=b/c", "a=b", "a=b/c", "a=b"),
+            ("found/softpipe", "found", "found/softpipe", "found"),
+            (
+                "perf/matrix/fill/blend=off",
+                "perf",
+                "perf/matrix/fill",
+                "perf/matrix/fill",
+            ),
+            ("ä/ö=1", "ä", "ä", "ä"),
             ("", "", "", ""),
+            ("/", "", "/", ""),
             ("/a=b", "", "", ""),
         ] {
             let parsed = CaseId::new(id);
