@@ -26,7 +26,6 @@ pub(crate) fn for_writing(path: &Path, patience: Duration) -> Result<Connection,
         fs::create_dir_all(folder).map_err(HistoryError::io("create", folder))?;
     }
     // SQLite does not say why it cannot create a file.
-    check_folder(path.parent().unwrap_or(path))?;
     if !path.try_exists().unwrap_or(false) {
         let mut options = File::options();
         let created = options.append(true).create(true).open(path);
