@@ -38,8 +38,7 @@ impl Looks<'_> {
     /// that stay unexpected.
     pub(crate) fn mark(&self, folder: &Path) -> Result<u64, Failure> {
         let mut run = Run::read(folder).map_err(Failure::incomplete)?;
-        let unexpected = |run: &Run| run.all_records().filter(|r| r.unexpected()).count() as u64;
-        if unexpected(&run) == 0 {
+        if run.unexpected() == 0 {
             return Ok(0);
         }
         let records = run.records.iter().filter(|r| r.unexpected());
@@ -65,7 +64,7 @@ impl Looks<'_> {
             }
         }
         run.replace_in(folder).map_err(Failure::incomplete)?;
-        Ok(unexpected(&run))
+        Ok(run.unexpected())
     }
 
     /// Returns the names of the findings that records of an adapter show.

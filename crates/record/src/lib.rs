@@ -91,7 +91,7 @@ pub use output_folder::OutputFolder;
 pub use paths::open_below;
 pub use record::{
     Assertion, Expected, LossKind, MAX_LINE, MAX_VALIDATION, MAX_WRONG_TEXELS, ProcessEnd, Record,
-    Seconds,
+    Seconds, count_unexpected,
 };
 pub use run::Run;
 pub use selection::{read_cases, selection_digest, shard_of};

@@ -7,7 +7,7 @@ use crate::folder::{CASES_FILE, MISSING_FILE};
 use crate::header::{FORMAT, Header, Settings};
 use crate::output_folder::OutputFolder;
 use crate::paths::{check_below, frame_path, open_below};
-use crate::record::Record;
+use crate::record::{Record, count_unexpected};
 use crate::run::Run;
 use crate::selection::read_cases;
 use crate::verdict::Verdict;
@@ -178,7 +178,7 @@ impl Merge {
         writer.sync()?;
         Dead::write(out, &self.dead)?;
         beside::write(out, &self.beside)?;
-        merged.unexpected += self.beside.iter().filter(|r| r.unexpected()).count() as u64;
+        merged.unexpected += count_unexpected(&self.beside);
         if !merged.missing.is_empty() {
             let lines = merged.missing.iter();
             let text: String = lines.map(|(a, c)| format!("{a} {c}\n")).collect();

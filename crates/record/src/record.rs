@@ -270,6 +270,12 @@ impl Record {
     }
 }
 
+/// Returns the number of records that count against the run.
+pub fn count_unexpected<'r>(records: impl IntoIterator<Item = &'r Record>) -> u64 {
+    let unexpected = records.into_iter().filter(|record| record.unexpected());
+    unexpected.count() as u64
+}
+
 impl From<&Record> for CaseResult {
     fn from(record: &Record) -> Self {
         Self {

@@ -8,7 +8,7 @@ use crate::json::without_position;
 use crate::json_file::read_json;
 use crate::json_lines::JsonLines;
 use crate::paths::{is_of_record, open_below};
-use crate::record::{MAX_LINE, Record};
+use crate::record::{MAX_LINE, Record, count_unexpected};
 use flate2::read::GzDecoder;
 use std::collections::HashSet;
 use std::io::Read;
@@ -119,9 +119,14 @@ impl Run {
         self.records.iter().chain(&self.beside)
     }
 
+    /// Returns the number of records that count against the run.
+    pub fn unexpected(&self) -> u64 {
+        count_unexpected(self.all_records())
+    }
+
     /// Returns the number of records beside the selected cases that count against the run.
     pub fn unexpected_beside(&self) -> u64 {
-        self.beside.iter().filter(|r| r.unexpected()).count() as u64
+        count_unexpected(&self.beside)
     }
 
     /// Returns the number of records that this run lacks to be complete.

@@ -53,9 +53,9 @@ pub struct NewsEntry {
 }
 
 impl News {
-    /// The number of records that count against the run.
-    pub fn counted(&self) -> u64 {
-        (self.broken.len() + self.old.len()) as u64
+    /// Returns the number of records that count against the run of these news, also beside its selected cases.
+    pub fn counted(&self, run: &Run) -> u64 {
+        (self.broken.len() + self.old.len()) as u64 + run.unexpected_beside()
     }
 
     /// Returns the run as reports show it: records that triage settled count as expected, with the entry's

@@ -19,10 +19,10 @@ use crate::worker::Worker;
 use etalon_case::Case;
 use etalon_frame::{Limits, WrongTexel};
 use etalon_judge::{Judge, changed_picture};
-use etalon_record::beside;
 use etalon_record::{
     AdapterRecord, BenchHeader, BenchLine, BenchRecord, BenchWriter, CellRate, Done, Ended, Enough,
-    Expectations, InstructionCounter, Picture, Record, RecordError, Round, Time, Verdict, cell,
+    Expectations, InstructionCounter, Picture, Record, RecordError, Round, Time, Verdict, beside,
+    cell, count_unexpected,
 };
 use etalon_stats::{MIN_ROUNDS, is_within, median_interval, quantile};
 pub use instructions::instruction_counter;
@@ -192,20 +192,18 @@ pub fn bench(
         Ok(())
     };
     run(&mut bench).map_err(BenchError::Write)?;
-    let Bench {
-        adapters,
-        mut summary,
-        ..
-    } = bench;
     let mut ends = beside::read(plan.folder).map_err(BenchError::Write)?;
-    for adapter in adapters {
-        let bad_ends = adapter.supervisor.bad_ends();
-        drop(adapter.supervisor);
-        beside::add(&mut ends, bad_ends.take(&adapter.record, plan.expectations));
+    for Adapter {
+        supervisor, record, ..
+    } in &mut bench.adapters
+    {
+        supervisor.stop();
+        let bad_ends = supervisor.bad_ends();
+        beside::add(&mut ends, bad_ends.take(record, plan.expectations));
     }
     beside::write(plan.folder, &ends).map_err(BenchError::Write)?;
-    summary.unexpected += ends.iter().filter(|r| r.unexpected()).count() as u64;
-    Ok(summary)
+    bench.summary.unexpected += count_unexpected(&ends);
+    Ok(bench.summary)
 }
 
 /// An adapter and its worker.

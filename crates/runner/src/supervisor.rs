@@ -104,8 +104,8 @@ impl Supervisor {
     }
 
     /// Returns where it notes how its workers end.
-    pub(crate) fn bad_ends(&self) -> BadEnds {
-        self.bad_ends.clone()
+    pub(crate) fn bad_ends(&self) -> &BadEnds {
+        &self.bad_ends
     }
 
     /// Returns the worker, and starts one if none is running.

@@ -10,10 +10,9 @@ use crate::progress::progress;
 use crate::{expectations, provenance, shard};
 use clap::Args;
 use etalon_case::Case;
-use etalon_record::beside;
 use etalon_record::{
-    BENCH_FORMAT, Bench, BenchHeader, BenchSettings, FolderKind, ProcessorLimits, Shard, cell,
-    selection_digest,
+    BENCH_FORMAT, Bench, BenchHeader, BenchSettings, FolderKind, ProcessorLimits, Shard, beside,
+    cell, selection_digest,
 };
 use etalon_report::WrittenBench;
 use etalon_runner::{BenchError, BenchEvent, BenchPlan, BenchSummary, instruction_counter};

@@ -71,9 +71,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         return Err(Failure::incomplete(holes(&merged, out)));
     }
     arguments.news.tell_how_to_add(out);
-    let unexpected = news.map_or(merged.unexpected, |news| {
-        news.counted() + run.unexpected_beside()
-    });
+    let unexpected = news.map_or(merged.unexpected, |news| news.counted(&run));
     let idle = idle::report(&run);
     Ok(if unexpected > 0 {
         UNEXPECTED

@@ -489,8 +489,7 @@ impl<'a> Results<'a> {
             enough
         });
         let news = self.news.as_ref();
-        let counted = |news: &News| news.counted() + self.run.unexpected_beside();
-        let unexpected = news.map_or(self.summary.unexpected, counted);
+        let unexpected = news.map_or(self.summary.unexpected, |news| news.counted(&self.run));
         let idle = idle::report(&self.run);
         if unexpected > 0 || !asserted || strict && !self.dead.is_empty() {
             UNEXPECTED

@@ -5,12 +5,11 @@ use etalon_frame::{
     DepthTest, Distance, Effect, ErrorKind, Event, Limits, Origin, Rejection, SceneName, Step,
     Story, TexelCounts, ToldLine, ValueRange, WrongTexel,
 };
-use etalon_record::beside;
 use etalon_record::{
     AdapterRecord, Assertion, Bench, Content, Dead, Expected, FORMAT, FolderKind, FrameFile,
     FrameImage, Header, Hunt, LossKind, MAX_LINE, MAX_WRONG_TEXELS, Machine, Measured,
     OutputFolder, Parameter, ProcessEnd, Record, RecordError, Run, RunWriter, Seconds, Settings,
-    Shard, Times, Verdict, Versions, read_cases, selection_digest,
+    Shard, Times, Verdict, Versions, beside, read_cases, selection_digest,
 };
 use proptest::prelude::*;
 use std::fs;

@@ -109,8 +109,7 @@ fn head(text: &mut Text, run: &Run, news: Option<&News>) {
     if let Some(why) = incomplete(run) {
         text.line(&format!("**✗ Incomplete: {why}.**\n"));
     }
-    let unexpected = run.all_records().filter(|r| r.unexpected()).count() as u64;
-    let bad = news.map_or(unexpected, |news| news.counted() + run.unexpected_beside());
+    let bad = news.map_or_else(|| run.unexpected(), |news| news.counted(run));
     if bad > 0 {
         text.line(&format!("**✗ {}.**\n", count(bad, "unexpected record")));
     } else if !run.records.is_empty() {

@@ -100,8 +100,7 @@ pub(crate) fn page(
 }
 
 fn title(run: &Run) -> String {
-    let bad = run.all_records().filter(|r| r.unexpected()).count();
-    match bad {
+    match run.unexpected() {
         0 => format!("etalon {}", run.header.started),
         n => format!("{n} unexpected – etalon {}", run.header.started),
     }

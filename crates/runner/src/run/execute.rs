@@ -10,7 +10,7 @@ use crate::sync::lock;
 use etalon_case::Case;
 use etalon_frame::threads::share;
 use etalon_judge::{Judge, Truths, pictured};
-use etalon_record::{LossKind, Record, RunWriter, beside, selection_digest};
+use etalon_record::{LossKind, Record, RunWriter, beside, count_unexpected, selection_digest};
 use std::collections::{HashMap, HashSet};
 use std::sync::{Mutex, RwLock};
 use std::time::Duration;
@@ -133,7 +133,7 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
         beside::add(&mut beside, queue.bad_ends.take(adapter, expectations));
     }
     beside::write(plan.folder, &beside).map_err(RunError::Write)?;
-    summary.unexpected += beside.iter().filter(|r| r.unexpected()).count() as u64;
+    summary.unexpected += count_unexpected(&beside);
     for queue in &queues {
         let Rechecks { done, left } = queue.rechecks();
         summary.rechecks.done += done;
