@@ -20,6 +20,23 @@ static REQUIRED: LazyLock<Vec<(Case, Vec<Requirement>)>> = LazyLock::new(|| {
         .collect()
 });
 
+/// Returns the records of the cases of `capabilities/required` that an adapter fails without being drawn on, because it
+/// denies what its API's version requires. Cases that the expectations skip are not checked.
+pub fn denials(adapter: &AdapterRecord, expectations: &Expectations) -> Vec<Record> {
+    let limits = &adapter.limits;
+    let denying = REQUIRED.iter().filter(|(_, requirements)| {
+        limits.missing(requirements).is_some() && denied(limits, requirements).is_some()
+    });
+    let checked = denying.filter(|(case, _)| expectations.skips(adapter, &case.id).is_none());
+    let records = checked.map(|(case, _)| {
+        let mut record = Record::new(&case.id, &adapter.name, Verdict::NotSupported);
+        note_requirement(&mut record, case, limits);
+        record.expect(expectations, adapter);
+        record
+    });
+    records.collect()
+}
+
 /// Makes an unsupported case `Blocked` if the adapter lacks nothing for it but what its API's version requires.
 ///
 /// The record names the cases of `capabilities/required` that fail for the same reason, whether they are
@@ -148,6 +165,33 @@ mod tests {
             r#"[{{ "adapter": "*", "driver": "*", "case": "capabilities/required/samples/*",
                 "verdict": "{verdict}", "reason": "one sample", "evidence": "none" }}]"#
         )
+    }
+
+    #[test]
+    fn what_a_version_requires_is_checked_without_drawing() {
+        let none = Expectations::default();
+        let denying = denials(&adapter(), &none);
+        assert!(!denying.is_empty());
+        assert!(
+            denying
+                .iter()
+                .all(|r| r.verdict == Verdict::Fail && r.unexpected())
+        );
+        let ids: Vec<&str> = denying.iter().map(|r| r.case.as_str()).collect();
+        assert!(
+            ids.contains(&"capabilities/required/samples/format=rgba8unorm"),
+            "{ids:?}"
+        );
+        let all = |verdict| entry(verdict).replace("samples/*", "*");
+        let known = Expectations::parse(&all("fail"), Path::new("e.json")).expect("they parse");
+        let known = denials(&adapter(), &known);
+        assert_eq!(known.len(), denying.len());
+        assert!(known.iter().all(|r| r.expected.is_some()));
+        let skipped = Expectations::parse(&all("skipped"), Path::new("e.json"));
+        assert_eq!(denials(&adapter(), &skipped.expect("they parse")), []);
+        let mut whole = adapter();
+        whole.limits = CpuBackend::new("cpu").limits().clone();
+        assert_eq!(denials(&whole, &none), []);
     }
 
     const FOUR: &str = "multisample/mask/mask=first/samples=4";

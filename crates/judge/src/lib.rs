@@ -24,6 +24,7 @@ mod texel;
 mod timing;
 mod undrawn;
 
+pub use denial::denials;
 pub use judge::{Judge, Judged, is_due_to_fail};
 pub use kept::{IMPRECISE_FRAMES, Shown, mark_flaky, note_validation, shorten};
 pub use measure::{Truths, measured};

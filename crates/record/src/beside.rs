@@ -1,4 +1,5 @@
-//! Records of a run beside those of its selected cases: workers that fail after their last case.
+//! Records of a run beside those of its selected cases: what an adapter denies although its API's version requires
+//! it, and workers that fail after their last case.
 //!
 //! Expectations apply to them as to all records, and unexpected ones count against the run.
 

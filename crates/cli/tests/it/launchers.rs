@@ -77,8 +77,8 @@ fn root() -> TempDir {
 #[test]
 fn a_worker_runs_in_a_namespace_of_its_own() {
     let run = run(&json!({
-        "backend": "gl", "launcher": as_root(), "answers": "softpipe", "line": "mesa", "version": "22.3.6",
-        "environment": { "LIBGL_ALWAYS_SOFTWARE": "1", "GALLIUM_DRIVER": "softpipe" },
+        "backend": "gl", "launcher": as_root(), "answers": "llvmpipe", "line": "mesa", "version": "22.3.6",
+        "environment": { "LIBGL_ALWAYS_SOFTWARE": "1", "GALLIUM_DRIVER": "llvmpipe" },
     }));
     let release = Release {
         line: "mesa".to_owned(),
@@ -115,8 +115,8 @@ fn a_worker_runs_by_another_loader() {
 fn a_worker_gets_its_environment_where_the_launcher_drops_it() {
     // Without its variables, a different driver would answer.
     run(&json!({
-        "backend": "gl", "launcher": ["env", "-i"], "answers": "softpipe",
-        "environment": { "LIBGL_ALWAYS_SOFTWARE": "1", "GALLIUM_DRIVER": "softpipe" },
+        "backend": "gl", "launcher": ["env", "-i"], "answers": "llvmpipe",
+        "environment": { "LIBGL_ALWAYS_SOFTWARE": "1", "GALLIUM_DRIVER": "llvmpipe" },
     }));
 }
 
@@ -163,8 +163,8 @@ fn a_worker_runs_behind_a_remote_shell() {
     // Normally the system's daemon makes it.
     let _ = fs::create_dir("/run/sshd");
     let run = run(&json!({
-        "backend": "gl", "launcher": ssh(folder.path()), "answers": "softpipe",
-        "environment": { "LIBGL_ALWAYS_SOFTWARE": "1", "GALLIUM_DRIVER": "softpipe" },
+        "backend": "gl", "launcher": ssh(folder.path()), "answers": "llvmpipe",
+        "environment": { "LIBGL_ALWAYS_SOFTWARE": "1", "GALLIUM_DRIVER": "llvmpipe" },
     }));
     assert_eq!(run.header.adapters[0].release, None);
 }

@@ -184,6 +184,47 @@ fn a_bench_counts_workers_that_fail_after_their_last_case() {
 }
 
 #[test]
+fn what_an_adapter_denies_is_told_whatever_cases_run() {
+    let out = folder();
+    let run = |expect: &[&str], code: i32| {
+        let words = [
+            "run",
+            "cull/points",
+            "--adapter",
+            "gl:softpipe",
+            "--force",
+            "--out",
+        ];
+        etalon(&words)
+            .arg(out.path())
+            .args(expect)
+            .assert()
+            .code(code)
+    };
+    const DENIED: &str = "capabilities/required/samples/format=rgba8unorm";
+    run(&[], 0);
+    let known = Run::read(out.path()).unwrap();
+    assert_eq!(known.unexpected_beside(), 0);
+    assert!(known.beside.iter().any(|r| r.case == DENIED));
+    let page = fs::read_to_string(out.path().join("index.html")).unwrap();
+    assert!(
+        !page.contains("Beside the selected cases") && page.contains("softpipe offers one sample")
+    );
+    run(&["--expect-only"], 1).stdout(contains(DENIED));
+    let page = fs::read_to_string(out.path().join("index.html")).unwrap();
+    assert!(page.contains("Beside the selected cases") && page.contains(DENIED));
+    let junit = fs::read_to_string(out.path().join("junit.xml")).unwrap();
+    assert!(junit.contains(DENIED));
+    // A selected case says it itself.
+    etalon(&["run", "capabilities/required/*", "--profile", "full"])
+        .args(["--adapter", "gl:softpipe", "--force", "--out"])
+        .arg(out.path())
+        .assert()
+        .code(0);
+    assert_eq!(Run::read(out.path()).unwrap().beside, []);
+}
+
+#[test]
 fn a_hang_costs_its_time_and_nothing_else() {
     for fault in ["hang", "spin"] {
         for record in lost(

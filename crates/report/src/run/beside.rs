@@ -22,7 +22,8 @@ pub(super) fn section(run: &Run) -> Markup {
         @if !records.is_empty() {
             section id="beside" {
                 h2 { "Beside the selected cases" }
-                p { "Workers that failed after their last case." }
+                p { "What an adapter denies although its API's version requires it, and workers that failed after \
+                     their last case." }
                 (table.folded(&records))
             }
         }

@@ -9,7 +9,7 @@ use crate::event::Event;
 use crate::sync::lock;
 use etalon_case::Case;
 use etalon_frame::threads::share;
-use etalon_judge::{Judge, Truths, pictured};
+use etalon_judge::{Judge, Truths, denials, pictured};
 use etalon_record::{LossKind, Record, RunWriter, beside, count_unexpected, selection_digest};
 use std::collections::{HashMap, HashSet};
 use std::sync::{Mutex, RwLock};
@@ -61,6 +61,10 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
         writer
     } else {
         RunWriter::create(plan.folder, &plan.header).map_err(RunError::Folder)?
+    };
+    let ids: HashSet<&str> = match plan.selection {
+        Some(ids) => ids.iter().map(String::as_str).collect(),
+        None => selected.keys().copied().collect(),
     };
     if let Some(ids) = plan.selection {
         let ids = || ids.iter().map(String::as_str);
@@ -131,6 +135,10 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
     for queue in &queues {
         let (adapter, expectations) = (&queue.adapter, &queue.expectations);
         beside::add(&mut beside, queue.bad_ends.take(adapter, expectations));
+        let denials = denials(adapter, expectations).into_iter();
+        // The record of a selected case says it already, in this run or in another shard.
+        let unselected = denials.filter(|r| !ids.contains(r.case.as_str()));
+        beside::add(&mut beside, unselected);
     }
     beside::write(plan.folder, &beside).map_err(RunError::Write)?;
     summary.unexpected += count_unexpected(&beside);
