@@ -11,6 +11,7 @@
 )]
 
 mod accuracy;
+mod adapter_name;
 mod api;
 mod band;
 mod case_id;
@@ -43,6 +44,7 @@ mod version;
 mod work;
 
 pub use accuracy::Accuracy;
+pub use adapter_name::AdapterName;
 pub use api::Api;
 pub use band::Band;
 pub use case_id::CaseId;

@@ -1,6 +1,6 @@
 //! The adapters of a run or bench, and the adapters that it could not use.
 
-use etalon_frame::{DeviceOffer, Limits};
+use etalon_frame::{AdapterName, DeviceOffer, Limits};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -58,8 +58,7 @@ impl AdapterRecord {
     /// Returns the name up to an `@`. What follows the `@` names one release of the driver, and
     /// expectations apply to all releases.
     pub fn without_release(&self) -> &str {
-        let (name, _) = self.name.split_once('@').unwrap_or((&self.name, ""));
-        name
+        AdapterName::new(&self.name).without_release()
     }
 
     /// Returns driver and version in one text, which the `driver` globs of expectations match.

@@ -17,6 +17,7 @@ pub use limit::LimitFault;
 pub use process::{FaultyScenes, ProcessFault};
 pub use read::ReadFault;
 
+use etalon_frame::AdapterName;
 use serde::de::value::{Error, StrDeserializer};
 use serde::{Deserialize, Serialize};
 
@@ -39,8 +40,7 @@ pub enum Fault {
 impl Fault {
     /// Splits an adapter's name into the name of its driver and the fault that is planted in it.
     pub fn in_name(name: &str) -> Option<(&str, Self)> {
-        let (driver, fault) = name.rsplit_once(':')?;
-        let (kind, fault) = fault.split_once('=')?;
+        let (driver, kind, fault) = AdapterName::new(name).fault()?;
         let fault = match kind {
             "call-fault" => Self::Call(named(fault)?),
             "read-fault" => Self::Read(named(fault)?),

@@ -13,6 +13,7 @@ use crate::kind::Kind;
 use crate::labels::Labels;
 use crate::new_run::{NewAdapter, NewRun};
 use crate::outcome::Outcome;
+use etalon_frame::AdapterName;
 use etalon_record::{CaseVersions, ReleaseRecord, Verdict, Versions};
 use std::io::Read;
 use std::path::Path;
@@ -56,11 +57,10 @@ pub(super) fn read(
 
 fn adapter(line: &str, release: &ReleaseRecord) -> NewAdapter {
     let name = &release.adapter;
-    let (backend, _) = name.split_once(':').unwrap_or((name, ""));
-    let (timeline, _) = name.split_once('@').unwrap_or((name, ""));
+    let parts = AdapterName::new(name);
     let adapter = Adapter {
         name: name.clone(),
-        backend: backend.to_owned(),
+        backend: parts.backend().to_owned(),
         device: String::new(),
         driver: release.driver.clone(),
         driver_version: release.version.clone(),
@@ -71,7 +71,7 @@ fn adapter(line: &str, release: &ReleaseRecord) -> NewAdapter {
         version: release.version.clone(),
     };
     NewAdapter {
-        timeline: timeline.to_owned(),
+        timeline: parts.without_release().to_owned(),
         ..NewAdapter::new(adapter)
     }
 }

@@ -2,14 +2,14 @@
 
 use crate::numbers::count;
 use crate::table::{Cell, Table};
-use etalon_frame::{Limits, TextureFormat};
+use etalon_frame::{AdapterName, Limits, TextureFormat};
 use etalon_record::{AbsentAdapter, AdapterRecord};
 use maud::{Markup, PreEscaped, html};
 
 /// Returns a name with an optional line break after each colon.
 pub(crate) fn breakable(name: &str) -> Markup {
     html! {
-        @for (i, part) in name.split(':').enumerate() {
+        @for (i, part) in AdapterName::new(name).parts().enumerate() {
             @if i > 0 { ":" (PreEscaped("<wbr>")) }
             (part)
         }

@@ -6,6 +6,7 @@ use crate::page::adapter::breakable;
 use crate::page::link;
 use crate::run::grid::{Grid, Tally};
 use crate::words::{Tone, api_name, name};
+use etalon_frame::AdapterName;
 use etalon_record::Record;
 use maud::{Markup, html};
 
@@ -25,7 +26,8 @@ pub(crate) fn section(grid: &Grid<'_>) -> Markup {
         None => "unknown",
     };
     let by_api = grouped(columns().map(|(column, name)| (api_of(name), column)));
-    let by_driver = grouped(columns().map(|(column, name)| (driver(name), column)));
+    let by_driver =
+        grouped(columns().map(|(column, name)| (AdapterName::new(name).driver(), column)));
     let files = grid.files().count() * grid.adapters.len() <= FILE_CELLS;
     html! {
         section id="matrix" {
@@ -48,13 +50,6 @@ pub(crate) fn section(grid: &Grid<'_>) -> Markup {
             }
         }
     }
-}
-
-/// The driver of an adapter's name, without the API that leads to it, its release and planted faults.
-fn driver(adapter: &str) -> &str {
-    let named = adapter.rsplit(':').find(|part| !part.contains('='));
-    let named = named.unwrap_or(adapter);
-    named.split_once('@').map_or(named, |(driver, _)| driver)
 }
 
 fn table(grid: &Grid<'_>, groups: &[Group<'_>], caption: &str, files: bool) -> Markup {
@@ -171,24 +166,5 @@ fn words(tally: &Tally) -> String {
     match words.collect::<Vec<_>>() {
         none if none.is_empty() => "no record".to_owned(),
         words => words.join(", "),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::driver;
-
-    #[test]
-    fn releases_apis_and_faults_of_a_driver_are_one_driver() {
-        for name in [
-            "vulkan:lavapipe",
-            "wgpu:vulkan:lavapipe",
-            "vulkan:lavapipe@24.1",
-            "vulkan:lavapipe:slower=5%",
-        ] {
-            assert_eq!(driver(name), "lavapipe");
-        }
-        assert_eq!(driver("cpu:fault=abort"), "cpu");
-        assert_eq!(["", ":", "a=b"].map(driver), ["", "", "a=b"]);
     }
 }
