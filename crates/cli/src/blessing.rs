@@ -7,6 +7,7 @@ use crate::named_files::{check_file, replace};
 use crate::output::say;
 use etalon_diagnose::Blessing;
 use etalon_record::{Expectations, Run, Source};
+use etalon_report::message;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -51,7 +52,7 @@ pub(crate) fn bless(
     all_adapters: bool,
 ) -> Result<(), Failure> {
     let ids = ids(cases)?;
-    let blessing = etalon_diagnose::bless(expected, run, &ids, all_adapters, &today());
+    let blessing = etalon_diagnose::bless(expected, run, &ids, all_adapters, &today(), &message);
     let (what, added) = if path.is_dir() {
         write_findings(path, &blessing)?;
         ("findings", blessing.findings.len())

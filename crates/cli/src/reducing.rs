@@ -7,6 +7,7 @@ use crate::flags::{AdapterFileArguments, Format, parse_timeout};
 use clap::Args;
 use etalon_case::build;
 use etalon_explore::Candidate;
+use etalon_report::message;
 use etalon_runner::{Launch, ReductionError, Unconfirmed, Worker};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -145,9 +146,18 @@ impl From<ReductionError> for Failure {
             ReductionError::Passes { .. } => NOTHING,
             ReductionError::Flaky { .. } | ReductionError::Unconfirmed { .. } => UNEXPECTED,
         };
-        Self {
-            code,
-            message: error.to_string(),
-        }
+        let why = match &error {
+            ReductionError::NotSupported { record, .. } => message(record),
+            ReductionError::Passes { record, .. } => match message(record).as_str() {
+                "" => record.verdict.to_string(),
+                words => format!("{}, {words}", record.verdict),
+            },
+            _ => String::new(),
+        };
+        let message = match why.as_str() {
+            "" => error.to_string(),
+            why => format!("{error} ({why})"),
+        };
+        Self { code, message }
     }
 }

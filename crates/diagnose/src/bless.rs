@@ -5,6 +5,7 @@
 
 use crate::condition::Condition;
 use crate::symptom::Symptom;
+use etalon_frame::AdapterName;
 use etalon_record::{
     AdapterRecord, Entry, Evidence, Expectation, Expectations, Finding, Grade, Known, Record, Run,
     Source, Verdict, version_of,
@@ -31,13 +32,14 @@ pub struct Blessing {
 /// Adds an entry for every unexpected verdict of a run, case by case, and removes the entries whose cases
 /// are all better. `ids` are all existing cases, although the run may have drawn only some. `all_adapters`
 /// is true if the run used every adapter found. The reason of a new entry says that it is not explained
-/// yet: people must write the explanation.
+/// yet: people must write the explanation. `message` gives the reasons of a record in words.
 pub fn bless(
     expectations: &Expectations,
     run: &Run,
     ids: &[String],
     all_adapters: bool,
     today: &str,
+    message: &dyn Fn(&Record) -> String,
 ) -> Blessing {
     let mut blessing = Blessing::default();
     let mut drawn: Vec<BTreeSet<&str>> = vec![BTreeSet::new(); expectations.all().len()];
@@ -71,7 +73,7 @@ pub fn bless(
                 Expectation::Agrees(_)
             )
         {
-            new.push((record, entry(record, adapter, run, today)));
+            new.push((record, entry(record, adapter, run, today, message(record))));
         }
     }
     let mut keep = |known: &Known| {
@@ -107,8 +109,14 @@ pub fn bless(
     blessing
 }
 
-fn entry(record: &Record, adapter: &AdapterRecord, run: &Run, today: &str) -> Entry {
-    let seen = match record.message.as_str() {
+fn entry(
+    record: &Record,
+    adapter: &AdapterRecord,
+    run: &Run,
+    today: &str,
+    message: String,
+) -> Entry {
+    let seen = match message.as_str() {
         "" => format!(
             "{} of {} samples wrong",
             record.texels.wrong, record.texels.total
@@ -194,7 +202,8 @@ fn findings(new: &[(&Record, Entry)], run: &Run, today: &str) -> Vec<(String, Fi
         let Some((record, first)) = group.first() else {
             continue;
         };
-        let name = record.adapter.rsplit(':').next().unwrap_or_default();
+        let name = AdapterName::new(&record.adapter).parts().next_back();
+        let name = name.unwrap_or_default();
         found.push((
             slug(&format!("{name} {file} {verdict} {}", kind.text())),
             Finding {
@@ -297,6 +306,7 @@ mod tests {
             &ids(&["a/x=*", "a/y", "a/z"]),
             true,
             "2026-11-22",
+            &|_| String::new(),
         );
         assert_eq!((blessing.added, blessing.entries.len()), (2, 2));
         let text = Expectations::to_text(&blessing.entries).unwrap();
@@ -351,7 +361,10 @@ mod tests {
         ));
         // After blessing, there is nothing left to bless.
         let again = run(&[("a/x=*", Verdict::Fail), ("a/z", Verdict::Flaky)], &after);
-        assert_eq!(bless(&after, &again, &[], true, "d").added, 0);
+        assert_eq!(
+            bless(&after, &again, &[], true, "d", &|_| String::new()).added,
+            0
+        );
     }
 
     #[test]
@@ -362,12 +375,12 @@ mod tests {
             &none,
         );
         seen.records[1].blocked_by = vec!["a/trip".to_owned()];
-        let blessing = bless(&none, &seen, &[], true, "d");
+        let blessing = bless(&none, &seen, &[], true, "d", &|_| String::new());
         let cases: Vec<&str> = blessing.entries.iter().map(|e| e.case.as_str()).collect();
         assert_eq!(cases, ["a/trip"]);
         // If the round trip is not in the run, the case gets its own entry.
         seen.records.remove(0);
-        let blessing = bless(&none, &seen, &[], true, "d");
+        let blessing = bless(&none, &seen, &[], true, "d", &|_| String::new());
         assert_eq!(blessing.entries[0].verdict, Verdict::Blocked);
     }
 
@@ -376,7 +389,9 @@ mod tests {
         let entry = read("a/*");
         let drawn = ids(&["a/1", "a/2", "b/1"]);
         let bless = |verdicts: &[(&str, Verdict)], whole: bool| {
-            let blessing = bless(&entry, &run(verdicts, &entry), &drawn, whole, "d");
+            let blessing = bless(&entry, &run(verdicts, &entry), &drawn, whole, "d", &|_| {
+                String::new()
+            });
             (
                 blessing.removed.len(),
                 blessing.to_narrow.len(),

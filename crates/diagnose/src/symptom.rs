@@ -396,6 +396,7 @@ mod tests {
         Ruling, SceneName, Source, ValueRange, Values, WrongTexel,
     };
     use etalon_frame::{Demand, ResolveChoice};
+    use etalon_record::Reason;
 
     fn event(origin: Origin, step: Step, effect: Effect) -> Event {
         Event {
@@ -561,11 +562,9 @@ mod tests {
         let mut crash = Record::new("a/b", "cpu", Verdict::Crash);
         assert_eq!(Symptom::of(&crash).text(), "");
         crash.process = Some(ProcessEnd {
-            kind: LossKind::Died,
             signal: Some(6),
-            exit: None,
             stderr: "at 0x7ffe".to_owned(),
-            seconds: 1.0,
+            ..ProcessEnd::default()
         });
         let died = Symptom::of(&crash);
         assert_eq!(died.text(), "process died by signal 6");
@@ -581,7 +580,7 @@ mod tests {
             let condition = condition.to_owned();
             let code = None;
             record.error = Some(ErrorKind::Internal { condition, code });
-            record.message = message.to_owned();
+            record.reasons = vec![Reason::Text(message.to_owned())];
             Symptom::of(&record)
         };
         let free = error("a slot is free", "slot 3");
@@ -590,7 +589,7 @@ mod tests {
         assert_eq!(free.clone().broad(), error("b", "").broad());
         assert_eq!(free.to_string(), "a slot is free");
         let mut old = Record::new("a/b", "cpu", Verdict::InternalError);
-        old.message = "slot 3 is free".to_owned();
+        old.reasons = vec![Reason::Text("slot 3 is free".to_owned())];
         assert_eq!(Symptom::of(&old), free.broad());
     }
 

@@ -35,7 +35,7 @@ impl<'a> AdapterName<'a> {
         self.0.split_once('@').map_or(self.0, |(name, _)| name)
     }
 
-    /// Returns the name without its planted fault, the fault's kind and the fault; `None` if there is none.
+    /// Returns the name without its planted fault, the fault's kind and the fault; `None` without a fault.
     pub fn fault(self) -> Option<(&'a str, &'a str, &'a str)> {
         let (name, fault) = self.0.rsplit_once(':')?;
         let (kind, fault) = fault.split_once('=')?;

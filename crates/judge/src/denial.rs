@@ -1,9 +1,9 @@
 //! Cases that cannot be drawn only because an adapter denies what its API's version requires.
 
-use crate::requirement::{note_requirement, version_text};
+use crate::requirement::{denial, note_requirement};
 use etalon_case::{Case, Library};
 use etalon_frame::{Limits, Requirement};
-use etalon_record::{AdapterRecord, Expectations, Expected, Record, Verdict};
+use etalon_record::{AdapterRecord, Expectations, Expected, Reason, Record, Verdict};
 use etalon_reference::rules::required::{denied, only_denied};
 use std::mem::discriminant;
 use std::sync::LazyLock;
@@ -67,17 +67,8 @@ pub(crate) fn note_denial(
     if failing.iter().flatten().any(skipped) {
         return;
     }
-    // Reports group records by their message, so it names no format.
-    let denied = match needed {
-        Requirement::Samples(_, n) => format!("{n} samples per texel"),
-        needed => needed.to_string(),
-    };
     record.verdict = Verdict::Blocked;
-    record.message = format!(
-        "not drawn: the adapter denies {denied}, which {} requires ({})",
-        version_text(limits),
-        required.citation
-    );
+    record.reasons = vec![Reason::BlockedByDenial(denial(limits, *needed, required))];
     record.blocked_by = failing.iter().flatten().map(|c| c.id.clone()).collect();
     let reasons = failing.iter().map(|failing| {
         let case = (*failing)?;
@@ -205,8 +196,11 @@ mod tests {
             ["capabilities/required/samples/format=rgba8unorm"]
         );
         assert_eq!(record.expected, None);
-        let words = "the adapter denies 4 samples per texel, which opengl 3.3 requires";
-        assert!(record.message.contains(words), "{}", record.message);
+        let [Reason::BlockedByDenial(denial)] = &record.reasons[..] else {
+            panic!("{:?}", record.reasons);
+        };
+        assert!(matches!(denial.needed, Requirement::Samples(_, 4)));
+        assert_eq!(denial.version, ApiVersion::new(3, 3));
     }
 
     #[test]

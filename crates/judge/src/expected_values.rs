@@ -2,7 +2,7 @@
 
 use etalon_case::Case;
 use etalon_frame::{Aspect, Band, ChannelMismatch, Frame, LegalSet, WrongTexel};
-use etalon_record::{Record, Verdict};
+use etalon_record::{Reason, Record, Verdict};
 
 /// Compares the case's literal values with the frame and the legal set. A literal outside the legal set is an
 /// error of the reference; a legal frame that differs from the literal is imprecise.
@@ -27,9 +27,11 @@ pub(crate) fn expected_values(case: &Case, frame: &Frame, legal: &LegalSet, reco
                 .is_none_or(|hull| hull.contains(encoding.order_of_code(expected)));
             if !legal_here {
                 record.verdict = Verdict::InternalError;
-                record.message = format!(
-                    "the literal {value} of channel {c} at ({x}, {y}) is outside the legal set"
-                );
+                record.reasons = vec![Reason::IllegalLiteral {
+                    value: *value,
+                    channel: c as u8,
+                    at: expect.texel,
+                }];
                 return;
             }
             let actual = frame.images[index].sample(x, y, 0)[c];
@@ -50,7 +52,7 @@ pub(crate) fn expected_values(case: &Case, frame: &Frame, legal: &LegalSet, reco
                 record.verdict = Verdict::Imprecise;
                 record.texels.imprecise += 1;
             }
-            record.message = format!("texel ({x}, {y}) is not the literal value of the case");
+            record.reasons = vec![Reason::MissedLiteral(expect.texel)];
             record.wrong.push(WrongTexel {
                 x,
                 y,

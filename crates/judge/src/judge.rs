@@ -4,14 +4,14 @@ use crate::expected_values::expected_values;
 use crate::frame_file::frame_file;
 use crate::grade::Grades;
 use crate::judgement_cache::{JudgementCache, judged_scene};
-use crate::line_gap::{gap_message, note_gap, proven_line_gap};
+use crate::line_gap::{gap_reason, note_gap, proven_line_gap};
 use crate::relation::{self, Differences};
 use crate::story;
 use etalon_case::{Case, Relation};
 use etalon_frame::{
     Aspect, AspectStatistics, Band, Comparison, CounterOutcome, Frame, Limits, WrongTexel, compare,
 };
-use etalon_record::{Assertion, FrameFile, MAX_WRONG_TEXELS, Record, Verdict};
+use etalon_record::{Assertion, FrameFile, MAX_WRONG_TEXELS, Reason, Record, Verdict};
 use etalon_reference::{Judgement, Rules, Sample, Sets};
 use etalon_scene::Scene;
 use std::borrow::Cow;
@@ -48,14 +48,14 @@ impl Judge {
             judge_scene(case, adapter, limits, compared)
         });
         for (index, scene) in each.enumerate() {
-            let scene = scene.unwrap_or_else(|message| unjudged(case, adapter, limits, message));
+            let scene = scene.unwrap_or_else(|e| unjudged(case, adapter, limits, Reason::Unfit(e)));
             judged = Some(match judged {
                 None => scene,
                 Some(first) => worse(first, scene, case, index),
             });
         }
         let Some(mut judged) = judged else {
-            return unjudged(case, adapter, limits, "no frame came back".to_owned());
+            return unjudged(case, adapter, limits, Reason::NoFrame);
         };
         if let Some(relation) = &case.relation
             && judged.record.verdict != Verdict::InternalError
@@ -154,10 +154,10 @@ struct Compared<'a> {
 }
 
 /// Returns the record of a case whose frames cannot be judged.
-fn unjudged(case: &Case, adapter: &str, limits: &Limits, message: String) -> Judged {
+fn unjudged(case: &Case, adapter: &str, limits: &Limits, reason: Reason) -> Judged {
     let mut record = Record::new(&case.id, adapter, Verdict::InternalError);
     record.due_fail = is_due_to_fail(case, limits);
-    record.message = message;
+    record.reasons = vec![reason];
     Judged {
         record,
         frame: None,
@@ -204,13 +204,24 @@ fn judge_scene(case: &Case, adapter: &str, limits: &Limits, compared: Compared<'
         Some(_) => Verdict::Imprecise,
         None => Verdict::Pass,
     };
-    if let Some(message) = counter_message(&record.counters) {
-        record.message = message;
+    let wrong_counters: Vec<CounterOutcome> = record
+        .counters
+        .iter()
+        .filter(|c| c.band.is_some())
+        .cloned()
+        .collect();
+    record.reasons = if !wrong_counters.is_empty() {
+        vec![Reason::Counters(wrong_counters)]
     } else if let Some(gap) = &gap {
-        record.message = gap_message(gap);
+        vec![gap_reason(gap)]
     } else if judgement.looked_at < record.texels.total {
-        record.message = share_message(judgement.looked_at, record.texels.total);
-    }
+        vec![Reason::Share {
+            judged: judgement.looked_at,
+            total: record.texels.total,
+        }]
+    } else {
+        Vec::new()
+    };
     if index == 0 {
         expected_values(case, frame, &judgement.legal, &mut record);
     }
@@ -283,12 +294,9 @@ fn worse(first: Judged, second: Judged, case: &Case, index: usize) -> Judged {
     let takes_second = rank(second.record.verdict) > least;
     let (mut kept, other) = if takes_second {
         let mut second = second;
-        let name = case.variants.get(index - 1).map_or("", |v| v.name.as_str());
-        second.record.message = if second.record.message.is_empty() {
-            format!("variant {name}")
-        } else {
-            format!("variant {name}: {}", second.record.message)
-        };
+        let variant = case.variants.get(index - 1);
+        let name = variant.map_or_else(String::new, |v| v.name.clone());
+        second.record.reasons.insert(0, Reason::Variant(name));
         (second, first)
     } else {
         (first, second)
@@ -320,38 +328,6 @@ fn worse(first: Judged, second: Judged, case: &Case, index: usize) -> Judged {
     kept
 }
 
-/// Returns the message about the share of a picture that was judged.
-fn share_message(judged: u64, total: u64) -> String {
-    let share = judged as f64 / total as f64 * 100.0;
-    format!("{share:.1} % of the picture is judged: {judged} of {total} samples, on a lattice")
-}
-
-/// Returns the message about counters outside their legal range.
-fn counter_message(counters: &[CounterOutcome]) -> Option<String> {
-    let wrong: Vec<String> = counters
-        .iter()
-        .filter(|c| c.band.is_some())
-        .map(|c| {
-            let legal = c.range();
-            let expected = match c.band {
-                Some(Band::Fail) => format!("{legal} is legal"),
-                Some(Band::RequiredByCts) => {
-                    format!("the text leaves it open, but the Khronos CTS requires {legal}")
-                }
-                Some(Band::Disputed) => format!("a disputed reading of the text requires {legal}"),
-                _ => format!("{legal} is legal, but the yardstick wants another"),
-            };
-            format!(
-                "counter {} ({}) is {}, {expected}",
-                c.name,
-                c.kind.name(),
-                c.actual
-            )
-        })
-        .collect();
-    (!wrong.is_empty()).then(|| wrong.join("; "))
-}
-
 /// Adds to a record the differences that a relation forbids.
 fn note_differences(record: &mut Record, relation: &Relation, limits: &Limits, found: Differences) {
     let permission = Rules::invariance(limits, relation.invariance);
@@ -364,10 +340,6 @@ fn note_differences(record: &mut Record, relation: &Relation, limits: &Limits, f
     if found.differing == 0 {
         return;
     }
-    let message = format!(
-        "{} samples differ from {}: {}",
-        found.differing, found.between, permission.citation
-    );
     let fails = band == Band::Fail;
     if fails {
         record.texels.wrong += found.differing;
@@ -378,10 +350,12 @@ fn note_differences(record: &mut Record, relation: &Relation, limits: &Limits, f
             record.verdict = Verdict::Imprecise;
         }
     }
-    record.message = match record.message.as_str() {
-        "" => message,
-        before => format!("{before}; {message}"),
-    };
+    let difference = found.between.map(|pair| Reason::Difference {
+        samples: found.differing,
+        pair,
+        citation: permission.citation.to_owned(),
+    });
+    record.reasons.extend(difference);
     let room = MAX_WRONG_TEXELS.saturating_sub(record.wrong.len());
     let wrong = found.wrong.into_iter().take(room);
     record

@@ -1,7 +1,7 @@
 //! What a record keeps of its drawings: validation messages, verdicts that differ, and fewer wrong texels if a frame
 //! file shows the rest.
 
-use etalon_record::{MAX_VALIDATION, Record, Verdict};
+use etalon_record::{Fresh, MAX_VALIDATION, Reason, Record, Verdict};
 
 /// The number of frame files and stories of imprecise cases that are kept per adapter and case file if all known
 /// failures are kept; otherwise one is.
@@ -54,11 +54,11 @@ pub fn note_validation(record: &mut Record, messages: Vec<String>) {
         return;
     };
     if record.verdict.is_judged() || record.verdict == Verdict::Measured {
-        record.message = format!(
-            "validation, {} messages (the picture would be {}): {first}",
-            messages.len(),
-            record.verdict
-        );
+        record.reasons = vec![Reason::Validation {
+            messages: messages.len(),
+            otherwise: record.verdict,
+            first: first.clone(),
+        }];
         record.verdict = Verdict::InternalError;
     }
     let short = |mut text: String| {
@@ -73,15 +73,11 @@ pub fn note_validation(record: &mut Record, messages: Vec<String>) {
         .collect();
 }
 
-/// Makes the record of the worst of several drawings `Flaky`. `place` says what was new for each of them.
-pub fn mark_flaky(worst: &mut Record, first: Verdict, repeats: Vec<Verdict>, place: &str) {
-    let mut verdicts = vec![first.name()];
-    verdicts.extend(repeats.iter().map(|v| v.name()));
-    let note = format!("{}, each {place}", verdicts.join(", then "));
+/// Makes the record of the worst of several drawings `Flaky`. `fresh` says what was new for each of them.
+pub fn mark_flaky(worst: &mut Record, first: Verdict, repeats: Vec<Verdict>, fresh: Fresh) {
+    let mut verdicts = vec![first];
+    verdicts.extend(&repeats);
     worst.verdict = Verdict::Flaky;
     worst.repeats = repeats;
-    worst.message = match worst.message.as_str() {
-        "" => note,
-        message => format!("{note}; {message}"),
-    };
+    worst.reasons.insert(0, Reason::Flaky { verdicts, fresh });
 }

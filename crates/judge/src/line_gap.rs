@@ -1,7 +1,7 @@
 //! Lines that have too few fragments in a frame.
 
 use etalon_frame::{Band, Comparison, Frame, Grade, LegalSet, Limits, WrongTexel};
-use etalon_record::MAX_WRONG_TEXELS;
+use etalon_record::{MAX_WRONG_TEXELS, Reason};
 use etalon_reference::{LineGap, Rules, counts_lines, line_gap};
 use etalon_scene::Scene;
 
@@ -56,14 +56,13 @@ pub(crate) fn note_gap(comparison: &mut Comparison, gap: &LineGap) -> bool {
     has_story
 }
 
-/// Returns the message about a line with too few fragments.
-pub(crate) fn gap_message(gap: &LineGap) -> String {
-    let [pass, draw, primitive] = gap.origin;
-    let [least, most] = gap.fragments;
-    format!(
-        "the line of primitive {primitive} of draw {draw} of pass {pass} has at most {most} fragments, at least {least} are legal: {}",
-        gap.citation
-    )
+/// Returns the reason for a line with too few fragments.
+pub(crate) fn gap_reason(gap: &LineGap) -> Reason {
+    Reason::LineGap {
+        origin: gap.origin,
+        fragments: gap.fragments,
+        citation: gap.citation.to_owned(),
+    }
 }
 
 #[cfg(test)]
@@ -73,7 +72,7 @@ mod tests {
     use etalon_case::{Library, Profile};
     use etalon_cpu::CpuBackend;
     use etalon_frame::{Api, Band, Frame};
-    use etalon_record::{Record, Verdict};
+    use etalon_record::{Reason, Record, Verdict};
 
     /// Returns the record of a case of slanted lines without the pixels of some columns.
     fn lacking(api: Api, columns: std::ops::Range<usize>) -> Record {
@@ -110,9 +109,15 @@ mod tests {
             assert_eq!(record.verdict, Verdict::Fail, "{api}");
             assert_eq!(record.wrong[0].band, Band::Fail);
             assert!(
-                record.message.contains("at most 0 fragments"),
-                "{}",
-                record.message
+                matches!(
+                    record.reasons[..],
+                    [Reason::LineGap {
+                        fragments: [_, 0],
+                        ..
+                    }]
+                ),
+                "{:?}",
+                record.reasons
             );
             assert_eq!(lacking(api, 8..9).verdict, Verdict::Pass, "{api}");
         }

@@ -2,7 +2,7 @@
 
 use etalon_case::{Case, Relation};
 use etalon_frame::{Aspect, Band, ChannelMismatch, Frame, Image, Limits, WrongTexel};
-use etalon_record::MAX_WRONG_TEXELS;
+use etalon_record::{ComparedPair, MAX_WRONG_TEXELS, Reason};
 use etalon_reference::Rules;
 use etalon_scene::Invariance;
 
@@ -14,7 +14,7 @@ pub(crate) struct Differences {
     /// Samples that differ.
     pub(crate) differing: u64,
     /// The frames or attachments between which the first difference was found.
-    pub(crate) between: String,
+    pub(crate) between: Option<ComparedPair>,
     /// The first differing samples, with one side as the legal value and the other as the actual one. Their
     /// band is Fail; the caller replaces it by the permission's.
     pub(crate) wrong: Vec<WrongTexel>,
@@ -42,7 +42,7 @@ pub(crate) fn check(relation: &Relation, case: &Case, frames: &[Frame]) -> Diffe
             return found;
         };
         for (i, (variant, frame)) in case.variants.iter().zip(others).enumerate() {
-            let between = format!("the scene in variant {}", variant.name);
+            let between = ComparedPair::Variant(variant.name.clone());
             for (expected, came) in first.images.iter().zip(&frame.images) {
                 found.compare(
                     relation,
@@ -69,7 +69,7 @@ pub(crate) fn check(relation: &Relation, case: &Case, frames: &[Frame]) -> Diffe
             continue;
         };
         for other in others {
-            let between = format!("attachment {first} in attachment {other}");
+            let between = ComparedPair::Attachments((*first).to_owned(), (*other).to_owned());
             for (expected, came) in images_of(first).into_iter().zip(images_of(other)) {
                 found.compare(relation, (expected, scene), (came, scene), [0, 0], &between);
             }
@@ -85,7 +85,7 @@ impl Differences {
         (expected, expected_scene): (&Image, usize),
         (came, came_scene): (&Image, usize),
         offset: [i32; 2],
-        between: &str,
+        between: &ComparedPair,
     ) {
         let [left, top, width, height] =
             relation
@@ -113,8 +113,8 @@ impl Differences {
                         continue;
                     }
                     self.differing += 1;
-                    if self.between.is_empty() {
-                        between.clone_into(&mut self.between);
+                    if self.between.is_none() {
+                        self.between = Some(between.clone());
                         let side = |image: &Image, scene, at| Compared {
                             scene,
                             attachment: (!relation.attachments.is_empty())
@@ -144,14 +144,10 @@ impl Differences {
 }
 
 /// Returns the message about a frame that differs from the judged one; `None` if the API permits that.
-pub fn changed_picture(limits: &Limits) -> Option<String> {
+pub fn changed_picture(limits: &Limits) -> Option<Reason> {
     let promise = Rules::invariance(limits, Invariance::Repeat);
-    promise.value().map(|_| {
-        format!(
-            "the picture after a round is not the one that was judged: {}",
-            promise.citation
-        )
-    })
+    let broken = promise.value();
+    broken.map(|_| Reason::ChangedPicture(promise.citation.to_owned()))
 }
 
 /// Returns the channels in which two samples differ; zeros of either sign are equal.

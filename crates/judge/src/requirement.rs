@@ -1,30 +1,30 @@
 //! Compares the requirements of an API's version with the capabilities that an adapter denies.
 
 use etalon_case::Case;
-use etalon_frame::{ApiVersion, Limits};
-use etalon_record::{Record, Verdict};
-use etalon_reference::rules::required::denied;
+use etalon_frame::{Limits, Requirement};
+use etalon_record::{Denial, Reason, Record, Verdict};
+use etalon_reference::rules::required::{Required, denied};
 
 /// Fails an adapter that denies a requirement of its API's version.
 pub fn note_requirement(record: &mut Record, case: &Case, limits: &Limits) {
-    let version = version_text(limits);
     match denied(limits, &case.requirements()) {
         Some((needed, required)) => {
             record.verdict = Verdict::Fail;
-            record.message = format!(
-                "the adapter denies {needed}, which {version} requires ({})",
-                required.citation
-            );
+            record.reasons = vec![Reason::Denied(denial(limits, needed, &required))];
         }
-        None => record.message = format!("{}; no requirement of {version}", record.message),
+        None => {
+            let reason = Reason::NotRequired(limits.api, limits.version);
+            record.reasons.push(reason);
+        }
     }
 }
 
-/// Returns the API and its version, if it has one.
-pub(crate) fn version_text(limits: &Limits) -> String {
-    match limits.version {
-        ApiVersion::UNKNOWN => limits.api.to_string(),
-        version => format!("{} {version}", limits.api),
+pub(crate) fn denial(limits: &Limits, needed: Requirement, required: &Required) -> Denial {
+    Denial {
+        needed,
+        api: limits.api,
+        version: limits.version,
+        citation: required.citation.to_owned(),
     }
 }
 
@@ -34,7 +34,7 @@ mod tests {
     use etalon_backend::Backend;
     use etalon_case::{Library, Profile};
     use etalon_cpu::CpuBackend;
-    use etalon_frame::{Api, Requirement, TextureFormat};
+    use etalon_frame::{Api, ApiVersion, TextureFormat};
 
     /// Returns the record of a case that requires a format, on an adapter of this version that lacks the
     /// format.
@@ -53,7 +53,7 @@ mod tests {
                 .extend([Requirement::Format(format), Requirement::Drawing(format)]);
         }
         let mut record = Record::new(&case.id, "gl:test", Verdict::NotSupported);
-        record.message = format!("format {format}");
+        record.reasons = vec![Reason::Missing(Requirement::Format(format))];
         note_requirement(&mut record, &case, &limits);
         record
     }
@@ -62,11 +62,14 @@ mod tests {
     fn what_a_version_requires_must_not_be_denied() {
         let record = lacking(TextureFormat::Rgba16Float, false, 3, 3);
         assert_eq!(record.verdict, Verdict::Fail);
-        assert!(
-            record
-                .message
-                .contains("opengl 3.3 requires (OpenGL 3.3: 3.8.1")
+        let [Reason::Denied(denial)] = &record.reasons[..] else {
+            panic!("{:?}", record.reasons);
+        };
+        assert_eq!(
+            (denial.api, denial.version),
+            (Api::OpenGl, ApiVersion::new(3, 3))
         );
+        assert!(denial.citation.starts_with("OpenGL 3.3: 3.8.1"));
     }
 
     #[test]
@@ -76,8 +79,10 @@ mod tests {
             lacking(TextureFormat::Rgba16Float, true, 4, 6),
         ] {
             assert_eq!(record.verdict, Verdict::NotSupported);
-            let message = &record.message;
-            assert!(message.contains("; no requirement of opengl"), "{message}");
+            assert!(matches!(
+                record.reasons[..],
+                [Reason::Missing(_), Reason::NotRequired(Api::OpenGl, _)]
+            ));
         }
     }
 }

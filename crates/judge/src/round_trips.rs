@@ -6,8 +6,8 @@
 //! format still say something about the driver.
 
 use etalon_case::{Case, CaseError, Library};
-use etalon_frame::{ChannelMismatch, TextureFormat};
-use etalon_record::{LossKind, Record, Verdict};
+use etalon_frame::TextureFormat;
+use etalon_record::{FailedRoundTrip, LossKind, ProcessEnd, Reason, Record, Verdict};
 use etalon_scene::Contents;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -66,26 +66,24 @@ pub struct RoundTrips {
     /// Formats whose round trip the expectations skip, with the reason.
     unchecked: BTreeMap<TextureFormat, String>,
     /// The reason why the driver no longer starts.
-    not_started: Option<String>,
+    not_started: Option<ProcessEnd>,
 }
 
 /// A round trip that failed.
 #[derive(Clone, Debug)]
 struct Failed {
-    case: String,
-    /// The verdict, with the first wrong texel or the message.
-    account: String,
+    trip: FailedRoundTrip,
     /// The reason why the failure is expected.
     expected: Option<String>,
 }
 
 /// Why a case is not drawn.
-#[derive(Debug, PartialEq, Eq)]
+#[derive(Debug, PartialEq)]
 pub struct Blocked {
     /// The ids of the round trips that failed.
     pub by: Vec<String>,
-    /// The message for people.
-    pub message: String,
+    /// The failures.
+    pub reason: Reason,
     /// The reason why the case is expected to be blocked, if all these failures are expected.
     pub expected: Option<String>,
 }
@@ -96,18 +94,22 @@ impl RoundTrips {
         let Some(format) = format_of(case) else {
             return;
         };
-        let end = record.process.as_ref().map(|end| end.kind);
-        if end == Some(LossKind::NotStarted) {
+        let not_started = |end: &&ProcessEnd| end.kind == LossKind::NotStarted;
+        if let Some(end) = record.process.as_ref().filter(not_started) {
             // Nothing is known about the format, and no other case can be drawn either.
-            self.not_started = Some(record.message.clone());
+            self.not_started = Some(end.clone());
         } else if record.verdict == Verdict::Skipped {
             let reason = record.expected.as_ref();
             let reason = reason.map_or_else(String::new, |e| e.reason.clone());
             self.unchecked.insert(format, reason);
         } else if fails(record) {
             let failed = Failed {
-                case: case.id.clone(),
-                account: account(record),
+                trip: FailedRoundTrip {
+                    case: case.id.clone(),
+                    verdict: record.verdict,
+                    wrong: record.wrong.first().cloned(),
+                    why: why(record),
+                },
                 expected: record.expected.as_ref().map(|e| e.reason.clone()),
             };
             self.failed.insert(format, failed);
@@ -115,8 +117,8 @@ impl RoundTrips {
     }
 
     /// Returns why the driver no longer starts; every other case is recorded with this reason.
-    pub fn not_started(&self) -> Option<&str> {
-        self.not_started.as_deref()
+    pub fn not_started(&self) -> Option<&ProcessEnd> {
+        self.not_started.as_ref()
     }
 
     /// Returns why a case must not be drawn; `None` if it can be.
@@ -130,37 +132,33 @@ impl RoundTrips {
         if failed.is_empty() {
             return None;
         }
-        let accounts = failed.iter().map(|f| format!("{} {}", f.case, f.account));
         let reasons: Option<Vec<String>> = failed
             .iter()
-            .map(|f| f.expected.as_ref().map(|why| format!("{}: {why}", f.case)))
+            .map(|f| {
+                f.expected
+                    .as_ref()
+                    .map(|why| format!("{}: {why}", f.trip.case))
+            })
             .collect();
         Some(Blocked {
-            by: failed.iter().map(|f| f.case.clone()).collect(),
-            message: format!("not drawn: {}", accounts.collect::<Vec<_>>().join("; ")),
+            by: failed.iter().map(|f| f.trip.case.clone()).collect(),
+            reason: Reason::FailedRoundTrips(failed.iter().map(|f| f.trip.clone()).collect()),
             expected: reasons.map(|texts| texts.join("; ")),
         })
     }
 
-    /// Adds to the message of a case that is drawn although a round trip that it depends on was skipped.
+    /// Notes on a case that is drawn that a round trip that it depends on was skipped.
     pub fn annotate(&self, case: &Case, record: &mut Record) {
-        if let Some(note) = self.note(case) {
-            record.note(note);
-        }
-    }
-
-    /// Returns the note on a case that is drawn although a round trip that it depends on was skipped.
-    fn note(&self, case: &Case) -> Option<String> {
         if self.unchecked.is_empty() {
-            return None;
+            return;
         }
         let formats = leans_on(case);
         let skipped = self.unchecked.iter().filter(|(f, _)| formats.contains(f));
-        let accounts = skipped.map(|(format, why)| {
-            format!("the round trip of {format} was skipped and not checked ({why})")
+        let reasons = skipped.map(|(format, reason)| Reason::UncheckedRoundTrip {
+            format: *format,
+            reason: reason.clone(),
         });
-        let accounts: Vec<String> = accounts.collect();
-        (!accounts.is_empty()).then(|| accounts.join("; "))
+        record.reasons.extend(reasons);
     }
 }
 
@@ -176,45 +174,26 @@ fn fails(record: &Record) -> bool {
     record.verdict.is_bad() && !right
 }
 
-/// Describes a failed round trip in a few words: `is fail: texel 3,0 of color: channel 0 holds 4, expected
-/// 3`.
-fn account(record: &Record) -> String {
-    let cause = match record.wrong.first() {
-        Some(wrong) => wrong.channels.first().map(|channel| {
-            let ChannelMismatch {
-                attachment,
-                channel,
-                low,
-                high,
-                actual,
-                ..
-            } = channel;
-            let expected = if low == high {
-                low.to_string()
-            } else {
-                format!("{low} to {high}")
-            };
-            let (x, y) = (wrong.x, wrong.y);
-            format!(
-                "texel {x},{y} of {attachment}: channel {channel} holds {actual}, expected {expected}"
-            )
-        }),
-        None => {
-            let mut lines = record.message.lines().rev();
-            lines.find(|l| !l.trim().is_empty()).map(str::to_owned)
-        }
-    };
-    match cause {
-        Some(cause) => format!("is {}: {cause}", record.verdict),
-        None => format!("is {}", record.verdict),
+/// Returns why a round trip without a wrong texel failed.
+fn why(record: &Record) -> Vec<Reason> {
+    if !record.wrong.is_empty() {
+        return Vec::new();
     }
+    let end = record.process.clone().map(|mut end| {
+        let last = end.stderr.lines().rev().find(|l| !l.trim().is_empty());
+        end.stderr = last.unwrap_or_default().to_owned();
+        Reason::Process(Box::new(end))
+    });
+    end.into_iter()
+        .chain(record.reasons.iter().cloned())
+        .collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use etalon_case::Profile;
-    use etalon_record::{Expected, ProcessEnd};
+    use etalon_record::Expected;
 
     fn built(glob: &str) -> Vec<Case> {
         let library = Library::built_in();
@@ -281,7 +260,9 @@ mod tests {
             assert_eq!(found.blocks(&outside), None, "{verdict}");
             assert_eq!(found.blocks(&trip), None, "a round trip leans on nothing");
             let skipped = verdict == Verdict::Skipped;
-            assert_eq!(found.note(&inside).is_some(), skipped, "{verdict}");
+            let mut drawn = Record::new(&inside.id, "x", Verdict::Pass);
+            found.annotate(&inside, &mut drawn);
+            assert_eq!(!drawn.reasons.is_empty(), skipped, "{verdict}");
         }
     }
 
@@ -289,17 +270,14 @@ mod tests {
     fn a_driver_that_does_not_start_tells_nothing_about_a_format() {
         let trip = trip("rgba32float");
         let mut record = Record::new(&trip.id, "x", Verdict::Crash);
-        record.message = "gone".to_owned();
         record.process = Some(ProcessEnd {
             kind: LossKind::NotStarted,
-            signal: None,
-            exit: None,
-            stderr: String::new(),
-            seconds: 0.0,
+            error: "gone".to_owned(),
+            ..ProcessEnd::default()
         });
         let mut found = RoundTrips::default();
         found.take(&trip, &record);
-        assert_eq!(found.not_started(), Some("gone"));
+        assert_eq!(found.not_started(), record.process.as_ref());
         assert!(found.failed.is_empty());
     }
 
@@ -333,7 +311,13 @@ mod tests {
         let reason = format!("{}: bug 12", float.id);
         assert_eq!(blocked.expected, Some(reason));
         assert_eq!(blocked.by, std::slice::from_ref(&float.id));
-        assert!(blocked.message.contains(&format!("{} is fail", float.id)));
+        let failed = FailedRoundTrip {
+            case: float.id.clone(),
+            verdict: Verdict::Fail,
+            wrong: None,
+            why: Vec::new(),
+        };
+        assert_eq!(blocked.reason, Reason::FailedRoundTrips(vec![failed]));
         found.take(&other, &Record::new(&other.id, "x", Verdict::Crash));
         let blocked = found.blocks(&case).expect("it is blocked");
         assert_eq!((blocked.expected, blocked.by.len()), (None, 2));

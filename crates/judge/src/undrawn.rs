@@ -5,7 +5,7 @@ use crate::judge::is_due_to_fail;
 use crate::requirement::note_requirement;
 use crate::round_trips::RoundTrips;
 use etalon_case::Case;
-use etalon_record::{AdapterRecord, Expectations, Expected, Record, Verdict};
+use etalon_record::{AdapterRecord, Expectations, Expected, Reason, Record, Verdict};
 
 /// Returns the record of a case that is not drawn on an adapter; `None` if it must be drawn. The round trips are
 /// `None` until all are drawn.
@@ -20,11 +20,11 @@ pub fn undrawn(
         record.expected = Some(Expected {
             reason: entry.reason.clone(),
         });
-        record.message = format!("not drawn: {}", entry.reason);
+        record.reasons = vec![Reason::Skipped(entry.reason.clone())];
         record
     } else if let Some(missing) = adapter.limits.missing(&case.requirements()) {
         let mut record = Record::new(&case.id, &adapter.name, Verdict::NotSupported);
-        record.message = missing.to_string();
+        record.reasons = vec![Reason::Missing(missing)];
         if case.is_requirement() {
             note_requirement(&mut record, case, &adapter.limits);
         } else {
@@ -34,7 +34,7 @@ pub fn undrawn(
     } else {
         let blocked = round_trips?.blocks(case)?;
         let mut record = Record::new(&case.id, &adapter.name, Verdict::Blocked);
-        record.message = blocked.message;
+        record.reasons = vec![blocked.reason];
         record.blocked_by = blocked.by;
         record.expected = blocked.expected.map(|reason| Expected { reason });
         record

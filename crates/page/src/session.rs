@@ -11,14 +11,16 @@ use etalon_judge::{
     Judge, Judged, RoundTrips, Timing, Truths, is_due_to_fail, is_unexpectedly_bad, keep_pictures,
     mark_flaky, measured, medians, settled, undrawn,
 };
-use etalon_record::{AdapterRecord, Expectations, Record, RecordError, Verdict, picture_file};
+use etalon_record::{
+    AdapterRecord, Expectations, Fresh, Reason, Record, RecordError, Verdict, picture_file,
+};
 use etalon_webgpu::Device;
 use std::collections::{HashMap, HashSet};
 
 /// The number of unexpected bad verdicts of each kind that are drawn again on a fresh device.
 const RECHECKS: u32 = 4;
-/// The message of a device that does not answer.
-const NO_ANSWER: &str = "the device did not answer within 60 s";
+/// The page gives up on a device after a minute.
+const NO_ANSWER: Reason = Reason::NoAnswer(60.0);
 
 /// A run on one device.
 pub(crate) struct Session {
@@ -223,12 +225,7 @@ impl Session {
         } else {
             second
         };
-        mark_flaky(
-            &mut worst.record,
-            verdict,
-            vec![repeat],
-            "on a fresh device",
-        );
+        mark_flaky(&mut worst.record, verdict, vec![repeat], Fresh::Device);
         worst
     }
 
@@ -263,7 +260,7 @@ impl Session {
         let record = &mut observed.record;
         if drawn.timeout {
             record.verdict = Verdict::Timeout;
-            record.message = format!("while its frames were timed: {NO_ANSWER}");
+            record.reasons = vec![Reason::WhileTimed, NO_ANSWER];
             observed.ends_device = true;
             return judged(observed);
         }
@@ -294,7 +291,7 @@ impl Session {
         let adapter = &self.adapter;
         let mut observed = if drawn.timeout {
             let mut record = Record::new(&case.id, &adapter.name, Verdict::Timeout);
-            NO_ANSWER.clone_into(&mut record.message);
+            record.reasons = vec![NO_ANSWER];
             Observation {
                 ends_device: true,
                 ..Observation::of(record)
@@ -369,7 +366,7 @@ fn failed(case: &Case, adapter: &str, error: &BackendError) -> Record {
     let kind = error.kind();
     let verdict = kind.map_or(Verdict::NotSupported, Verdict::of_error);
     let mut record = Record::new(&case.id, adapter, verdict);
-    record.message = error.to_string();
+    record.reasons = vec![Reason::Text(error.to_string())];
     record.error = kind.cloned();
     record
 }

@@ -46,6 +46,8 @@ mod merge;
 mod output_folder;
 mod parts;
 mod paths;
+mod process_end;
+mod reason;
 mod record;
 mod run;
 mod selection;
@@ -89,9 +91,11 @@ pub use measured::{Measured, Parameter, Times};
 pub use merge::{Merge, Merged};
 pub use output_folder::OutputFolder;
 pub use paths::open_below;
+pub use process_end::{ExitStatus, LossKind, ProcessEnd};
+pub use reason::{ComparedPair, Denial, FailedRoundTrip, Fresh, Reason};
 pub use record::{
-    Assertion, Expected, LossKind, MAX_LINE, MAX_VALIDATION, MAX_WRONG_TEXELS, ProcessEnd, Record,
-    Seconds, count_unexpected,
+    Assertion, Expected, MAX_LINE, MAX_VALIDATION, MAX_WRONG_TEXELS, Record, Seconds,
+    count_unexpected,
 };
 pub use run::Run;
 pub use selection::{read_cases, selection_digest, shard_of};

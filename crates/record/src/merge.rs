@@ -7,6 +7,7 @@ use crate::folder::{CASES_FILE, MISSING_FILE};
 use crate::header::{FORMAT, Header, Settings};
 use crate::output_folder::OutputFolder;
 use crate::paths::{check_below, frame_path, open_below};
+use crate::reason::Reason;
 use crate::record::{Record, count_unexpected};
 use crate::run::Run;
 use crate::selection::read_cases;
@@ -350,10 +351,7 @@ fn selections(
 
 /// Merges two records of a case that disagree.
 fn disagreeing(first: (Record, PathBuf), other: (Record, PathBuf)) -> (Record, PathBuf) {
-    let disagreement = format!(
-        "{} in one part, {} in another",
-        first.0.verdict, other.0.verdict
-    );
+    let disagreement = Reason::PartsDisagree(first.0.verdict, other.0.verdict);
     let (mut worse, better) = if first.0.verdict.severity() >= other.0.verdict.severity() {
         (first, other.0)
     } else {
@@ -364,10 +362,7 @@ fn disagreeing(first: (Record, PathBuf), other: (Record, PathBuf)) -> (Record, P
     record.verdict = Verdict::Flaky;
     record.expected = None;
     record.improves = None;
-    record.message = match record.message.as_str() {
-        "" => disagreement,
-        message => format!("{message}; {disagreement}"),
-    };
+    record.reasons.push(disagreement);
     worse
 }
 

@@ -5,6 +5,8 @@ use crate::change::CaseResult;
 use crate::expectations::{Expectation, Expectations};
 use crate::expected_symptom::Shown;
 use crate::measured::Measured;
+use crate::process_end::ProcessEnd;
+use crate::reason::{self, Reason};
 use crate::verdict::Verdict;
 use etalon_frame::{
     Accuracy, Aspect, AspectStatistics, CaseId, CounterOutcome, ErrorKind, Story, TexelCounts,
@@ -43,9 +45,14 @@ pub struct Record {
     /// True if the case is a selftest that must fail.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub due_fail: bool,
-    /// The missing requirement, the error, or the end of the lost process's standard error.
-    #[serde(default, skip_serializing_if = "String::is_empty")]
-    pub message: String,
+    /// Why the record has this verdict, if no other field says it. Formats before 6 have a `message` instead.
+    #[serde(
+        default,
+        alias = "message",
+        deserialize_with = "reason::read",
+        skip_serializing_if = "Vec::is_empty"
+    )]
+    pub reasons: Vec<Reason>,
     /// The number of samples by result; all zero if no frame came back.
     #[serde(default, skip_serializing_if = "TexelCounts::is_empty")]
     pub texels: TexelCounts,
@@ -99,41 +106,6 @@ pub struct Record {
     pub blocked_by: Vec<String>,
 }
 
-/// The way in which a process was lost.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum LossKind {
-    /// The worker exited or was ended by a signal.
-    Died,
-    /// The worker did not answer in time.
-    Timeout,
-    /// The worker exceeded its memory limit.
-    Memory,
-    /// The worker's output was not a message of the protocol.
-    Garbage,
-    /// The worker could not be started again.
-    NotStarted,
-}
-
-/// The end of a process that was lost.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ProcessEnd {
-    /// The way in which the process was lost.
-    pub kind: LossKind,
-    /// The signal that ended the process.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub signal: Option<i32>,
-    /// The process's exit status.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub exit: Option<i32>,
-    /// The end of the process's standard error.
-    #[serde(default, skip_serializing_if = "String::is_empty")]
-    pub stderr: String,
-    /// Seconds from the time when the process could begin the case until the loss was noticed.
-    pub seconds: f64,
-}
-
 impl Record {
     /// Returns a record with a verdict and nothing else yet.
     pub fn new(case: impl Into<String>, adapter: impl Into<String>, verdict: Verdict) -> Self {
@@ -145,7 +117,7 @@ impl Record {
             look: None,
             improves: None,
             due_fail: false,
-            message: String::new(),
+            reasons: Vec::new(),
             texels: TexelCounts::default(),
             assertions: Vec::new(),
             accuracy: Vec::new(),
@@ -179,13 +151,15 @@ impl Record {
                 Expectation::Better(entry) => (None, Some(entry.verdict)),
                 Expectation::Expired(entry) => {
                     let day = entry.expires.as_deref().unwrap_or_default();
-                    let note = format!("the expectation expired on {day}: {}", entry.reason);
-                    self.note(note);
+                    self.reasons.push(Reason::Expired {
+                        day: day.to_owned(),
+                        reason: entry.reason.clone(),
+                    });
                     (None, None)
                 }
                 Expectation::Differs(entry) => {
-                    let note = format!("not the expected symptom: {}", entry.reason);
-                    self.note(note);
+                    let reason = entry.reason.clone();
+                    self.reasons.push(Reason::OtherSymptom(reason));
                     (None, None)
                 }
             };
@@ -210,14 +184,6 @@ impl Record {
             wrong: &self.wrong,
             counters: &self.counters,
         }
-    }
-
-    /// Adds to the message.
-    pub fn note(&mut self, note: String) {
-        self.message = match self.message.as_str() {
-            "" => note,
-            before => format!("{before}; {note}"),
-        };
     }
 
     /// Returns true if the record counts against the run: a bad verdict that no expectation names, or a

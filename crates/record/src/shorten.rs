@@ -2,6 +2,7 @@
 
 use crate::error::RecordError;
 use crate::json::json_line;
+use crate::reason::Reason;
 use crate::record::{MAX_LINE, MAX_WRONG_TEXELS, Record};
 
 /// Returns the record's line, shortened to at most [`MAX_LINE`] bytes.
@@ -31,14 +32,10 @@ pub(crate) fn fit(record: &Record) -> Result<Vec<u8>, RecordError> {
         }
         line = write(&short)?;
     }
-    let mut message = short.message.clone();
-    while line.len() > MAX_LINE && !message.is_empty() {
-        cut(&mut message);
-        short.message = if message.is_empty() {
-            String::new()
-        } else {
-            format!("[cut] {message}")
-        };
+    while line.len() > MAX_LINE
+        && let Some(text) = longest_text(&mut short)
+    {
+        cut(text);
         line = write(&short)?;
     }
     if line.len() > MAX_LINE {
@@ -51,11 +48,30 @@ pub(crate) fn fit(record: &Record) -> Result<Vec<u8>, RecordError> {
     Ok(line)
 }
 
-/// Removes the first quarter of a message: the cause of a crash is usually at the end.
-fn cut(message: &mut String) {
-    let mut from = message.len() / 4 + 1;
-    while from < message.len() && !message.is_char_boundary(from) {
+/// The beginning of a text that was cut.
+const MARK: &str = "[cut] ";
+
+/// Returns the longest text from outside in a record; `None` if all are empty.
+fn longest_text(record: &mut Record) -> Option<&mut String> {
+    let stderr = record.process.as_mut().map(|end| &mut end.stderr);
+    let texts = record.reasons.iter_mut().filter_map(Reason::text_mut);
+    let longest = texts.chain(stderr).max_by_key(|text| text.len());
+    longest.filter(|text| !text.is_empty())
+}
+
+/// Removes the first quarter of a text: the cause of a crash is usually at the end.
+fn cut(text: &mut String) {
+    let begin = if text.starts_with(MARK) {
+        MARK.len()
+    } else {
+        0
+    };
+    let mut from = begin + (text.len() - begin) / 4 + 1;
+    while from < text.len() && !text.is_char_boundary(from) {
         from += 1;
     }
-    message.drain(..from.min(message.len()));
+    text.drain(..from.min(text.len()));
+    if !text.is_empty() {
+        text.insert_str(0, MARK);
+    }
 }

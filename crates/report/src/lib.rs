@@ -61,4 +61,7 @@ pub use site::{CasesOf, SITE_FILE, write_site};
 pub use staged::WrittenFolder;
 pub use terminal::TableOptions;
 pub use versions::{VERSIONS_PAGE, versions_table, write_versions};
-pub use words::{ReducedCase, api_name, judged_by, operations_text, plain, sentence, story_text};
+pub use words::{
+    ReducedCase, api_name, judged_by, message, operations_text, plain, reasons_text, sentence,
+    story_text,
+};

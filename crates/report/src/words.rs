@@ -3,6 +3,7 @@
 mod event;
 mod header;
 mod plain;
+mod reason;
 mod record;
 mod reduced;
 mod story;
@@ -14,6 +15,7 @@ mod verdict;
 pub use header::api_name;
 pub(crate) use header::{machine, settings};
 pub use plain::plain;
+pub use reason::{message, reasons_text};
 pub(crate) use record::{headline, process_end};
 pub use reduced::ReducedCase;
 pub(crate) use story::operations;

@@ -17,12 +17,12 @@ use crate::process::Wait;
 use crate::supervisor::{BadEnds, FailedStarts, Supervisor};
 use crate::worker::Worker;
 use etalon_case::Case;
-use etalon_frame::{Limits, WrongTexel};
+use etalon_frame::Limits;
 use etalon_judge::{Judge, changed_picture};
 use etalon_record::{
     AdapterRecord, BenchHeader, BenchLine, BenchRecord, BenchWriter, CellRate, Done, Ended, Enough,
-    Expectations, InstructionCounter, Picture, Record, RecordError, Round, Time, Verdict, beside,
-    cell, count_unexpected,
+    Expectations, InstructionCounter, Picture, Reason, Record, RecordError, Round, Time, Verdict,
+    beside, cell, count_unexpected,
 };
 use etalon_stats::{MIN_ROUNDS, is_within, median_interval, quantile};
 pub use instructions::instruction_counter;
@@ -279,12 +279,13 @@ impl Bench<'_, '_> {
                 record.expect(self.expectations, &self.adapters[index].record);
                 let channels: u64 = record.assertions.iter().map(|a| a.channels).sum();
                 let asserted: u64 = record.assertions.iter().map(|a| a.asserted).sum();
+                let unexpected = record.unexpected();
                 let judged = Picture {
                     case: case.id.clone(),
                     adapter: record.adapter.clone(),
                     verdict: record.verdict,
                     asserted: asserted as f64 / channels.max(1) as f64,
-                    message: message(&record),
+                    reasons: reasons(record),
                     work: cell(&case.id).map(|_| case.scene.work()),
                 };
                 let rounds = known.as_ref().map_or(0, |k| k.rounds.len() as u32);
@@ -294,7 +295,7 @@ impl Bench<'_, '_> {
                     self.end(&judged, rounds)?;
                 }
                 self.summary.pictures += 1;
-                self.summary.unexpected += u64::from(record.unexpected());
+                self.summary.unexpected += u64::from(unexpected);
                 if let Some(picture) = picture
                     && judged.may_be_timed()
                 {
@@ -315,7 +316,7 @@ impl Bench<'_, '_> {
                 }
                 (self.events)(BenchEvent::Judged {
                     picture: judged,
-                    unexpected: record.unexpected(),
+                    unexpected,
                     known: rounds,
                 });
             }
@@ -388,7 +389,7 @@ impl Bench<'_, '_> {
             case: judged.case.clone(),
             adapter: judged.adapter.clone(),
             verdict: judged.verdict,
-            message: format!("when the bench was resumed: {}", judged.message),
+            reasons: [vec![Reason::WhenResumed], judged.reasons.clone()].concat(),
         };
         self.writer.append(&BenchLine::Ended(ended.clone()))?;
         (self.events)(BenchEvent::Ended {
@@ -409,14 +410,14 @@ impl Bench<'_, '_> {
         let adapter = &mut self.adapters[index];
         let limits: Limits = adapter.record.limits.clone();
         let name = adapter.record.name.clone();
-        let failed = |verdict, message| {
-            let mut record = Record::new(&case.id, &name, verdict);
+        let undrawn = |mut record: Record| {
             record.due_fail = case.judged_as.is_some();
-            record.message = message;
             (record, None)
         };
         if let Some(missing) = limits.missing(&case.requirements()) {
-            return failed(Verdict::NotSupported, missing.to_string());
+            let mut record = Record::new(&case.id, &name, Verdict::NotSupported);
+            record.reasons = vec![Reason::Missing(missing)];
+            return undrawn(record);
         }
         let drawing = match adapter.supervisor.worker() {
             Ok(worker) => worker.draw_case(0, case, Wait::of(self.timeout)),
@@ -429,7 +430,7 @@ impl Bench<'_, '_> {
             }
             Err(failure) => {
                 let report = adapter.supervisor.report(failure);
-                failed(report.verdict, report.message)
+                undrawn(report.record(&case.id, &name))
             }
         }
     }
@@ -547,15 +548,15 @@ impl Bench<'_, '_> {
                     (repeats && measured.picture != pair.picture)
                         .then(|| changed_picture(&adapter.record.limits))
                         .flatten()
-                        .map(|message| (number + 1, Verdict::Flaky, message))
+                        .map(|reason| (number + 1, Verdict::Flaky, vec![reason]))
                 }
                 Err(failure) => {
                     let report = adapter.supervisor.report(failure);
-                    Some((number, report.verdict, report.message))
+                    Some((number, report.verdict, report.reasons()))
                 }
             };
             before = after;
-            let Some((had, verdict, message)) = ended.take() else {
+            let Some((had, verdict, reasons)) = ended.take() else {
                 kept.push(pair);
                 continue;
             };
@@ -563,7 +564,7 @@ impl Bench<'_, '_> {
                 case: case.id.clone(),
                 adapter: name,
                 verdict,
-                message,
+                reasons,
             };
             self.writer.append(&BenchLine::Ended(ended.clone()))?;
             self.summary.unexpected += u64::from(verdict.is_bad());
@@ -605,15 +606,14 @@ fn middle(times: &[f64]) -> f64 {
     quantile(&sorted, 0.5).unwrap_or(f64::NAN)
 }
 
-/// Returns the record's message and the position of the first wrong sample.
-fn message(record: &Record) -> String {
-    let first = record.wrong.first().map(|wrong: &WrongTexel| {
-        let count = record.texels.wrong + record.texels.imprecise;
-        format!("{count} samples, the first at ({}, {})", wrong.x, wrong.y)
+/// Returns the record's reasons, and among them what a bench has no fields for.
+fn reasons(mut record: Record) -> Vec<Reason> {
+    let end = record.process.take();
+    let end = end.map(|end| Reason::Process(Box::new(end)));
+    let first = record.wrong.first().map(|wrong| Reason::FirstWrong {
+        samples: record.texels.wrong + record.texels.imprecise,
+        at: [wrong.x, wrong.y],
     });
-    match (first, record.message.as_str()) {
-        (Some(first), "") => first,
-        (Some(first), message) => format!("{message}; {first}"),
-        (None, message) => message.to_owned(),
-    }
+    let reasons = end.into_iter().chain(record.reasons);
+    reasons.chain(first).collect()
 }

@@ -1,19 +1,17 @@
 //! The report on a failed request to a worker: its verdict, its cause and the end of the process.
 
-use crate::exit_report::ExitReport;
 use crate::loss::Failure;
 use crate::process::WorkerProcess;
+use crate::process_end::process_end;
 use etalon_frame::ErrorKind;
-use etalon_record::{ProcessEnd, Record, Verdict};
+use etalon_record::{ProcessEnd, Reason, Record, Verdict};
 
 /// The report on a failed request.
 pub(crate) struct FailureReport {
     /// The verdict of the case that was being drawn.
     pub(crate) verdict: Verdict,
-    /// The cause.
-    pub(crate) message: String,
-    /// The kind of the backend's error, if it failed.
-    pub(crate) error: Option<ErrorKind>,
+    /// The words and the kind of the backend's error, if it failed.
+    pub(crate) error: Option<(String, Option<ErrorKind>)>,
     /// The end of the worker's process, if it was lost.
     pub(crate) process: Option<ProcessEnd>,
 }
@@ -25,18 +23,16 @@ impl FailureReport {
         match failure {
             Failure::Backend(error) => Self {
                 verdict,
-                message: error.to_string(),
-                error: error.kind().cloned(),
+                error: Some((error.to_string(), error.kind().cloned())),
                 process: None,
             },
             Failure::Lost(loss) => {
-                let ExitReport { message, end } = match worker {
-                    Some(process) => process.exit_report(loss),
-                    None => ExitReport::new(loss, None, false, String::new()),
+                let end = match worker {
+                    Some(process) => process.end_of(loss),
+                    None => process_end(loss, None, false, String::new()),
                 };
                 Self {
                     verdict,
-                    message,
                     error: None,
                     process: Some(end),
                 }
@@ -44,11 +40,20 @@ impl FailureReport {
         }
     }
 
+    /// Returns the cause in one list, for lines without fields of their own for it.
+    pub(crate) fn reasons(self) -> Vec<Reason> {
+        let text = self.error.map(|(text, _)| Reason::Text(text));
+        let end = self.process.map(|end| Reason::Process(Box::new(end)));
+        text.into_iter().chain(end).collect()
+    }
+
     /// Returns the record of the case that was being drawn.
     pub(crate) fn record(self, case: &str, adapter: &str) -> Record {
         let mut record = Record::new(case, adapter, self.verdict);
-        record.message = self.message;
-        record.error = self.error;
+        if let Some((text, kind)) = self.error {
+            record.reasons = vec![Reason::Text(text)];
+            record.error = kind;
+        }
         record.process = self.process;
         record
     }

@@ -3,15 +3,16 @@
 //! Each pipe has its own thread, so that a worker that stops reading or writing never blocks the parent:
 //! the parent waits with a time limit, then kills the worker.
 
-use crate::exit_report::ExitReport;
 use crate::greeting;
 use crate::launch::{Launch, Setup, StartError};
 use crate::loss::Loss;
 use crate::memory::MemoryLimit;
+use crate::process_end::process_end;
 use crate::protocol::{Request, Response, encode, encode_behind, receive};
 use crate::stderr_tail::StderrTail;
 use crate::sync::lock;
 use etalon_process::Group;
+use etalon_record::ProcessEnd;
 use std::collections::VecDeque;
 use std::io::{BufReader, Error, Write};
 use std::process::{Child, ChildStdin, ExitStatus, Stdio};
@@ -254,8 +255,8 @@ impl WorkerProcess {
         }
     }
 
-    /// Ends the worker and reports how it ended.
-    pub(crate) fn exit_report(&mut self, loss: Loss) -> ExitReport {
+    /// Ends the worker and returns how it ended.
+    pub(crate) fn end_of(&mut self, loss: Loss) -> ProcessEnd {
         let status = match loss {
             Loss::Died => {
                 let status = self.wait(EXIT_TIMEOUT);
@@ -270,7 +271,7 @@ impl WorkerProcess {
             }
         };
         let words = self.stderr.text(LAST_WORDS);
-        ExitReport::new(loss, status, self.launched, words)
+        process_end(loss, status, self.launched, words)
     }
 
     fn wait(&mut self, limit: Duration) -> Option<ExitStatus> {
@@ -320,7 +321,7 @@ impl WorkerProcess {
 impl WorkerProcess {
     /// Asks the worker to exit, and reports how it ended if that was not by itself and in order. Kills it if it does not
     /// exit.
-    pub(crate) fn bad_end(mut self) -> Option<ExitReport> {
+    pub(crate) fn bad_end(mut self) -> Option<ProcessEnd> {
         self.requests = None;
         let Some(status) = self.wait(CLOSE_TIMEOUT) else {
             self.kill();
@@ -332,12 +333,7 @@ impl WorkerProcess {
             return None;
         }
         let words = self.stderr.text(LAST_WORDS);
-        Some(ExitReport::new(
-            Loss::Died,
-            Some(status),
-            self.launched,
-            words,
-        ))
+        Some(process_end(Loss::Died, Some(status), self.launched, words))
     }
 }
 

@@ -14,6 +14,7 @@ pub use smallest::{Smallest, smallest};
 
 use crate::launch::StartError;
 use etalon_diagnose::Symptom;
+use etalon_record::Record;
 use thiserror::Error;
 
 /// An error from reducing a case.
@@ -26,24 +27,22 @@ pub enum ReductionError {
     #[error("{0}")]
     Lost(#[from] Lost),
     /// The adapter lacks what the case needs.
-    #[error("{adapter} does not support {missing}")]
+    #[error("{adapter} does not support the case")]
     NotSupported {
         /// The name of the adapter.
         adapter: String,
-        /// The requirement.
-        missing: String,
+        /// The record, which says what is missing.
+        record: Box<Record>,
     },
     /// The case does not fail.
-    #[error(
-        "{case} does not fail on {adapter}, drawn alone: {verdict}; there is nothing to reduce"
-    )]
+    #[error("{case} does not fail on {adapter}, drawn alone; there is nothing to reduce")]
     Passes {
         /// The id of the case.
         case: String,
         /// The name of the adapter.
         adapter: String,
-        /// The verdict, with the record's message.
-        verdict: String,
+        /// The record.
+        record: Box<Record>,
     },
     /// The case does not fail every time it is drawn, or fails in several ways.
     #[error("{case} is flaky on {adapter}: {flakiness}; only a steady failure can be reduced")]

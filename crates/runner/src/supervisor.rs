@@ -4,7 +4,6 @@
 //! A failed start is repeated at once, not later: all requests in flight must go to the same worker, because
 //! otherwise their answers could be confused.
 
-use crate::exit_report::ExitReport;
 use crate::failure_report::FailureReport;
 use crate::launch::{Launch, StartError};
 use crate::loss::{Failure, Loss};
@@ -12,7 +11,7 @@ use crate::process::WorkerProcess;
 use crate::sync::lock;
 use crate::worker::Worker;
 use etalon_record::beside::WORKER_END;
-use etalon_record::{AdapterRecord, Expectations, Record, Verdict};
+use etalon_record::{AdapterRecord, Expectations, ProcessEnd, Reason, Record, Verdict};
 use std::sync::{Arc, Mutex};
 
 /// The number of consecutive failed starts after which an adapter's worker is not started again.
@@ -27,12 +26,12 @@ pub(crate) struct FailedStarts(Arc<Mutex<InARow>>);
 struct InARow {
     count: u32,
     /// The error of the last failed start.
-    message: String,
+    error: String,
 }
 
 /// How workers of one adapter failed after their last case. All supervisors of the adapter share this.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct BadEnds(Arc<Mutex<Vec<ExitReport>>>);
+pub(crate) struct BadEnds(Arc<Mutex<Vec<ProcessEnd>>>);
 
 impl BadEnds {
     /// Ends a worker, and notes how it ends.
@@ -43,9 +42,9 @@ impl BadEnds {
     /// Returns a record of each end so far.
     pub(crate) fn take(&self, adapter: &AdapterRecord, expectations: &Expectations) -> Vec<Record> {
         let ends = std::mem::take(&mut *lock(&self.0)).into_iter();
-        let records = ends.map(|ExitReport { message, end }| {
+        let records = ends.map(|end| {
             let mut record = Record::new(WORKER_END, &adapter.name, Verdict::Crash);
-            record.message = format!("after its last case, {message}");
+            record.reasons = vec![Reason::AfterLastCase];
             record.process = Some(end);
             record.expect(expectations, adapter);
             record
@@ -121,7 +120,7 @@ impl Supervisor {
                 }
                 Err(error) => {
                     failed.count += 1;
-                    failed.message = format!("the worker could not be started again: {error}");
+                    failed.error = format!("the worker could not be started again: {error}");
                 }
             }
         }
@@ -132,9 +131,7 @@ impl Supervisor {
     pub(crate) fn running(&mut self) -> Result<&mut WorkerProcess, Loss> {
         match &mut self.worker {
             Some(process) => Ok(process),
-            None => Err(Loss::NotStarted(
-                lock(&self.failed_starts.0).message.clone(),
-            )),
+            None => Err(Loss::NotStarted(lock(&self.failed_starts.0).error.clone())),
         }
     }
 

@@ -70,7 +70,7 @@ impl Worker {
             Err(loss) => {
                 // The driver is opened after the greeting.
                 let of_launcher = launch.launcher.is_some() && !process.has_greeted();
-                let message = process.exit_report(loss).message;
+                let message = process.end_of(loss).to_string();
                 Err(if of_launcher {
                     StartError::Launcher(format!(
                         "no worker answers behind the launcher: {message}"
@@ -131,7 +131,7 @@ impl Worker {
     fn lost(&mut self, failure: Failure) -> DrawError {
         match failure {
             Failure::Backend(error) => DrawError::Backend(error),
-            Failure::Lost(loss) => DrawError::Lost(self.process.exit_report(loss).message),
+            Failure::Lost(loss) => DrawError::Lost(self.process.end_of(loss).to_string()),
         }
     }
 }

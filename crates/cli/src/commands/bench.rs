@@ -14,7 +14,7 @@ use etalon_record::{
     BENCH_FORMAT, Bench, BenchHeader, BenchSettings, FolderKind, ProcessorLimits, Shard, beside,
     cell, selection_digest,
 };
-use etalon_report::WrittenBench;
+use etalon_report::{WrittenBench, message, reasons_text};
 use etalon_runner::{BenchError, BenchEvent, BenchPlan, BenchSummary, instruction_counter};
 use indicatif::ProgressBar;
 use serde_json::json;
@@ -128,7 +128,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             end.verdict,
             end.adapter,
             end.case,
-            end.message
+            message(&end)
         );
     }
     Ok(if summary.unexpected > 0 {
@@ -251,7 +251,11 @@ fn show(bar: &ProgressBar, rounds: u64, event: BenchEvent) {
             if unexpected {
                 let (verdict, adapter) = (picture.verdict, &picture.adapter);
                 bar.suspend(|| {
-                    say!("{verdict} {adapter} {}: {}", picture.case, picture.message);
+                    say!(
+                        "{verdict} {adapter} {}: {}",
+                        picture.case,
+                        reasons_text(&picture.reasons)
+                    );
                 });
             }
         }
@@ -273,7 +277,13 @@ fn show(bar: &ProgressBar, rounds: u64, event: BenchEvent) {
         BenchEvent::Ended { ended, missing } => {
             bar.inc(u64::from(missing));
             let (verdict, adapter) = (ended.verdict, &ended.adapter);
-            bar.suspend(|| say!("{verdict} {adapter} {}: {}", ended.case, ended.message));
+            bar.suspend(|| {
+                say!(
+                    "{verdict} {adapter} {}: {}",
+                    ended.case,
+                    reasons_text(&ended.reasons)
+                )
+            });
         }
     }
 }

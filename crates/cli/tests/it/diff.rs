@@ -50,7 +50,7 @@ fn bench(folder: &Path, seconds: f64) {
         adapter: "cpu".to_owned(),
         verdict: Verdict::Pass,
         asserted: 1.0,
-        message: String::new(),
+        reasons: Vec::new(),
         work: None,
     };
     writer.append(&BenchLine::Picture(picture)).unwrap();

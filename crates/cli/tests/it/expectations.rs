@@ -3,6 +3,7 @@
 
 use crate::etalon::etalon;
 use etalon_record::{Expectations, Run, Verdict};
+use etalon_report::message;
 use predicates::prelude::*;
 use predicates::str::contains;
 use serde_json::{Value, json};
@@ -65,7 +66,7 @@ fn what_is_skipped_is_not_drawn_and_is_no_pass() {
     work.run(&CRASHING, &file).code(3);
     for record in work.records() {
         assert_eq!(record.verdict, Verdict::Skipped);
-        assert!(record.message.contains("it is a test"));
+        assert!(message(&record).contains("it is a test"));
         assert_eq!(record.texels.total, 0);
     }
     write(
@@ -99,7 +100,7 @@ fn versions_and_days_bound_what_is_expected() {
     with(json!({ "expires": "2000-01-31" }), 1);
     let late = work.records().into_iter().find(|r| r.unexpected()).unwrap();
     assert!(
-        late.message.contains("expired on 2000-01-31: it is a test"),
+        message(&late).contains("expired on 2000-01-31: it is a test"),
         "{late:?}"
     );
     with(json!({ "expires": "31.1.2000" }), 64);

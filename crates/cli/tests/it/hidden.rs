@@ -3,7 +3,7 @@
 
 use crate::etalon::{BINARY, REMOVED};
 use etalon_frame::is_hidden;
-use etalon_record::{Record, Run, Verdict};
+use etalon_record::{Reason, Record, Run, Verdict};
 use serde_json::{Value, json};
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
@@ -111,7 +111,7 @@ fn names_in_records_lists_and_commands_are_printable() {
         run.header.command.push(EVIL.to_owned());
         for (number, record) in run.records.iter_mut().enumerate() {
             *record = Record::new(&record.case, "cpu", Verdict::Crash);
-            record.message = EVIL.repeat(3);
+            record.reasons = vec![Reason::Text(EVIL.repeat(3))];
             if number == 0 && *out == after {
                 record.verdict = Verdict::Fail;
             }

@@ -92,7 +92,7 @@ impl Place {
             adapter: "cpu".to_owned(),
             verdict: Verdict::Pass,
             asserted: 1.0,
-            message: String::new(),
+            reasons: Vec::new(),
             work: None,
         };
         writer.append(&BenchLine::Picture(picture)).unwrap();

@@ -4,6 +4,7 @@
 use crate::etalon::etalon;
 use crate::sample;
 use etalon_record::{Measured, Record, Run, Verdict};
+use etalon_report::message;
 use std::fs;
 use std::path::Path;
 use std::time::Duration;
@@ -61,7 +62,7 @@ fn the_quick_methods_are_measured_on_a_rasterizer_and_a_driver() {
             ) || record.expected.is_some(),
             "{name}: {} {}",
             record.verdict,
-            record.message
+            message(&record)
         );
         let measured = measured(record);
         let distance = &measured.distance;

@@ -4,6 +4,7 @@
 
 use crate::etalon::{BINARY, REMOVED, etalon};
 use etalon_record::{Expectations, Record, Run, Verdict};
+use etalon_report::message;
 use predicates::prelude::*;
 use predicates::str::contains;
 use serde_json::{Value, json};
@@ -281,11 +282,11 @@ fn another_wrong_value_of_an_expected_case_is_news() {
     let known = with_fault("zero-channel", &expect, &out, 0);
     assert_eq!(known.expected.unwrap().reason, "red is lost");
     let other = with_fault("off-by-one", &expect, &out, 1);
-    assert_eq!((other.verdict, other.expected), (Verdict::Fail, None));
+    assert_eq!((other.verdict, &other.expected), (Verdict::Fail, &None));
     assert!(
-        other.message.contains("not the expected symptom"),
+        message(&other).contains("not the expected symptom"),
         "{}",
-        other.message
+        message(&other)
     );
     // Without a symptom, the entry is only about the verdict.
     write(json!({}));

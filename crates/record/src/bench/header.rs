@@ -7,8 +7,8 @@ use crate::shader_cache::ShaderCache;
 use serde::{Deserialize, Serialize};
 
 /// The format of `bench.jsonl` that this crate writes. It reads format 1 too, which has no counted
-/// instructions, and format 2, which has no limits of the machine.
-pub const BENCH_FORMAT: u32 = 3;
+/// instructions, format 2, which has no limits of the machine, and format 3, which has messages instead of reasons.
+pub const BENCH_FORMAT: u32 = 4;
 
 /// The cases, adapters, machine and time of a bench.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

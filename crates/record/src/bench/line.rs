@@ -2,6 +2,7 @@
 
 use super::counted::Counted;
 use super::time::Time;
+use crate::reason::{self, Reason};
 use crate::verdict::Verdict;
 use etalon_frame::{Work, state_enum};
 use schemars::JsonSchema;
@@ -36,9 +37,14 @@ pub struct Picture {
     pub verdict: Verdict,
     /// The fraction of asserted channels among all channels of all samples, 0 to 1.
     pub asserted: f64,
-    /// The missing requirement, the error, or the first wrong texel.
-    #[serde(default, skip_serializing_if = "String::is_empty")]
-    pub message: String,
+    /// Why it has this verdict. Formats before 4 have a `message` instead.
+    #[serde(
+        default,
+        alias = "message",
+        deserialize_with = "reason::read",
+        skip_serializing_if = "Vec::is_empty"
+    )]
+    pub reasons: Vec<Reason>,
     /// The work of a frame, for cells of the performance matrix.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub work: Option<Work>,
@@ -121,8 +127,9 @@ pub struct Ended {
     /// `Crash`, `Timeout`, `DeviceLost`, `ResourceError` or `InternalError`; `Flaky` or `Fail` if a picture
     /// after a round differs from the judged one.
     pub verdict: Verdict,
-    /// The cause.
-    pub message: String,
+    /// The cause. Formats before 4 have a `message` instead.
+    #[serde(alias = "message", deserialize_with = "reason::read")]
+    pub reasons: Vec<Reason>,
 }
 
 state_enum! {

@@ -2,7 +2,7 @@
 
 use etalon_record::{
     BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchWriter, Done, Ended, Enough, FolderKind,
-    Machine, OutputFolder, Picture, RecordError, Round, ShaderCache, Time, Verdict,
+    Machine, OutputFolder, Picture, Reason, RecordError, Round, ShaderCache, Time, Verdict,
 };
 use serde_json::{Value, json};
 use std::fs;
@@ -40,7 +40,7 @@ fn picture(verdict: Verdict) -> BenchLine {
         adapter: "cpu".to_owned(),
         verdict,
         asserted: 1.0,
-        message: String::new(),
+        reasons: Vec::new(),
         work: None,
     })
 }
@@ -162,7 +162,7 @@ fn impossible_lines_are_told_with_file_and_line() {
             case: "perf/a".to_owned(),
             adapter: "cpu".to_owned(),
             verdict: Verdict::Crash,
-            message: String::new(),
+            reasons: Vec::new(),
         })
     };
     let elsewhere = || match pass() {
@@ -215,6 +215,21 @@ fn impossible_lines_are_told_with_file_and_line() {
         );
         assert!(error.contains(words), "{words}: {error}");
     }
+}
+
+#[test]
+fn the_messages_of_earlier_formats_are_read_as_text() {
+    let line = r#"{"picture":{"case":"perf/a","adapter":"cpu","verdict":"fail","asserted":1.0,"message":"9 samples"}}"#;
+    let BenchLine::Picture(picture) = serde_json::from_str(line).unwrap() else {
+        panic!("a picture");
+    };
+    assert_eq!(picture.reasons, [Reason::Text("9 samples".to_owned())]);
+    let line =
+        r#"{"ended":{"case":"perf/a","adapter":"cpu","verdict":"crash","message":"signal 11"}}"#;
+    let BenchLine::Ended(ended) = serde_json::from_str(line).unwrap() else {
+        panic!("an end");
+    };
+    assert_eq!(ended.reasons, [Reason::Text("signal 11".to_owned())]);
 }
 
 #[test]

@@ -1,15 +1,17 @@
 //! Run folders: written and read, cut off, resumed and replaced.
 
 use etalon_frame::{
-    Accuracy, Api, Aspect, Band, ChannelEncoding, ChannelMismatch, CounterKind, CounterOutcome,
-    DepthTest, Distance, Effect, ErrorKind, Event, Limits, Origin, Rejection, SceneName, Step,
-    Story, TexelCounts, ToldLine, ValueRange, WrongTexel,
+    Accuracy, Api, ApiVersion, Aspect, Band, ChannelEncoding, ChannelMismatch, CounterKind,
+    CounterOutcome, DepthTest, Distance, Effect, ErrorKind, Event, Limits, Origin, Rejection,
+    Requirement, SceneName, Step, Story, TexelCounts, TextureFormat, ToldLine, ValueRange,
+    WrongTexel,
 };
 use etalon_record::{
-    AdapterRecord, Assertion, Bench, Content, Dead, Expected, FORMAT, FolderKind, FrameFile,
-    FrameImage, Header, Hunt, LossKind, MAX_LINE, MAX_WRONG_TEXELS, Machine, Measured,
-    OutputFolder, Parameter, ProcessEnd, Record, RecordError, Run, RunWriter, Seconds, Settings,
-    Shard, Times, Verdict, Versions, beside, read_cases, selection_digest,
+    AdapterRecord, Assertion, Bench, ComparedPair, Content, Dead, Denial, ExitStatus, Expected,
+    FORMAT, FailedRoundTrip, FolderKind, FrameFile, FrameImage, Fresh, Header, Hunt, MAX_LINE,
+    MAX_WRONG_TEXELS, Machine, Measured, OutputFolder, Parameter, ProcessEnd, Reason, Record,
+    RecordError, Run, RunWriter, Seconds, Settings, Shard, Times, Verdict, Versions, beside,
+    read_cases, selection_digest,
 };
 use proptest::prelude::*;
 use std::fs;
@@ -158,6 +160,30 @@ prop_compose! {
             prop::collection::vec(".*", 0..3),
         ),
     ) -> Record {
+        let error = message.strip_prefix('e').map(|rest| ErrorKind::Resource {
+            object: rest.chars().take(20).collect(), code: improves.map(|v| v.name().to_owned()),
+        });
+        let denial = Denial {
+            needed: Requirement::Samples(TextureFormat::Rgba8Unorm, 4), api: Api::OpenGl,
+            version: ApiVersion::new(4, 6), citation: message.clone(),
+        };
+        let reasons = vec![
+            Reason::Missing(denial.needed),
+            Reason::Denied(denial),
+            Reason::NotRequired(Api::Vulkan, ApiVersion::new(1, 3)),
+            Reason::OutOfTime(0.5),
+            Reason::NoAnswer(60.0),
+            Reason::PartsDisagree(verdict, Verdict::Pass),
+            Reason::Flaky { verdicts: vec![verdict], fresh: Fresh::Process },
+            Reason::Difference {
+                samples: counts[0], pair: ComparedPair::Attachments(message.clone(), String::new()),
+                citation: String::new(),
+            },
+            Reason::FailedRoundTrips(vec![FailedRoundTrip {
+                case: message.clone(), verdict, wrong: None, why: vec![Reason::Process(Box::default())],
+            }]),
+            Reason::Text(message),
+        ];
         let assertion = |f: [u64; 7]| Assertion {
             aspect: Aspect::Stencil,
             channels: f[0], asserted: f[1], exact: f[2], codes: f[3],
@@ -168,18 +194,18 @@ prop_compose! {
         };
         Record {
             process: lost.map(|(signal, stderr)| ProcessEnd {
-                kind: LossKind::Died, signal, exit: signal.map(|s| !s), stderr, seconds: 0.25,
+                signal, exit: signal.map(|s| !s), stderr, seconds: 0.25,
+                launcher: signal.map(|s| ExitStatus { signal: Some(s), exit: None }),
+                limit: signal.map(f64::from), ..ProcessEnd::default()
             }),
-            error: message.strip_prefix('e').map(|rest| ErrorKind::Resource {
-                object: rest.chars().take(20).collect(), code: improves.map(|v| v.name().to_owned()),
-            }),
+            error,
             look: said.first().cloned(),
             example: said.last().cloned(),
             validation: said.clone(),
             after: said.clone(),
             blocked_by: said,
             repeats: improves.into_iter().collect(),
-            case, adapter, verdict, improves, due_fail, message, story, frame,
+            case, adapter, verdict, improves, due_fail, reasons, story, frame,
             expected: expected.map(|reason| Expected { reason }),
             texels: TexelCounts { total: counts[0], wrong: counts[1], imprecise: counts[2], open: counts[3] },
             counters: vec![CounterOutcome {
@@ -396,6 +422,7 @@ fn runs_of_every_older_format_are_read_and_not_gone_on_with() {
         (2, include_str!("../data/format-2.jsonl")),
         (3, include_str!("../data/format-3.jsonl")),
         (4, include_str!("../data/format-4.jsonl")),
+        (5, include_str!("../data/format-5.jsonl")),
     ];
     assert_eq!(samples.len() as u32, FORMAT - 1, "a sample of each");
     for (format, text) in samples {
@@ -417,6 +444,15 @@ fn runs_of_every_older_format_are_read_and_not_gone_on_with() {
         assert!(format < 3 || stories > 0, "a story");
         assert!(run.records.iter().all(|r| r.example.is_none()));
         assert!(run.records.iter().all(|r| r.blocked_by.is_empty()));
+        let text = |record: &Record| {
+            let [Reason::Text(text)] = &record.reasons[..] else {
+                panic!("{:?}", record.reasons);
+            };
+            text.clone()
+        };
+        for record in run.records.iter().filter(|r| !r.reasons.is_empty()) {
+            assert!(!text(record).is_empty(), "the message of an older format");
+        }
         // Records of this format must not follow a header of another.
         let mut now = run.header.clone();
         now.format = FORMAT;
@@ -568,7 +604,7 @@ fn long_records_are_shortened_in_order() {
             events: vec![event.clone(); lines],
             ..Story::default()
         });
-        record.message = "ü".repeat(message) + "end";
+        record.reasons = vec![Reason::Text("ü".repeat(message) + "end")];
         writer.append(&record).unwrap();
     }
     let text = fs::read_to_string(folder.path().join("run.jsonl")).unwrap();
@@ -582,10 +618,13 @@ fn long_records_are_shortened_in_order() {
     assert_eq!(run.records[1].wrong.len(), 1);
     assert!((10..500).contains(&story(1)), "{}", story(1));
     assert_eq!((run.records[2].wrong.len(), story(2)), (1, 0));
-    assert!(run.records[2].message.ends_with("üend"));
+    let [Reason::Text(cut)] = &run.records[2].reasons[..] else {
+        panic!("{:?}", run.records[2].reasons);
+    };
+    assert!(cut.starts_with("[cut] ü") && cut.ends_with("üend"));
 
     let mut hopeless = Record::new("c".repeat(MAX_LINE), "gl:es:soft", Verdict::Fail);
-    hopeless.message = "m".to_owned();
+    hopeless.reasons = vec![Reason::Text("m".to_owned())];
     assert!(matches!(
         writer.append(&hopeless),
         Err(RecordError::TooLong { .. })

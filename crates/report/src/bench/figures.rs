@@ -2,6 +2,7 @@
 
 use crate::lists::grouped;
 use crate::numbers::{count, duration, instructions, percent, round_duration};
+use crate::words;
 use etalon_record::{AdapterRecord, Bench, BenchRecord, BenchSettings, Time, Verdict};
 use etalon_stats::{Conclusion, Samples, Summary, compare, summarize};
 use maud::{Markup, html};
@@ -97,12 +98,13 @@ pub(crate) fn figures(bench: &Bench) -> Vec<CaseFigures<'_>> {
     cases.collect()
 }
 
-/// Returns the verdict and message of a record's end, or of its picture if it did not end early.
-pub(crate) fn end(record: &BenchRecord) -> (Verdict, &str) {
-    match &record.ended {
-        Some(ended) => (ended.verdict, &ended.message),
-        None => (record.picture.verdict, &record.picture.message),
-    }
+/// Returns the verdict and the reasons of a record's end, or of its picture if it did not end early.
+pub(crate) fn end(record: &BenchRecord) -> (Verdict, String) {
+    let (verdict, reasons) = match &record.ended {
+        Some(ended) => (ended.verdict, &ended.reasons),
+        None => (record.picture.verdict, &record.picture.reasons),
+    };
+    (verdict, words::reasons_text(reasons))
 }
 
 /// Returns the samples of one time, with their ruler, or `None` if it was not measured.

@@ -201,7 +201,7 @@ fn share(record: &BenchRecord) -> String {
 fn ended(record: &BenchRecord) -> Markup {
     html! {
         @if let Some(ended) = &record.ended {
-            small { ", then " (words::name(ended.verdict)) ": " (ended.message) }
+            small { ", then " (words::name(ended.verdict)) ": " (words::reasons_text(&ended.reasons)) }
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The conclusion of a record in files for other programs, and the texts that go with its verdict.
 
 use crate::numbers::count;
-use crate::words::{name, plain, process_end, repetitions, story_text};
+use crate::words::{message, name, plain, process_end, repetitions, story_text};
 use etalon_record::{Record, Run, Verdict};
 
 /// The conclusion that continuous integration draws from a record.
@@ -114,8 +114,9 @@ pub(crate) fn particulars(record: &Record) -> Vec<String> {
 /// Returns all facts of an unexpected record, for people.
 pub(crate) fn account(record: &Record) -> String {
     let mut parts = Vec::new();
-    if !record.message.is_empty() {
-        parts.push(record.message.clone());
+    let message = message(record);
+    if !message.is_empty() {
+        parts.push(message);
     }
     let particulars = particulars(record);
     if !particulars.is_empty() {

@@ -77,7 +77,7 @@ impl CellOutcome {
         });
         if let Some(record) = wrong {
             let (verdict, message) = end(record);
-            return Self::Untimed(verdict, message.to_owned());
+            return Self::Untimed(verdict, message);
         }
         let [first, other] = records else {
             return Self::Incomplete;

@@ -1,5 +1,6 @@
 //! A reduced case in words.
 
+use super::reason::message;
 use super::story::{judged_by, sentence};
 use etalon_diagnose::{Symptom, violated_clause};
 use etalon_record::Record;
@@ -18,7 +19,7 @@ impl ReducedCase<'_> {
     /// Returns the sentence on the wrong sample or counter.
     pub fn sentence(&self) -> String {
         let sentence = self.record.story.as_ref().and_then(sentence);
-        sentence.unwrap_or_else(|| self.record.message.clone())
+        sentence.unwrap_or_else(|| message(self.record))
     }
 
     /// Returns the violated clause, or the text by which the record was judged.

@@ -4,7 +4,7 @@ use crate::synthetic::adapter;
 use etalon_frame::Api;
 use etalon_record::{
     BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchWriter, Ended, Machine, Picture,
-    ProcessorLimits, Round, ShaderCache, Time, Verdict,
+    ProcessorLimits, Reason, Round, ShaderCache, Time, Verdict,
 };
 use etalon_report::{TableOptions, bench_table, diff, diff_table, write_bench, write_diff};
 use etalon_stats::Conclusion;
@@ -51,13 +51,20 @@ pub(crate) fn header() -> BenchHeader {
 
 const CASES: [&str; 2] = ["perf/clear/size=256", "perf/<b>&quad/size=256"];
 
+fn text(text: &str) -> Vec<Reason> {
+    let text = Some(text).filter(|text| !text.is_empty());
+    text.map(|t| Reason::Text(t.to_owned()))
+        .into_iter()
+        .collect()
+}
+
 fn picture(case: &str, adapter: &str, verdict: Verdict, message: &str) -> BenchLine {
     BenchLine::Picture(Picture {
         case: case.to_owned(),
         adapter: adapter.to_owned(),
         verdict,
         asserted: 0.995,
-        message: message.to_owned(),
+        reasons: text(message),
         work: None,
     })
 }
@@ -335,7 +342,7 @@ fn a_bench_that_was_cut_short_says_so() {
         case: CASES[0].to_owned(),
         adapter: "cpu".to_owned(),
         verdict: Verdict::Crash,
-        message: "signal 11".to_owned(),
+        reasons: text("signal 11"),
     };
     writer.append(&BenchLine::Ended(ended)).unwrap();
     let written = write_bench(folder.path()).unwrap();

@@ -6,7 +6,7 @@ use crate::synthetic::{self, adapter, header};
 use crate::verdicts::{every_verdict, record_all};
 use etalon_frame::{Api, Aspect};
 use etalon_record::{
-    Assertion, LossKind, ProcessEnd, Record, Run, RunWriter, Verdict, selection_digest,
+    Assertion, LossKind, ProcessEnd, Reason, Record, Run, RunWriter, Verdict, selection_digest,
 };
 use etalon_report::{OtherFormats, RunReport, RunReports, write};
 use pulldown_cmark::{Event, Parser};
@@ -26,7 +26,7 @@ fn hostile(folder: &Path) {
     header.machine.cpu = HOSTILE.to_owned();
     header.absent[0].remedy = HOSTILE.to_owned();
     let mut record = Record::new(format!("{HOSTILE}/{HOSTILE}"), HOSTILE, Verdict::Crash);
-    record.message = HOSTILE.to_owned();
+    record.reasons = vec![Reason::Text(HOSTILE.to_owned())];
     record.after = vec![HOSTILE.to_owned()];
     record.validation = vec![HOSTILE.to_owned()];
     record.seconds.draw = 1e300;
@@ -37,6 +37,7 @@ fn hostile(folder: &Path) {
         exit: Some(i32::MAX),
         stderr: HOSTILE.to_owned(),
         seconds: 1e300,
+        ..ProcessEnd::default()
     });
     let mut better = Record::new("# a", HOSTILE, Verdict::Pass);
     better.improves = Some(Verdict::Fail);

@@ -2,7 +2,7 @@
 
 use crate::bench::header;
 use etalon_frame::Work;
-use etalon_record::{Bench, BenchHeader, BenchLine, BenchWriter, Picture, Round, Verdict};
+use etalon_record::{Bench, BenchHeader, BenchLine, BenchWriter, Picture, Reason, Round, Verdict};
 use etalon_report::{TableOptions, matrix_table, write_bench};
 use std::collections::BTreeMap;
 use std::fs;
@@ -43,9 +43,9 @@ fn picture(case: &str, adapter: &str, verdict: Verdict, layers: u64) -> BenchLin
         adapter: adapter.to_owned(),
         verdict,
         asserted: 1.0,
-        message: match verdict {
-            Verdict::Pass => String::new(),
-            _ => "format <r8unorm>, \"missing\"".to_owned(),
+        reasons: match verdict {
+            Verdict::Pass => Vec::new(),
+            _ => vec![Reason::Text("format <r8unorm>, \"missing\"".to_owned())],
         },
         work: Some(Work {
             triangles: layers,

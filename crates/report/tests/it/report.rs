@@ -2,7 +2,9 @@
 
 use crate::synthetic::{self, adapter, header};
 use etalon_frame::{Accuracy, Api, Aspect, Distance, Story, ToldLine};
-use etalon_record::{Expected, Measured, Parameter, Record, Run, RunWriter, Times, Verdict};
+use etalon_record::{
+    Expected, Measured, Parameter, Reason, Record, Run, RunWriter, Times, Verdict,
+};
 use etalon_report::{RunReports, TableOptions, table, write};
 use roxmltree::{Document, Node};
 use std::collections::HashSet;
@@ -172,7 +174,7 @@ fn hostile_names_stay_text() {
     let mut writer = RunWriter::create(folder.path(), &header).unwrap();
     let id = format!("{hostile}/{hostile}/a={hostile}");
     let mut record = synthetic::record(&writer, &id, hostile, Verdict::Fail, 1);
-    record.message = hostile.to_owned();
+    record.reasons = vec![Reason::Text(hostile.to_owned())];
     record.story = Some(Story {
         told: vec![ToldLine {
             at: hostile.to_owned(),
@@ -264,7 +266,7 @@ fn a_junit_file_is_well_formed_whatever_a_text_holds() {
     for (number, c) in texts.iter().enumerate() {
         let id = format!("a/{number}{c}");
         let mut record = Record::new(&id, "cpu", Verdict::Crash);
-        record.message = format!("<{c}>");
+        record.reasons = vec![Reason::Text(format!("<{c}>"))];
         writer.append(&record).unwrap();
     }
     let (_, junit) = read(&write(folder.path()).unwrap());
@@ -348,7 +350,7 @@ fn the_table_counts_and_lists() {
     assert_eq!(sum, Verdict::ALL.len() as u64 + 4, "{wide}");
     assert!(wide.contains(" skipped "), "{wide}");
     assert!(text.contains("2 improvements"), "{text}");
-    assert!(text.contains("depth/all/verdict=crash: the process died of SIGABRT"));
+    assert!(text.contains("depth/all/verdict=crash: Aborted"));
     assert!(text.contains("depth allowed 0x"), "{text}");
     for width in [20, 60, 80] {
         let narrow = table(&run, TableOptions { width, color: true });

@@ -4,7 +4,7 @@ use crate::runs_made::{Two, one_adapter, record_all, rich};
 use crate::synthetic::{self, adapter, header};
 use etalon_frame::{Api, CounterKind, CounterOutcome, Story, ToldLine};
 use etalon_record::{
-    Expected, LossKind, ProcessEnd, Record, Run, RunWriter, Shard, Verdict, selection_digest,
+    Expected, ProcessEnd, Reason, Record, Run, RunWriter, Shard, Verdict, selection_digest,
     shard_of,
 };
 use etalon_report::runs::{Change, Direction, Side, diff, table, write_page};
@@ -85,11 +85,9 @@ fn each_planted_change_is_found_as_what_it_is() {
     assert_eq!(kinds(said), (Direction::Other, vec!["validation"]));
     let lost = planted(|r| {
         r.process = Some(ProcessEnd {
-            kind: LossKind::Died,
             signal: Some(6),
-            exit: None,
-            stderr: String::new(),
             seconds: 1.0,
+            ..ProcessEnd::default()
         });
     });
     assert_eq!(kinds(lost), (Direction::Other, vec!["process"]));
@@ -120,7 +118,7 @@ fn times_messages_and_stories_are_no_change() {
     let same = planted(|r| {
         r.seconds.draw = 3.0;
         r.measured.as_mut().unwrap().time.as_mut().unwrap().wall = 1.0;
-        r.message = "at 0x7ffd1234".to_owned();
+        r.reasons = vec![Reason::Text("at 0x7ffd1234".to_owned())];
         r.story = Some(Story {
             told: vec![ToldLine {
                 at: "pass 0".to_owned(),
@@ -574,7 +572,7 @@ fn hostile_names_stay_text() {
     }];
     let mut new = old.clone();
     new.verdict = Verdict::Fail;
-    new.message = hostile.to_owned();
+    new.reasons = vec![Reason::Text(hostile.to_owned())];
     new.frame = Some("frames/<i class='x'>.json".to_owned());
     new.counters[0].actual = 2;
     let gone = Record::new(hostile, hostile, Verdict::Pass);

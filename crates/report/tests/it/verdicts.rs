@@ -2,7 +2,7 @@
 
 use crate::synthetic::{adapter, header};
 use etalon_frame::Api;
-use etalon_record::{Expected, Header, LossKind, ProcessEnd, Record, RunWriter, Verdict};
+use etalon_record::{Expected, Header, ProcessEnd, Record, RunWriter, Verdict};
 use std::path::Path;
 
 /// One record per verdict on `gl:a`, and another for each way in which it can be expected.
@@ -36,13 +36,11 @@ pub(crate) fn every_verdict(folder: &Path) -> Vec<Record> {
         records.push(record);
     }
     let mut lost = Record::new("depth/lost", "gl:a", Verdict::Crash);
-    lost.message = "worker lost".to_owned();
     lost.process = Some(ProcessEnd {
-        kind: LossKind::Died,
         signal: Some(6),
-        exit: None,
         stderr: "LLVM ERROR\nout of registers".to_owned(),
         seconds: 1.5,
+        ..ProcessEnd::default()
     });
     lost.after = vec!["depth/first".to_owned(), "depth/second".to_owned()];
     let mut repeated = Record::new("depth/repeated", "gl:a", Verdict::Pass);

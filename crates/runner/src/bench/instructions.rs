@@ -4,7 +4,6 @@
 //! free of what a worker does only once, and is the same on a busy machine.
 
 use super::round::SLOT;
-use crate::failure_report::FailureReport;
 use crate::launch::Launch;
 use crate::loss::Failure;
 use crate::protocol::Request;
@@ -84,8 +83,11 @@ pub(crate) fn count(
             Ok(())
         };
         if let Err(failure) = draw() {
-            let message = FailureReport::new(failure, Some(&mut worker)).message;
-            return Err(format!("a worker failed under {counter}: {message}"));
+            let why = match failure {
+                Failure::Backend(error) => error.to_string(),
+                Failure::Lost(loss) => worker.end_of(loss).to_string(),
+            };
+            return Err(format!("a worker failed under {counter}: {why}"));
         }
         if !worker.close(timeout) {
             return Err(format!("a worker did not end under {counter}"));

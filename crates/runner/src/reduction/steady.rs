@@ -41,7 +41,7 @@ pub(super) fn steady(
             if record.verdict == Verdict::NotSupported {
                 return Err(ReductionError::NotSupported {
                     adapter: launch.adapter.clone(),
-                    missing: record.message,
+                    record: Box::new(record),
                 });
             }
             records.push(record);
@@ -71,10 +71,7 @@ pub(super) fn steady(
         return Err(ReductionError::Passes {
             case: id.to_owned(),
             adapter: launch.adapter.clone(),
-            verdict: match record.message.as_str() {
-                "" => record.verdict.to_string(),
-                message => format!("{}, {message}", record.verdict),
-            },
+            record: Box::new(record),
         });
     };
     if ways.len() < drawings {

@@ -86,7 +86,7 @@ impl<'s> AdapterRun<'s, '_> {
             let budget = budget.filter(|_| self.queue.is_late())?;
             let mut record = Record::new(&case.id, &adapter.name, Verdict::Skipped);
             record.due_fail = is_due_to_fail(case, &adapter.limits);
-            record.message = budget.reason();
+            record.reasons = vec![budget.reason()];
             Some(record)
         })
     }

@@ -1,5 +1,6 @@
 //! The time that a run with a limit has left, shared between its adapters.
 
+use etalon_record::Reason;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
@@ -35,8 +36,8 @@ impl Budget {
     }
 
     /// Returns the reason why a case is left out.
-    pub(super) fn reason(&self) -> String {
-        format!("not drawn within {} s", self.limit.as_secs_f64())
+    pub(super) fn reason(&self) -> Reason {
+        Reason::OutOfTime(self.limit.as_secs_f64())
     }
 }
 
@@ -58,6 +59,6 @@ mod tests {
         });
         // The third one begins after the first two; here they took no time.
         assert_eq!(ends, [30.0, 30.0, 60.0]);
-        assert_eq!(budget.reason(), "not drawn within 60 s");
+        assert_eq!(budget.reason(), Reason::OutOfTime(60.0));
     }
 }

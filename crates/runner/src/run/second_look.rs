@@ -9,7 +9,7 @@ use crate::supervisor::start;
 use crate::sync::lock;
 use etalon_diagnose::Symptom;
 use etalon_judge::{is_unexpectedly_bad, mark_flaky};
-use etalon_record::{LossKind, Verdict};
+use etalon_record::{Fresh, LossKind, Reason, Verdict};
 use std::time::{Duration, Instant};
 
 /// The time after which a search for the preceding cases is not narrowed further.
@@ -70,16 +70,8 @@ pub(super) fn confirm(
                 if let Some(ruling) = story.and_then(|story| story.ruling.as_mut()) {
                     ruling.after.clone_from(&first.record.after);
                 }
-                first.record.message = format!(
-                    "only after {} in the same process: {}",
-                    match cases.len() {
-                        1 => "another case".to_owned(),
-                        n => format!("{n} other cases"),
-                    },
-                    first.record.message
-                )
-                .trim_end_matches([':', ' '])
-                .to_owned();
+                let others = Reason::AfterOthers(cases.len());
+                first.record.reasons.insert(0, others);
                 first.record.repeats = repeats;
                 return Some(first);
             }
@@ -89,7 +81,7 @@ pub(super) fn confirm(
     }
     let drawings = std::iter::once(first).chain(others);
     let mut worst = drawings.max_by_key(|s| s.record.verdict.severity())?;
-    mark_flaky(&mut worst.record, verdict, repeats, "in a fresh process");
+    mark_flaky(&mut worst.record, verdict, repeats, Fresh::Process);
     Some(worst)
 }
 

@@ -12,7 +12,7 @@ use crate::event::Event;
 use crate::loss::{Failure, Loss};
 use crate::supervisor::Supervisor;
 use etalon_judge::RoundTrips;
-use etalon_record::Record;
+use etalon_record::{Reason, Record};
 use std::collections::VecDeque;
 use std::sync::PoisonError;
 use std::time::Instant;
@@ -71,8 +71,8 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
             self.supervisor.take_over(queue.take_running());
             self.draw_round_trips()
         });
-        if let Some(error) = round_trips.not_started() {
-            return run.record_not_started(error);
+        if let Some(end) = round_trips.not_started() {
+            return run.record_not_started(&end.error);
         }
         self.draw(&mut || queue.take(), &mut |_, record| run.record(record));
     }
@@ -237,7 +237,8 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
             Err(loss) => {
                 let report = self.supervisor.report(loss.into());
                 record.verdict = report.verdict;
-                record.message = format!("while its frames were timed: {}", report.message);
+                let text = report.error.map(|(text, _)| Reason::Text(text));
+                record.reasons = [Reason::WhileTimed].into_iter().chain(text).collect();
                 record.process = report.process;
             }
         }

@@ -7,7 +7,7 @@ use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Frame, Limits};
 use etalon_record::{
-    BENCH_FORMAT, Bench, BenchHeader, Expectations, Machine, ShaderCache, Verdict,
+    BENCH_FORMAT, Bench, BenchHeader, Expectations, LossKind, Machine, Reason, ShaderCache, Verdict,
 };
 use etalon_runner::{BenchEvent, BenchPlan, BenchSummary, Launch, Worker};
 use etalon_scene::Scene;
@@ -206,11 +206,18 @@ fn marked(fault: &str) -> (etalon_record::BenchRecord, BenchSummary) {
     (found.unwrap(), outcome)
 }
 
+/// Returns true if a process died of an abort.
+fn died(reasons: &[Reason]) -> bool {
+    let aborted = |reason: &Reason| matches!(reason, Reason::Process(end) if end.signal == Some(6));
+    reasons.iter().any(aborted)
+}
+
 #[test]
 fn a_wrong_picture_has_no_time() {
     let (record, outcome) = marked("wrong");
     assert_eq!(record.picture.verdict, Verdict::Fail);
-    assert!(record.picture.message.contains("(0, 0)"), "{record:?}");
+    let first = |reason: &Reason| matches!(reason, Reason::FirstWrong { at: [0, 0], .. });
+    assert!(record.picture.reasons.iter().any(first), "{record:?}");
     assert_eq!(record.rounds, []);
     assert_eq!((outcome.timed, outcome.unexpected), (5, 1));
 }
@@ -219,23 +226,21 @@ fn a_wrong_picture_has_no_time() {
 fn a_worker_that_dies_while_it_is_judged_costs_one_case() {
     let (record, outcome) = marked("dies at once");
     assert_eq!(record.picture.verdict, Verdict::Crash);
-    assert!(record.picture.message.contains("abort"), "{record:?}");
+    assert!(died(&record.picture.reasons), "{record:?}");
     assert_eq!(record.rounds, []);
     assert_eq!((outcome.timed, outcome.unexpected), (5, 1));
 }
 
 #[test]
 fn a_worker_that_dies_while_it_is_timed_costs_one_case() {
-    for (fault, verdict, words) in [
-        ("dies", Verdict::Crash, "abort"),
-        ("lost", Verdict::DeviceLost, "planted"),
-    ] {
+    for (fault, verdict) in [("dies", Verdict::Crash), ("lost", Verdict::DeviceLost)] {
         let (record, outcome) = marked(fault);
         assert_eq!(record.picture.verdict, Verdict::Pass);
         assert_eq!(record.rounds, []);
         let ended = record.ended.unwrap();
         assert_eq!(ended.verdict, verdict);
-        assert!(ended.message.contains(words), "{ended:?}");
+        assert_eq!(died(&ended.reasons), fault == "dies", "{ended:?}");
+        assert!(!ended.reasons.is_empty());
         assert_eq!((outcome.timed, outcome.unexpected), (6, 1));
     }
 }
@@ -253,16 +258,19 @@ fn a_worker_that_never_comes_back_costs_its_adapter_alone() {
         assert_eq!((good.rounds.len() as u32, &good.ended), (ROUNDS, &None));
         let faulty = bench.record(&case, "faulty").unwrap();
         assert_eq!(faulty.rounds, []);
-        let (verdict, message) = match &faulty.ended {
-            Some(ended) => (ended.verdict, &ended.message),
-            None => (faulty.picture.verdict, &faulty.picture.message),
+        let (verdict, reasons) = match &faulty.ended {
+            Some(ended) => (ended.verdict, &ended.reasons),
+            None => (faulty.picture.verdict, &faulty.picture.reasons),
         };
         assert_eq!(verdict, Verdict::Crash);
-        let words = match height {
-            MARKED => "abort",
-            _ => "could not be started again",
-        };
-        assert!(message.contains(words), "{height}: {message}");
+        if height == MARKED {
+            assert!(died(reasons), "{reasons:?}");
+        } else {
+            let [Reason::Process(end)] = &reasons[..] else {
+                panic!("{height}: {reasons:?}");
+            };
+            assert_eq!(end.kind, LossKind::NotStarted, "{height}");
+        }
         assert_eq!(faulty.ended.is_some(), height < MARKED);
     }
     assert_eq!((outcome.timed, outcome.unexpected), (4, 3));
@@ -276,7 +284,8 @@ fn a_picture_that_changes_is_flaky() {
     assert_eq!(record.rounds.len(), 1);
     let ended = record.ended.unwrap();
     assert_eq!(ended.verdict, Verdict::Flaky);
-    assert!(ended.message.contains("Invariance"), "{ended:?}");
+    let changed = |r: &Reason| matches!(r, Reason::ChangedPicture(c) if c.contains("Invariance"));
+    assert!(ended.reasons.iter().any(changed), "{ended:?}");
     assert_eq!(outcome.unexpected, 1);
 }
 

@@ -3,7 +3,7 @@
 use super::instructions::{self, InstructionChange, InstructionOutcome};
 use crate::bench::figures::{self, software};
 use crate::numbers::count;
-use crate::words::machine;
+use crate::words::{self, machine};
 use etalon_record::{AdapterRecord, Bench, BenchHeader, BenchRecord, Time};
 use etalon_stats::{
     Conclusion, LEVEL, MINIMUM, Samples, Why, compare, smallest_visible, summarize,
@@ -298,12 +298,12 @@ fn gone(there: &BenchRecord, other: Option<&BenchRecord>, from_after: bool, time
         None => ("it took no part".to_owned(), false),
         Some(other) => match &other.ended {
             Some(ended) => (
-                format!("{}: {}", ended.verdict, ended.message),
+                format!("{}: {}", ended.verdict, words::reasons_text(&ended.reasons)),
                 ended.verdict.is_bad(),
             ),
             None if other.rounds.is_empty() => {
                 let p = &other.picture;
-                let message = match p.message.as_str() {
+                let message = match words::reasons_text(&p.reasons).as_str() {
                     "" => String::new(),
                     text => format!(": {text}"),
                 };

@@ -203,7 +203,7 @@ fn escaped(text: &str) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etalon_record::{Header, Record, Run};
+    use etalon_record::{Header, Reason, Record, Run};
 
     fn run(records: Vec<Record>) -> Run {
         let header = Header::new(Vec::new(), records.len() as u64);
@@ -225,7 +225,7 @@ mod tests {
     fn no_text_can_end_the_block() {
         let hostile = "</script><!--<script>\u{0}\u{2028}\"\\";
         let mut record = Record::new(format!("a/{hostile}"), hostile, Verdict::Crash);
-        record.message = hostile.to_owned();
+        record.reasons = vec![Reason::Text(hostile.to_owned())];
         let block = block_of(vec![record]);
         let inner = block.split_once('>').unwrap().1;
         let inner = inner.strip_suffix("</script>").unwrap();
@@ -244,7 +244,8 @@ mod tests {
         let mut records: Vec<Record> = (0..4000)
             .map(|i| {
                 let mut r = Record::new(format!("a/{i}"), "b", Verdict::Pass);
-                r.message = format!("{i} {}", "<".repeat(1000));
+                let text = format!("{i} {}", "<".repeat(1000));
+                r.reasons = vec![Reason::Text(text)];
                 r
             })
             .collect();

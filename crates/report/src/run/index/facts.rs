@@ -26,11 +26,12 @@ pub(crate) fn of(record: &Record) -> Vec<(Label, String)> {
     let mut facts = Vec::new();
     let mut add = |name, form, in_body, text: String| facts.push(((name, form, in_body), text));
     let headline = words::headline(record);
-    if headline != words::meaning(record.verdict) && headline != record.message {
+    if headline != words::meaning(record.verdict) && headline != words::message(record) {
         add("In short", "text", false, headline);
     }
-    if !record.message.is_empty() {
-        add("Message", "pre", true, end(&record.message));
+    let reasons = words::reasons_text(&record.reasons);
+    if !reasons.is_empty() {
+        add("Message", "pre", true, end(&reasons));
     }
     if let Some(expected) = &record.expected {
         add("Expected", "text", true, end(&expected.reason));
@@ -174,7 +175,7 @@ fn end(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etalon_record::{LossKind, ProcessEnd, Verdict};
+    use etalon_record::{ProcessEnd, Verdict};
 
     #[test]
     fn a_long_message_keeps_its_end() {
@@ -194,11 +195,9 @@ mod tests {
         record.after = vec!["a/a".to_owned()];
         record.validation = vec!["VUID-1".to_owned(), "VUID-2".to_owned()];
         record.process = Some(ProcessEnd {
-            kind: LossKind::Died,
             signal: Some(11),
-            exit: None,
             stderr: "last words".to_owned(),
-            seconds: 1.5,
+            ..ProcessEnd::default()
         });
         let facts = of(&record);
         let labels: Vec<&str> = facts.iter().map(|((label, ..), _)| *label).collect();

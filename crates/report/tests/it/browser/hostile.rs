@@ -5,7 +5,7 @@ use crate::synthetic::{self, adapter, header};
 use etalon_frame::{
     Api, Aspect, Contents, Effect, Event, Origin, SceneName, Step, Story, ToldLine,
 };
-use etalon_record::{Expected, LossKind, ProcessEnd, Record, RunWriter, Verdict};
+use etalon_record::{Expected, LossKind, ProcessEnd, Reason, Record, RunWriter, Verdict};
 
 /// Texts that would run as a script, each alone and all of them together.
 const HOSTILE: [&str; 12] = [
@@ -132,16 +132,16 @@ pub(super) fn hostile_names_stay_text(chromium: &Chromium) {
 
 fn record(writer: &RunWriter, id: &str, name: &str, verdict: Verdict, hostile: &str) -> Record {
     let mut record = synthetic::record(writer, id, name, verdict, 1);
-    record.message = hostile.to_owned();
+    record.reasons = vec![Reason::Text(hostile.to_owned())];
     record.expected = (verdict == Verdict::Fail).then(|| Expected {
         reason: hostile.to_owned(),
     });
     record.process = Some(ProcessEnd {
         kind: LossKind::Garbage,
-        signal: None,
         exit: Some(1),
         stderr: hostile.to_owned(),
         seconds: 1.0,
+        ..ProcessEnd::default()
     });
     record.validation = vec![hostile.to_owned()];
     record.after = HOSTILE.map(str::to_owned).to_vec();

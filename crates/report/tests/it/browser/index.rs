@@ -199,7 +199,7 @@ fn a_link_leads_to_a_case(chromium: &Chromium, path: &Path) {
     let text = page.text("#case");
     for expected in [
         "only vulkan:lavapipe differs: crash",
-        "ended by signal 11 (SIGSEGV), after 750.0 ms",
+        "died of signal 11 (SIGSEGV), after 750.0 ms",
         "lavapipe: assertion of the shader's stack\nlast line",
         "VUID-vkCmdDraw-None-02699",
         "2 × crash, pass",

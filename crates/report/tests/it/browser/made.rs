@@ -2,7 +2,7 @@
 
 use crate::synthetic::{adapter, header};
 use etalon_frame::{Api, Aspect, ChannelEncoding, Frame, Image, ReadPath};
-use etalon_record::{Expected, LossKind, ProcessEnd, Record, Run, RunWriter, Seconds, Verdict};
+use etalon_record::{Expected, ProcessEnd, Record, Run, RunWriter, Seconds, Verdict};
 use etalon_report::{Catalogue, CatalogueCase, OtherFormats, RunReport};
 use std::path::{Path, PathBuf};
 
@@ -123,13 +123,11 @@ fn record(id: &str, column: usize, name: &str) -> Record {
         });
     }
     if verdict == Verdict::Crash {
-        record.message = "the process died of SIGSEGV".to_owned();
         record.process = Some(ProcessEnd {
-            kind: LossKind::Died,
             signal: Some(11),
-            exit: None,
             stderr: "lavapipe: assertion of the shader's stack\nlast line".to_owned(),
             seconds: 0.75,
+            ..ProcessEnd::default()
         });
         record.validation = vec!["VUID-vkCmdDraw-None-02699: no descriptor".to_owned()];
         record.repeats = vec![Verdict::Crash, Verdict::Crash, Verdict::Pass];

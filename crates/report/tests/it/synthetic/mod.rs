@@ -5,12 +5,12 @@ pub(crate) mod methods;
 
 use etalon_frame::{
     Api, Aspect, Band, ChannelEncoding, ChannelMismatch, CodeInterval, Codes, Contents, DepthTest,
-    Effect, Event, Feature, FormatSupport, Limits, Origin, ReadPath, Rejection, Step, Story,
-    TextureFormat, ValueRange, WrongTexel,
+    Effect, Event, Feature, FormatSupport, Limits, Origin, ReadPath, Rejection, Requirement, Step,
+    Story, TextureFormat, ValueRange, WrongTexel,
 };
 use etalon_record::{
     AbsentAdapter, AdapterRecord, Assertion, Expected, FORMAT, FrameFile, FrameImage, Header,
-    LossKind, Machine, ProcessEnd, Record, RunWriter, Seconds, Settings, Verdict,
+    LossKind, Machine, ProcessEnd, Reason, Record, RunWriter, Seconds, Settings, Verdict,
 };
 use std::path::Path;
 
@@ -210,26 +210,35 @@ pub(crate) fn record(
             reason: "bias is not scaled by the exponent, bug 1234".to_owned(),
         });
     }
-    r.message = match verdict {
-        Verdict::NotSupported => "4 samples of rgba8unorm".to_owned(),
+    match verdict {
+        Verdict::NotSupported => {
+            let missing = Requirement::Samples(TextureFormat::Rgba8Unorm, 4);
+            r.reasons = vec![Reason::Missing(missing)];
+        }
         Verdict::Crash => {
             r.process = Some(ProcessEnd {
-                kind: LossKind::Died,
                 signal: Some(6),
-                exit: None,
                 stderr: "LLVM ERROR: out of registers\nAborted".to_owned(),
                 seconds: 0.4,
+                ..ProcessEnd::default()
             });
-            "LLVM ERROR: out of registers\nthe process died of SIGABRT".to_owned()
         }
         Verdict::Flaky => {
             r.repeats = vec![Verdict::Pass, Verdict::Fail, Verdict::Pass];
-            String::new()
         }
-        Verdict::Timeout => "no answer within 20 s".to_owned(),
-        Verdict::DeviceLost => "VK_ERROR_DEVICE_LOST".to_owned(),
-        _ => String::new(),
-    };
+        Verdict::Timeout => {
+            r.process = Some(ProcessEnd {
+                kind: LossKind::Timeout,
+                limit: Some(20.0),
+                seconds: 20.0,
+                ..ProcessEnd::default()
+            });
+        }
+        Verdict::DeviceLost => {
+            r.reasons = vec![Reason::Text("VK_ERROR_DEVICE_LOST".to_owned())];
+        }
+        _ => {}
+    }
     if !verdict.is_judged() {
         return r;
     }

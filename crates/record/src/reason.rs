@@ -1,0 +1,258 @@
+//! Why a record has its verdict, as facts; `report` has the words.
+
+use crate::process_end::ProcessEnd;
+use crate::verdict::Verdict;
+use etalon_frame::{Api, ApiVersion, CounterOutcome, Requirement, TextureFormat, WrongTexel};
+use serde::de::{self, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+use std::fmt;
+
+/// One fact about a record that its other fields do not have.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Reason {
+    /// The words of a driver, a backend or a browser. Formats before 6 have all reasons in this form.
+    Text(String),
+
+    /// The expectations skip the case, for this reason.
+    Skipped(String),
+    /// The case was not drawn within the run's time, in seconds.
+    OutOfTime(f64),
+    /// The adapter lacks what the case needs.
+    Missing(Requirement),
+    /// What the adapter lacks is not required by this API and version.
+    NotRequired(Api, ApiVersion),
+    /// The adapter denies what the case needs, against its API.
+    Denied(Denial),
+    /// The case is not drawn because the adapter denies what it needs, against its API.
+    BlockedByDenial(Denial),
+    /// The case is not drawn because these round trips failed.
+    FailedRoundTrips(Vec<FailedRoundTrip>),
+    /// The case is drawn although the round trip of this format was skipped.
+    UncheckedRoundTrip {
+        /// The format.
+        format: TextureFormat,
+        /// The reason why the round trip was skipped.
+        reason: String,
+    },
+
+    /// Counters are outside their legal ranges.
+    Counters(Vec<CounterOutcome>),
+    /// A line has too few fragments.
+    LineGap {
+        /// The pass, the draw and the primitive.
+        origin: [usize; 3],
+        /// The least legal number of fragments, and the greatest number that the frame can contain.
+        fragments: [usize; 2],
+        /// The clause.
+        citation: String,
+    },
+    /// Only a part of the picture was judged.
+    Share {
+        /// The number of judged samples.
+        judged: u64,
+        /// The number of samples.
+        total: u64,
+    },
+    /// A literal value of the case is outside the legal set, so the case or the reference is wrong.
+    IllegalLiteral {
+        /// The literal value.
+        value: f64,
+        /// Its channel.
+        channel: u8,
+        /// Its texel.
+        at: [u32; 2],
+    },
+    /// This texel is not the literal value of the case.
+    MissedLiteral([u32; 2]),
+    /// Frames or attachments that must be equal differ.
+    Difference {
+        /// The number of samples that differ.
+        samples: u64,
+        /// Where the first difference was found.
+        pair: ComparedPair,
+        /// The clause.
+        citation: String,
+    },
+    /// The verdict is that of the case's scene in this variant.
+    Variant(String),
+    /// The frames do not fit the case.
+    Unfit(String),
+    /// No frame came back.
+    NoFrame,
+    /// The picture was judged, but calls broke the API's rules.
+    Validation {
+        /// The number of messages.
+        messages: usize,
+        /// The verdict on the picture.
+        otherwise: Verdict,
+        /// The first message.
+        first: String,
+    },
+
+    /// The drawings disagree.
+    Flaky {
+        /// The verdicts in order.
+        verdicts: Vec<Verdict>,
+        /// What was new for each of them.
+        fresh: Fresh,
+    },
+    /// The verdict appears only after this number of other cases in the same process.
+    AfterOthers(usize),
+    /// The frames were being timed.
+    WhileTimed,
+    /// The worker had no case left.
+    AfterLastCase,
+    /// The bench had been stopped and was resumed.
+    WhenResumed,
+    /// The picture after a round differs from the judged picture, against this clause.
+    ChangedPicture(String),
+    /// The device of a page did not answer within this time, in seconds.
+    NoAnswer(f64),
+    /// The end of the process that drew the case, in lines that have no field of their own for it.
+    Process(Box<ProcessEnd>),
+    /// The number of wrong samples and the position of the first, in lines that do not list them.
+    FirstWrong {
+        /// The number of wrong and imprecise samples.
+        samples: u64,
+        /// The position of the first.
+        at: [u32; 2],
+    },
+
+    /// The expectation of the verdict has expired.
+    Expired {
+        /// The day.
+        day: String,
+        /// The reason of the expectation.
+        reason: String,
+    },
+    /// The verdict is the expected one, but what is wrong is not, by the expectation with this reason.
+    OtherSymptom(String),
+    /// The parts of a merged run disagree.
+    PartsDisagree(Verdict, Verdict),
+}
+
+/// What an adapter denies against its API.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Denial {
+    /// What is denied.
+    pub needed: Requirement,
+    /// The API.
+    pub api: Api,
+    /// The version of the API.
+    pub version: ApiVersion,
+    /// The clause.
+    pub citation: String,
+}
+
+/// A round trip that failed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FailedRoundTrip {
+    /// The case.
+    pub case: String,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// The first wrong texel.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wrong: Option<WrongTexel>,
+    /// What else is known, if no texel is wrong; of standard error only the last line.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub why: Vec<Reason>,
+}
+
+/// What a relation compares.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ComparedPair {
+    /// The case's scene and this variant of it.
+    Variant(String),
+    /// Two attachments of one frame.
+    Attachments(String, String),
+}
+
+/// What is new for each of several drawings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Fresh {
+    /// The process.
+    Process,
+    /// The device of a page.
+    Device,
+}
+
+impl Reason {
+    /// Returns the text in it that can be long.
+    pub(crate) fn text_mut(&mut self) -> Option<&mut String> {
+        match self {
+            Self::Text(text)
+            | Self::Skipped(text)
+            | Self::Unfit(text)
+            | Self::Validation { first: text, .. } => Some(text),
+            Self::Process(end) => Some(&mut end.stderr),
+            _ => None,
+        }
+    }
+}
+
+impl From<String> for Reason {
+    fn from(text: String) -> Self {
+        Self::Text(text)
+    }
+}
+
+/// Reads reasons: a list, or the message of a format before 6.
+pub(crate) fn read<'de, D: Deserializer<'de>>(input: D) -> Result<Vec<Reason>, D::Error> {
+    input.deserialize_any(MessageOrReasons)
+}
+
+struct MessageOrReasons;
+
+impl<'de> Visitor<'de> for MessageOrReasons {
+    type Value = Vec<Reason>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a list of reasons, or a message")
+    }
+
+    fn visit_str<E: de::Error>(self, message: &str) -> Result<Self::Value, E> {
+        let message = Some(message).filter(|text| !text.is_empty());
+        let reasons = message.map(|text| Reason::Text(text.to_owned()));
+        Ok(reasons.into_iter().collect())
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Self::Value, A::Error> {
+        let mut reasons = Vec::new();
+        while let Some(reason) = list.next_element()? {
+            reasons.push(reason);
+        }
+        Ok(reasons)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Record, Verdict};
+
+    #[test]
+    fn a_message_of_an_earlier_format_is_read_as_text() {
+        let written = |reasons: &str| {
+            let line = format!(r#"{{"case":"a/b","adapter":"cpu","verdict":"crash",{reasons}}}"#);
+            serde_json::from_str::<Record>(&line)
+        };
+        let text = super::Reason::Text("slot 3 is free".to_owned());
+        let old = written(r#""message":"slot 3 is free""#).expect("it parses");
+        assert_eq!(old.reasons, [text.clone()]);
+        assert_eq!(
+            written(r#""reasons":[{"text":"slot 3 is free"}]"#).expect("it parses"),
+            old
+        );
+        assert_eq!(written(r#""message":"""#).expect("it parses").reasons, []);
+        let wrong = written(r#""reasons":[{"tekst":"a"}]"#).expect_err("no such reason");
+        assert!(wrong.to_string().contains("tekst"), "{wrong}");
+        let both = serde_json::to_string(&old).expect("it is written");
+        assert!(both.contains(r#""reasons":[{"text""#), "{both}");
+        assert_eq!(old.verdict, Verdict::Crash);
+    }
+}
