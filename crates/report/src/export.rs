@@ -1,6 +1,5 @@
 //! Files for other programs.
 
-pub(crate) mod ctrf;
 pub(crate) mod deqp;
 pub(crate) mod junit;
 pub(crate) mod markdown;

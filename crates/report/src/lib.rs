@@ -54,9 +54,7 @@ pub use matrix::matrix_table;
 pub use methods::methods_html;
 pub use news::{News, NewsEntry, Since, news_table};
 pub use picture::{Ringed, Thumbnails, ringed_pictures};
-pub use run::{
-    OtherFormats, RecordLine, RunReport, RunReports, dead_lines, record_html, table, write,
-};
+pub use run::{RecordLine, RunReport, RunReports, dead_lines, record_html, table, write};
 pub use site::{CasesOf, SITE_FILE, write_site};
 pub use staged::WrittenFolder;
 pub use terminal::TableOptions;

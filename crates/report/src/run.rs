@@ -13,4 +13,4 @@ mod write;
 pub use dead::dead_lines;
 pub use sample::{RecordLine, record_html};
 pub use table::table;
-pub use write::{OtherFormats, RunReport, RunReports, write};
+pub use write::{RunReport, RunReports, write};

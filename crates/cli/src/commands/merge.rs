@@ -10,7 +10,7 @@ use crate::saved_run::UnpackArguments;
 use crate::{idle, provenance};
 use clap::Args;
 use etalon_record::{FolderKind, MISSING_FILE, Merge, Merged, Run};
-use etalon_report::{Catalogue, News, OtherFormats, RunReport};
+use etalon_report::{Catalogue, News, RunReport};
 use serde_json::json;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -111,7 +111,7 @@ fn print(
         run: &shown,
         catalogue,
         news,
-        formats: OtherFormats::default(),
+        deqp: false,
     }
     .write()
     .map_err(Failure::incomplete)?;

@@ -8,7 +8,7 @@ use crate::output::{say, summarize, table_options};
 use crate::saved_run::UnpackArguments;
 use clap::Args;
 use etalon_record::{Bench, Expectation, FolderKind, Record, Run};
-use etalon_report::{OtherFormats, RunReport, TableOptions};
+use etalon_report::{RunReport, TableOptions};
 use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
@@ -23,21 +23,9 @@ pub(crate) struct Arguments {
     pub(crate) unpack: UnpackArguments,
     #[command(flatten)]
     pub(crate) news: NewsArguments,
-    /// Also write `ctrf.json`, in the Common Test Report Format
-    #[arg(long)]
-    pub(crate) ctrf: bool,
     /// Also write `results/<adapter>.csv`, in deqp-runner's format
     #[arg(long)]
     pub(crate) deqp: bool,
-}
-
-impl Arguments {
-    fn formats(&self) -> OtherFormats {
-        OtherFormats {
-            ctrf: self.ctrf,
-            deqp: self.deqp,
-        }
-    }
 }
 
 /// Rebuilds the reports of run and bench folders, and compares runs with the history if one is named. Returns
@@ -61,7 +49,6 @@ fn of_run(folder: &Path, arguments: &Arguments, options: TableOptions) -> Result
     let run = Run::read(folder).map_err(Failure::usage)?;
     let news = arguments.news.news(&run)?;
     let shown = shown(&run, news.as_ref());
-    let formats = arguments.formats();
     let catalogue = match &arguments.cases {
         Some(cases) => Some(catalogue_of(&run, Some(cases))?),
         None if draws_built_in(&run.header) => Some(catalogue_of(&run, None)?),
@@ -72,7 +59,7 @@ fn of_run(folder: &Path, arguments: &Arguments, options: TableOptions) -> Result
         run: &shown,
         catalogue: catalogue.as_ref(),
         news: news.as_ref(),
-        formats,
+        deqp: arguments.deqp,
     }
     .write()
     .map_err(Failure::of)?;

@@ -23,7 +23,7 @@ use etalon_record::{
     AdapterRecord, Dead, Expectations, FolderKind, Header, Run, Settings, Shard, Verdict,
     selection_digest,
 };
-use etalon_report::{News, OtherFormats, RunReport};
+use etalon_report::{News, RunReport};
 use etalon_runner::{Event, KeptFrames, Launch, Options, Plan, Rechecks, RunError, RunSummary};
 use indicatif::ProgressBar;
 use serde_json::json;
@@ -425,7 +425,7 @@ impl<'a> Results<'a> {
             run: &shown,
             catalogue: Some(&catalogue),
             news: news.as_ref(),
-            formats: OtherFormats::default(),
+            deqp: false,
         }
         .write()
         .map_err(Failure::incomplete)?;

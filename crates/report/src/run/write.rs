@@ -4,7 +4,7 @@ use super::grid::Grid;
 use super::index;
 use crate::catalogue::{CATALOGUE, Catalogue, write_scripts};
 use crate::error::ReportError;
-use crate::export::{ctrf, deqp, junit, markdown};
+use crate::export::{deqp, junit, markdown};
 use crate::files::Destination;
 use crate::methods::{self, Methods};
 use crate::news::News;
@@ -14,7 +14,6 @@ use std::path::{Path, PathBuf};
 
 const HTML: &str = "index.html";
 const JUNIT: &str = "junit.xml";
-const CTRF: &str = "ctrf.json";
 const SUMMARY: &str = "summary.md";
 
 /// The reports that [`write()`] made.
@@ -26,8 +25,6 @@ pub struct RunReports {
     pub methods: Option<PathBuf>,
     /// The JUnit file, for continuous integration.
     pub junit: PathBuf,
-    /// The run in the Common Test Report Format, if asked for.
-    pub ctrf: Option<PathBuf>,
     /// The summary in Markdown for a job's page, of less than 1,000,000 bytes.
     pub summary: PathBuf,
     /// deqp-runner's `results.csv`, one per adapter, if asked for.
@@ -43,36 +40,10 @@ impl RunReports {
             Some(&self.html),
             self.methods.as_ref(),
             Some(&self.junit),
-            self.ctrf.as_ref(),
             Some(&self.summary),
         ];
         let files = single.into_iter().flatten().chain(&self.results);
         files.map(PathBuf::as_path)
-    }
-}
-
-/// Files for other test systems. They repeat what `junit.xml` says, and are as large as a quarter of a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct OtherFormats {
-    /// `ctrf.json`, in the Common Test Report Format.
-    pub ctrf: bool,
-    /// `results/<adapter>.csv`, in deqp-runner's format.
-    pub deqp: bool,
-}
-
-impl OtherFormats {
-    /// Every format.
-    pub const ALL: Self = Self {
-        ctrf: true,
-        deqp: true,
-    };
-
-    /// These formats and any that the folder already has, so that no file in it is older than the others.
-    fn with_those_of(self, folder: &Path) -> Self {
-        Self {
-            ctrf: self.ctrf || folder.join(CTRF).exists(),
-            deqp: self.deqp || folder.join(deqp::FOLDER).exists(),
-        }
     }
 }
 
@@ -87,8 +58,9 @@ pub struct RunReport<'a> {
     pub catalogue: Option<&'a Catalogue>,
     /// The changes since the last run, which the page and the summary tell first.
     pub news: Option<&'a News>,
-    /// The formats for other test systems.
-    pub formats: OtherFormats,
+    /// True to write `results/<adapter>.csv` in deqp-runner's format. It repeats what `junit.xml` says. A folder that
+    /// has it gets it anew anyway, so that no file in it is older than the others.
+    pub deqp: bool,
 }
 
 /// Reads the run in a folder and writes its reports in every format, without pages of single cases.
@@ -101,14 +73,14 @@ pub fn write(folder: &Path) -> Result<RunReports, ReportError> {
         run: &Run::read(folder)?,
         catalogue: None,
         news: None,
-        formats: OtherFormats::ALL,
+        deqp: true,
     }
     .write()
 }
 
 impl RunReport<'_> {
     /// Writes the reports into the run folder: `index.html`, `junit.xml`, `summary.md`, `methods.html` if the run
-    /// has records of methods, scripts of the cases, and the other formats that are asked for or already there.
+    /// has records of methods, scripts of the cases, and deqp-runner's lists if they are asked for or already there.
     /// Pages and scripts of earlier reports are removed.
     ///
     /// # Errors
@@ -165,7 +137,6 @@ impl RunReport<'_> {
         found: Option<&Methods<'_>>,
     ) -> Result<RunReports, ReportError> {
         let Self { folder, run, .. } = *self;
-        let formats = self.formats.with_those_of(folder);
         let mut views = Vec::new();
         let methods = match found {
             Some(found) => {
@@ -177,13 +148,8 @@ impl RunReport<'_> {
         };
         let grid = Grid::new(run);
         let junit = to.write(JUNIT, junit::xml(run, &grid)?.as_bytes())?;
-        let ctrf = if formats.ctrf {
-            Some(to.write(CTRF, &ctrf::json(run, &grid)?)?)
-        } else {
-            None
-        };
         let summary = to.write(SUMMARY, markdown::summary(run, self.news).as_bytes())?;
-        let results = if formats.deqp {
+        let results = if self.deqp || folder.join(deqp::FOLDER).exists() {
             let lists = deqp::lists(folder, run, &grid).into_iter();
             let write = |list: deqp::List| {
                 to.write(
@@ -199,7 +165,6 @@ impl RunReport<'_> {
             html: folder.join(HTML),
             methods,
             junit,
-            ctrf,
             summary,
             results,
             views,

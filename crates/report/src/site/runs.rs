@@ -6,7 +6,7 @@ use crate::error::ReportError;
 use crate::files::{Destination, file_name};
 use crate::hunt::write_hunt_page;
 use crate::numbers::{count, thousands};
-use crate::run::{OtherFormats, RunReport};
+use crate::run::RunReport;
 use crate::staged::Staged;
 use crate::versions::write_versions_page;
 use etalon_record::{AdapterRecord, Bench, FolderKind, Hunt, Record, Run, Verdict, Versions};
@@ -104,7 +104,7 @@ fn write_pages(
                 run: &run,
                 catalogue: catalogue.as_ref(),
                 news: None,
-                formats: OtherFormats::default(),
+                deqp: false,
             };
             report.write_to(to)?;
             Facts {

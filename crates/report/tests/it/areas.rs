@@ -3,7 +3,7 @@
 use crate::synthetic::{self, adapter, header};
 use etalon_frame::Api;
 use etalon_record::{Expected, Record, Run, RunWriter, Verdict};
-use etalon_report::{News, NewsEntry, OtherFormats, RunReport, Since, write};
+use etalon_report::{News, NewsEntry, RunReport, Since, write};
 use roxmltree::{Document, Node};
 use std::fs;
 use std::path::Path;
@@ -225,7 +225,7 @@ fn a_page_tells_what_changed_what_is_new_what_is_known_and_what_was_not_drawn() 
         run: &run,
         catalogue: None,
         news: Some(&news),
-        formats: OtherFormats::default(),
+        deqp: false,
     }
     .write()
     .unwrap();

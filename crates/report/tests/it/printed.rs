@@ -115,7 +115,6 @@ fn run_in_files() {
     every_verdict(folder.path());
     let written = write(folder.path()).unwrap();
     assert_snapshot!("junit", fs::read_to_string(&written.junit).unwrap());
-    assert_snapshot!("ctrf", pretty(written.ctrf.as_ref().unwrap()));
     assert_snapshot!("summary", fs::read_to_string(&written.summary).unwrap());
     assert_snapshot!("results", fs::read_to_string(&written.results[0]).unwrap());
     assert_snapshot!("index", page(&written.html));

@@ -3,7 +3,7 @@
 use crate::synthetic::{adapter, header};
 use etalon_frame::{Api, Aspect, ChannelEncoding, Frame, Image, ReadPath};
 use etalon_record::{Expected, ProcessEnd, Record, Run, RunWriter, Seconds, Verdict};
-use etalon_report::{Catalogue, CatalogueCase, OtherFormats, RunReport};
+use etalon_report::{Catalogue, CatalogueCase, RunReport};
 use std::path::{Path, PathBuf};
 
 pub(crate) const ADAPTERS: [&str; 4] = ["cpu", "gl:llvmpipe", "gl:softpipe", "vulkan:lavapipe"];
@@ -29,7 +29,7 @@ pub(crate) fn write(folder: &Path) -> PathBuf {
         run: &Run::read(folder).unwrap(),
         catalogue: Some(&catalogue()),
         news: None,
-        formats: OtherFormats::ALL,
+        deqp: true,
     };
     report.write().unwrap().html
 }
