@@ -1,14 +1,7 @@
-//! The program of a bundle, for the API whose calls were recorded.
+//! The program of a bundle.
 
 use crate::archive::File;
-use crate::due::Due;
-use crate::error::BundleError;
-use crate::gl::{self, Trim};
-use crate::head::Head;
 use crate::language::Language;
-use crate::vulkan;
-use crate::wgpu;
-use etalon_backend::{RecordedContext, Recording};
 
 /// The program of a bundle.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -17,54 +10,4 @@ pub struct Program {
     pub language: Language,
     /// The files from which the program is built, and other files that show the same bug.
     pub files: Vec<File>,
-}
-
-/// Returns the program, with the state that `trim` names removed.
-///
-/// # Errors
-/// If a call cannot be printed, or a value that must be checked was not read.
-pub fn program(
-    head: &Head,
-    recording: &Recording,
-    expected: &Due,
-    trim: Trim,
-) -> Result<Program, BundleError> {
-    let text = match &recording.context {
-        RecordedContext::Egl {
-            es,
-            version,
-            library,
-            device,
-        } => {
-            let context = gl::Context {
-                es: *es,
-                version: *version,
-                library: library.as_deref(),
-                device: *device,
-            };
-            gl::program(head, &context, recording, expected, trim)
-        }
-        RecordedContext::Vulkan {
-            device,
-            version,
-            needs,
-        } => {
-            let context = vulkan::Context {
-                device,
-                version: *version,
-                needs,
-            };
-            vulkan::program(head, &context, recording, expected)
-        }
-        RecordedContext::Wgpu {
-            api,
-            device,
-            features,
-            list,
-        } => return wgpu::program(head, [api, device], features, list, recording, expected),
-    };
-    Ok(Program {
-        language: Language::C,
-        files: vec![File::text("repro.c", "the program", text?)],
-    })
 }

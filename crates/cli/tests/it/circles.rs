@@ -144,7 +144,10 @@ impl<'a> Crate<'a> {
         match first.as_str() {
             "crate" => return self.inside(&[], rest, steps),
             "super" => return self.inside(module.split_last()?.1, rest, steps),
-            child if here.children.contains(child) => {
+            child
+                if here.children.contains(child)
+                    && !(rest.is_empty() && here.items.contains(child)) =>
+            {
                 return self.inside(&[module, from_ref(first)].concat(), rest, steps);
             }
             item if here.items.contains(item) => return Some(Target::File(here.file.clone())),
@@ -387,6 +390,12 @@ fn circles_are_seen() {
             "mod inner { fn f() { g!(1, (super::super::b::B)) } } pub struct A;",
         ),
         ("b", "use crate::a::A; pub struct B;"),
+    ]);
+    // With a function that has the name of a module beside it.
+    circle(&[
+        ("", "mod a; mod b;"),
+        ("a", "use crate::b; pub struct A; fn f() { b::c() }"),
+        ("b", "mod c {} use crate::a::A; pub fn c() {}"),
     ]);
     // In a module inside a file.
     circle(&[
