@@ -1,132 +1,13 @@
 //! The rules of the workspace: dependencies between crates, linked libraries, the top level.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
-use cargo_metadata::{DependencyKind, Metadata, MetadataCommand, Node, Package, PackageId};
+use cargo_metadata::{
+    Dependency, DependencyKind, Metadata, MetadataCommand, Node, Package, PackageId,
+};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-
-/// The folder of each crate, the crates of the workspace that it may use, and the graphics APIs. Development dependencies
-/// are not restricted.
-const TABLE: [(&str, &[&str], &[&str]); 33] = [
-    ("frame", &[], &[]),
-    ("stats", &[], &[]),
-    ("glob", &[], &[]),
-    ("scene", &["frame"], &[]),
-    ("methods", &["frame", "scene"], &[]),
-    ("case", &["frame", "glob", "methods", "scene"], &[]),
-    ("pipeline", &["frame", "scene"], &[]),
-    ("reference", &["frame", "pipeline", "scene"], &[]),
-    ("truth", &["frame", "methods", "pipeline", "scene"], &[]),
-    ("backend", &["frame", "scene"], &[]),
-    ("cpu", &["backend", "frame", "pipeline", "scene"], &[]),
-    (
-        "mutants",
-        &["backend", "cpu", "frame", "pipeline", "scene"],
-        &[],
-    ),
-    ("vulkan", &["backend", "frame", "scene"], &["ash", "naga"]),
-    (
-        "gl",
-        &["backend", "frame", "scene"],
-        &["glow", "khronos-egl", "naga"],
-    ),
-    ("webgpu", &["backend", "frame", "scene"], &[]),
-    ("process", &[], &[]),
-    ("keeper", &["process"], &[]),
-    (
-        "browser",
-        &["backend", "frame", "keeper", "scene", "webgpu"],
-        &[],
-    ),
-    (
-        "wgpu",
-        &["backend", "frame", "scene", "webgpu"],
-        &["naga", "wgpu"],
-    ),
-    (
-        "conformance",
-        &["backend", "case", "frame", "methods", "scene"],
-        &[],
-    ),
-    ("record", &["frame", "glob", "stats"], &[]),
-    (
-        "judge",
-        &["case", "frame", "record", "reference", "scene", "truth"],
-        &[],
-    ),
-    ("findings", &["record"], &[]),
-    ("diagnose", &["frame", "glob", "record"], &[]),
-    (
-        "runner",
-        &[
-            "backend", "case", "diagnose", "explore", "frame", "judge", "mutants", "process",
-            "record", "scene", "stats",
-        ],
-        &[],
-    ),
-    ("bundle", &["backend", "frame", "webgpu"], &[]),
-    (
-        "page",
-        &[
-            "backend", "case", "diagnose", "findings", "frame", "judge", "record", "report",
-            "scene", "webgpu",
-        ],
-        &[],
-    ),
-    ("explore", &["case", "frame", "scene"], &[]),
-    ("history", &["frame", "record", "stats"], &[]),
-    ("dashboards", &["record"], &[]),
-    ("export", &["dashboards", "frame", "history", "record"], &[]),
-    (
-        "report",
-        &[
-            "dashboards",
-            "diagnose",
-            "frame",
-            "history",
-            "methods",
-            "record",
-            "stats",
-        ],
-        &[],
-    ),
-    (
-        "cli",
-        &[
-            "backend",
-            "browser",
-            "bundle",
-            "case",
-            "cpu",
-            "diagnose",
-            "explore",
-            "export",
-            "findings",
-            "frame",
-            "gl",
-            "glob",
-            "history",
-            "judge",
-            "keeper",
-            "mutants",
-            "pipeline",
-            "process",
-            "record",
-            "reference",
-            "report",
-            "runner",
-            "scene",
-            "stats",
-            "truth",
-            "vulkan",
-            "webgpu",
-            "wgpu",
-        ],
-        &[],
-    ),
-];
 
 /// Crates that call a graphics driver or translate shaders for one.
 const GRAPHICS: [&str; 9] = [
@@ -171,6 +52,40 @@ fn folder(package: &Package) -> &str {
     package.manifest_path.parent().unwrap().file_name().unwrap()
 }
 
+/// What the crates of one row of the table in `crates/README.md` may use.
+struct Row {
+    crates: Vec<String>,
+    /// The crates of the workspace; `None` for all.
+    ours: Option<BTreeSet<String>>,
+    graphics: BTreeSet<String>,
+}
+
+/// Returns the words of a cell that stand between backticks.
+fn names(cell: &str) -> impl Iterator<Item = String> {
+    cell.split('`').skip(1).step_by(2).map(str::to_owned)
+}
+
+/// Reads the table of crates: name, content, and what the crate may use, of the workspace first.
+fn table() -> Vec<Row> {
+    let text = fs::read_to_string(root().join("crates/README.md")).unwrap();
+    let (_, table) = text
+        .split_once("| crate | content | may use |\n|---|---|---|\n")
+        .unwrap();
+    let lines = table.lines().take_while(|line| line.starts_with('|'));
+    let row = |line: &str| {
+        let cells: Vec<&str> = line.split('|').collect();
+        let (ours, others) = cells[3].split_once(';').unwrap_or((cells[3], ""));
+        Row {
+            crates: names(cells[1]).collect(),
+            ours: (ours.trim() != "all").then(|| names(ours).collect()),
+            graphics: names(others)
+                .filter(|name| GRAPHICS.contains(&&**name))
+                .collect(),
+        }
+    };
+    lines.map(row).collect()
+}
+
 fn package_name(folder: &str) -> String {
     match folder {
         "cli" => "etalon".to_owned(),
@@ -204,34 +119,43 @@ fn closure<'m>(metadata: &'m Metadata, package: &'m PackageId) -> BTreeSet<&'m s
 }
 
 #[test]
-fn every_crate_uses_what_the_table_allows() {
+fn every_crate_uses_what_the_table_allows_and_all_of_it() {
     let metadata = metadata();
-    let rows: BTreeMap<&str, _> = TABLE.iter().map(|row| (row.0, row)).collect();
     let members = metadata.workspace_packages();
     let folders: BTreeSet<&str> = members.iter().map(|p| folder(p)).collect();
-    assert_eq!(folders, rows.keys().copied().collect(), "crates and rows");
-    for package in members {
-        let (folder, ours, graphics) = rows[folder(package)];
-        assert_eq!(package.name.as_str(), package_name(folder));
-        let ours: BTreeSet<String> = ours.iter().map(|f| package_name(f)).collect();
-        for dependency in &package.dependencies {
-            let name = &dependency.name;
-            if dependency.kind == DependencyKind::Development {
-                continue;
-            }
-            if name == "etalon" || name.starts_with("etalon-") {
-                assert!(ours.contains(name), "{folder} must not use {name}");
-            }
-            if GRAPHICS.contains(&name.as_str()) {
-                let allowed = graphics.contains(&name.as_str());
-                assert!(allowed, "{folder} must not use {name}");
+    let table = table();
+    let rows: BTreeSet<&str> = table
+        .iter()
+        .flat_map(|row| row.crates.iter().map(String::as_str))
+        .collect();
+    assert_eq!(folders, rows, "crates and rows");
+    for row in &table {
+        let names: BTreeSet<String> = row.crates.iter().map(|f| package_name(f)).collect();
+        let mut used = BTreeSet::new();
+        for package in members.iter().filter(|p| names.contains(p.name.as_str())) {
+            let normal = |d: &&Dependency| d.kind != DependencyKind::Development;
+            let dependencies = package.dependencies.iter().filter(normal);
+            used.extend(dependencies.map(|d| d.name.clone()));
+            // Nor through an external crate.
+            let linked = closure(&metadata, &package.id);
+            if row.graphics.is_empty() && row.ours.is_some() {
+                let found: Vec<_> = GRAPHICS.iter().filter(|g| linked.contains(**g)).collect();
+                assert!(found.is_empty(), "{} links {found:?}", package.name);
             }
         }
-        // Nor through an external crate.
-        let linked = closure(&metadata, &package.id);
-        if graphics.is_empty() && folder != &"cli" {
-            let found: Vec<_> = GRAPHICS.iter().filter(|g| linked.contains(**g)).collect();
-            assert!(found.is_empty(), "{folder} links {found:?}");
+        let graphics: BTreeSet<String> = used
+            .iter()
+            .filter(|name| GRAPHICS.contains(&&***name))
+            .cloned()
+            .collect();
+        assert_eq!(graphics, row.graphics, "graphics of {names:?}");
+        if let Some(ours) = &row.ours {
+            let found: BTreeSet<String> = folders
+                .iter()
+                .filter(|folder| used.contains(&package_name(folder)))
+                .map(|folder| (*folder).to_owned())
+                .collect();
+            assert_eq!(&found, ours, "crates that {names:?} use");
         }
     }
 }
