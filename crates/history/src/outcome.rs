@@ -108,7 +108,7 @@ impl Outcome {
     /// Returns the standing of the driver. A selftest that fails as it must is good, and one that does not
     /// fail is bad.
     pub fn standing(&self) -> Standing {
-        Standing::of(self.verdict, self.due_fail)
+        self.verdict.standing(self.due_fail)
     }
 
     /// Returns the asserted share of the channels of all aspects, 0 to 1; `None` without channels.

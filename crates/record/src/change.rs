@@ -1,7 +1,7 @@
 //! What the step from one verdict to another means.
 
-use crate::standing::Standing;
 use crate::verdict::Verdict;
+use etalon_stats::Standing;
 
 /// The parts of a record that decide what a change means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,7 +76,7 @@ impl Change {
             before.verdict,
             Verdict::NotSupported | Verdict::Blocked | Verdict::InternalError
         );
-        let standings = [before, after].map(|o| Standing::of(o.verdict, o.due_fail));
+        let standings = [before, after].map(|o| o.verdict.standing(o.due_fail));
         match standings {
             [Good, Good] => Self::Other,
             [Good, _] => Self::Worse,
@@ -260,7 +260,7 @@ mod tests {
 
     #[test]
     fn a_step_into_nothing_known_is_never_better() {
-        let unknown = |o: &CaseResult| Standing::of(o.verdict, o.due_fail) == Standing::Unknown;
+        let unknown = |o: &CaseResult| o.verdict.standing(o.due_fail) == Standing::Unknown;
         for before in every() {
             for after in every().filter(unknown) {
                 let change = Change::between(before, after);

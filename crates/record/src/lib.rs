@@ -71,6 +71,7 @@ pub use content::{Content, check_folder, is_marked, overlap};
 pub use dead::{Dead, DeadKind, DeadSearch};
 pub use driver_version::version_of;
 pub use error::RecordError;
+pub use etalon_stats::Standing;
 pub use expectations::{Entry, Expectation, Expectations, Known, Source};
 pub use expected_symptom::{ExpectedSymptom, Shown, Side};
 pub use findings::{Evidence, Finding, Reading, ReadingVerdict, Seen};
@@ -100,7 +101,6 @@ pub use record::{
 pub use run::Run;
 pub use selection::{read_cases, selection_digest, shard_of};
 pub use shader_cache::ShaderCache;
-pub use standing::Standing;
 pub use verdict::Verdict;
 pub use versions::{CaseVersions, ReleaseRecord, VERSIONS_FORMAT, Versions, VersionsHeader};
 pub use writer::RunWriter;

@@ -37,5 +37,5 @@ pub use series::{
     Cause, ChangePoint, Changes, Drift, MIN_RUNS, Point, PointError, STEP, change_points,
 };
 pub use summary::{CONFIDENCE, Summary, summarize};
-pub use verdicts::{Class, Event, Happening, Score, Scores, happenings, scores};
+pub use verdicts::{Event, Happening, Score, Scores, Standing, happenings, scores};
 pub use visible::{POWER, smallest_visible};

@@ -2,17 +2,17 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The class of a verdict.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Class {
-    /// Nothing is wrong.
+/// What is known about a case: the meaning of its verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Standing {
+    /// The case is drawn correctly.
     Good,
-    /// Something is wrong.
+    /// The case is drawn wrong, or the driver fails to draw it.
     Bad,
-    /// One run gave different verdicts.
+    /// The case is drawn correctly only some of the time.
     Flaky,
-    /// The run has no verdict for the case.
-    Missing,
+    /// The case is not drawn, or nothing is asserted.
+    Unknown,
 }
 
 /// An event of a case.
@@ -62,19 +62,19 @@ const NEAR: usize = 3;
 /// Returns what happened to a case over runs, oldest first.
 ///
 /// The first run is the beginning of a history and gives no event. A run that did not select the case, or did
-/// not end, must be left out; `Missing` says that a run of the whole suite has no verdict for it. When a case
-/// appears again, its class from before it was gone still counts.
+/// not end, must be left out; `Unknown` says that a run of the whole suite has no verdict for it. When a case
+/// appears again, its standing from before it was gone still counts.
 ///
 /// A case that alternates four times between good and bad, with at most three runs in between, is flaky for
 /// that time, although each run had a definite verdict.
-pub fn happenings<K: Copy>(runs: &[(K, Class)]) -> Vec<Happening<K>> {
-    let classes = with_turns(runs);
+pub fn happenings<K: Copy>(runs: &[(K, Standing)]) -> Vec<Happening<K>> {
+    let standings = with_turns(runs);
     let mut found = Vec::new();
     let mut known = None;
-    for (index, class) in classes.iter().enumerate() {
+    for (index, standing) in standings.iter().enumerate() {
         let before = index
             .checked_sub(1)
-            .map(|before| (runs[before].0, classes[before]));
+            .map(|before| (runs[before].0, standings[before]));
         if let Some((after, last)) = before {
             let mut tell = |event| {
                 let run = runs[index].0;
@@ -84,50 +84,50 @@ pub fn happenings<K: Copy>(runs: &[(K, Class)]) -> Vec<Happening<K>> {
                     at: run,
                 });
             };
-            match (last, class) {
-                (Class::Missing, Class::Missing) => {}
-                (_, Class::Missing) => tell(Event::Gone),
-                (Class::Missing, _) => tell(Event::Appeared),
+            match (last, standing) {
+                (Standing::Unknown, Standing::Unknown) => {}
+                (_, Standing::Unknown) => tell(Event::Gone),
+                (Standing::Unknown, _) => tell(Event::Appeared),
                 _ => {}
             }
-            match class {
-                _ if known.is_none_or(|known| known == *class) => {}
-                Class::Good => tell(Event::Fixed),
-                Class::Bad => tell(Event::Broken),
-                Class::Flaky => tell(Event::Flaky),
-                Class::Missing => {}
+            match standing {
+                _ if known.is_none_or(|known| known == *standing) => {}
+                Standing::Good => tell(Event::Fixed),
+                Standing::Bad => tell(Event::Broken),
+                Standing::Flaky => tell(Event::Flaky),
+                Standing::Unknown => {}
             }
         }
-        if *class != Class::Missing {
-            known = Some(*class);
+        if *standing != Standing::Unknown {
+            known = Some(*standing);
         }
     }
     found
 }
 
-/// Returns the classes, with `Flaky` in place of stretches that alternate between good and bad.
-fn with_turns<K: Copy>(runs: &[(K, Class)]) -> Vec<Class> {
-    let mut classes: Vec<Class> = runs.iter().map(|(_, class)| *class).collect();
-    let sure: Vec<usize> = (0..classes.len())
-        .filter(|i| matches!(classes[*i], Class::Good | Class::Bad))
+/// Returns the standings, with `Flaky` in place of stretches that alternate between good and bad.
+fn with_turns<K: Copy>(runs: &[(K, Standing)]) -> Vec<Standing> {
+    let mut standings: Vec<Standing> = runs.iter().map(|(_, standing)| *standing).collect();
+    let sure: Vec<usize> = (0..standings.len())
+        .filter(|i| matches!(standings[*i], Standing::Good | Standing::Bad))
         .collect();
     let turns: Vec<usize> = sure
         .windows(2)
-        .filter(|w| classes[w[0]] != classes[w[1]])
+        .filter(|w| standings[w[0]] != standings[w[1]])
         .map(|w| w[1])
         .collect();
     for group in turns.chunk_by(|a, b| b - a <= NEAR) {
         if let ([first, .., last], true) = (group, group.len() >= TURNS) {
             // The last change begins the following state.
-            for class in classes[*first..*last]
+            for standing in standings[*first..*last]
                 .iter_mut()
-                .filter(|c| **c != Class::Missing)
+                .filter(|c| **c != Standing::Unknown)
             {
-                *class = Class::Flaky;
+                *standing = Standing::Flaky;
             }
         }
     }
-    classes
+    standings
 }
 
 /// The number of good cases in a set.
@@ -135,16 +135,16 @@ fn with_turns<K: Copy>(runs: &[(K, Class)]) -> Vec<Class> {
 pub struct Score {
     /// Good cases.
     pub good: usize,
-    /// Cases with a verdict.
+    /// Cases about which something is known.
     pub of: usize,
 }
 
 impl Score {
-    fn over<'a>(classes: impl Iterator<Item = &'a Class>) -> Self {
+    fn over<'a>(standings: impl Iterator<Item = &'a Standing>) -> Self {
         let mut score = Self::default();
-        for class in classes.filter(|class| **class != Class::Missing) {
+        for standing in standings.filter(|standing| **standing != Standing::Unknown) {
             score.of += 1;
-            score.good += usize::from(*class == Class::Good);
+            score.good += usize::from(*standing == Standing::Good);
         }
         score
     }
@@ -165,14 +165,16 @@ pub struct Scores {
 }
 
 /// Returns the scores of runs, over the cases that they share and over the cases of each.
-pub fn scores<K: Ord + Copy>(runs: &[BTreeMap<K, Class>]) -> Vec<Scores> {
-    let there = |run: &BTreeMap<K, Class>| -> BTreeSet<K> {
-        let cases = run.iter().filter(|(_, class)| **class != Class::Missing);
+pub fn scores<K: Ord + Copy>(runs: &[BTreeMap<K, Standing>]) -> Vec<Scores> {
+    let there = |run: &BTreeMap<K, Standing>| -> BTreeSet<K> {
+        let cases = run
+            .iter()
+            .filter(|(_, standing)| **standing != Standing::Unknown);
         cases.map(|(case, _)| *case).collect()
     };
     let common = runs.iter().map(there).reduce(|common, run| &common & &run);
     let common = common.unwrap_or_default();
-    let score = |run: &BTreeMap<K, Class>| Scores {
+    let score = |run: &BTreeMap<K, Standing>| Scores {
         common: Score::over(
             run.iter()
                 .filter(|(case, _)| common.contains(case))
@@ -190,13 +192,13 @@ mod tests {
 
     /// Returns the events of a history written in letters: good, bad, flaky, missing.
     fn events(text: &str) -> Vec<(Event, usize)> {
-        let class = |letter| match letter {
-            'g' => Class::Good,
-            'b' => Class::Bad,
-            'f' => Class::Flaky,
-            _ => Class::Missing,
+        let standing = |letter| match letter {
+            'g' => Standing::Good,
+            'b' => Standing::Bad,
+            'f' => Standing::Flaky,
+            _ => Standing::Unknown,
         };
-        let runs: Vec<(usize, Class)> = text.chars().map(class).enumerate().collect();
+        let runs: Vec<(usize, Standing)> = text.chars().map(standing).enumerate().collect();
         let found = happenings(&runs);
         assert!(
             found.iter().all(|h| h.after + 1 == h.at),
@@ -247,14 +249,15 @@ mod tests {
 
     #[test]
     fn scores_over_what_is_common_do_not_move_with_the_suite() {
-        let run = |cases: &[(u8, Class)]| cases.iter().copied().collect::<BTreeMap<u8, Class>>();
-        let before = run(&[(1, Class::Good), (2, Class::Good), (3, Class::Bad)]);
+        let run =
+            |cases: &[(u8, Standing)]| cases.iter().copied().collect::<BTreeMap<u8, Standing>>();
+        let before = run(&[(1, Standing::Good), (2, Standing::Good), (3, Standing::Bad)]);
         let after = run(&[
-            (1, Class::Good),
-            (2, Class::Good),
-            (4, Class::Bad),
-            (5, Class::Bad),
-            (6, Class::Missing),
+            (1, Standing::Good),
+            (2, Standing::Good),
+            (4, Standing::Bad),
+            (5, Standing::Bad),
+            (6, Standing::Unknown),
         ]);
         let [b, a] = scores(&[before, after])[..] else {
             panic!("two runs")

@@ -4,7 +4,7 @@ use super::looks::Looks;
 use super::places::Line;
 use crate::lists::Interner;
 use etalon_history::{History, HistoryError};
-use etalon_stats::{Class, Happening, happenings};
+use etalon_stats::{Happening, Standing, happenings};
 use std::collections::HashMap;
 
 /// The history of one case on one timeline. Runs are indices into the timeline.
@@ -130,7 +130,7 @@ impl Courses {
             });
             course.is_common = !holed && course.first <= first && course.last >= last;
             if course.spans.len() > 1 || !course.is_common {
-                course.events = happenings(&course.classes(&gaps, line, looks));
+                course.events = happenings(&course.standings(&gaps, line, looks));
             }
         }
         Ok(Self {
@@ -141,8 +141,8 @@ impl Courses {
 }
 
 impl Course {
-    /// Returns the classes of a case by run, without undecided ones.
-    fn classes(&self, gaps: &Gaps, line: &Line<'_>, looks: &Looks) -> Vec<(u32, Class)> {
+    /// Returns the standings of a case by run, without undecided ones.
+    fn standings(&self, gaps: &Gaps, line: &Line<'_>, looks: &Looks) -> Vec<(u32, Standing)> {
         let mut looks_by_run: Vec<Option<u32>> = vec![None; line.runs.len()];
         for (from, end, look) in self.ended() {
             looks_by_run[from as usize..end as usize].fill(Some(look));
@@ -153,8 +153,8 @@ impl Course {
         let each = looks_by_run.iter().zip(&line.runs).zip(0..);
         each.filter_map(|((look, run), index)| match look {
             Some(look) if looks.is_undecided(*look) => None,
-            Some(look) => Some((index, looks.class(*look))),
-            None => run.whole.then_some((index, Class::Missing)),
+            Some(look) => Some((index, looks.standing(*look))),
+            None => run.whole.then_some((index, Standing::Unknown)),
         })
         .collect()
     }

@@ -6,7 +6,6 @@ use crate::mark::class;
 use crate::words::{self, Tone};
 use etalon_history::{History, HistoryError, Outcome, OutcomeId};
 use etalon_record::{Standing, Verdict};
-use etalon_stats::Class;
 use serde_json::{Value, json};
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -50,19 +49,15 @@ impl Looks {
         &self.outcomes[look as usize]
     }
 
-    /// Returns the class of a look.
-    pub(super) fn class(&self, look: u32) -> Class {
-        match self.outcome(look).standing() {
-            Standing::Good => Class::Good,
-            Standing::Bad => Class::Bad,
-            Standing::Flaky => Class::Flaky,
-            Standing::Unknown => Class::Missing,
-        }
+    /// Returns the standing of a look.
+    pub(super) fn standing(&self, look: u32) -> Standing {
+        self.outcome(look).standing()
     }
 
     /// Returns true if the case was left out because of the run, not because of the driver.
     pub(super) fn is_undecided(&self, look: u32) -> bool {
-        self.class(look) == Class::Missing && self.outcome(look).verdict != Verdict::NotSupported
+        self.standing(look) == Standing::Unknown
+            && self.outcome(look).verdict != Verdict::NotSupported
     }
 
     /// Returns true if the verdict counts against a run.

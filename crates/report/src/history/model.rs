@@ -40,7 +40,7 @@ impl<'a> Model<'a> {
         for line in &places.timelines {
             let mut scores = Scores::new(families.names.len(), line.runs.len());
             let take = |run, case: usize, look, looks: &Looks| {
-                scores.take(families.of[case], run, looks.class(look));
+                scores.take(families.of[case], run, looks.standing(look));
             };
             let courses = Courses::read(history, line, cases.len(), &mut looks, take)?;
             scores.compare(&courses, line, &families, &looks);

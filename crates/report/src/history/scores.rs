@@ -5,7 +5,7 @@ use super::courses::Courses;
 use super::families::Families;
 use super::looks::Looks;
 use super::places::Line;
-use etalon_stats::{Class, Score};
+use etalon_stats::{Score, Standing};
 
 /// The scores of a timeline, by family, then by run.
 pub(super) struct Scores {
@@ -25,8 +25,8 @@ impl Scores {
     }
 
     /// Counts a record.
-    pub(super) fn take(&mut self, family: u32, run: usize, class: Class) {
-        count(&mut self.own[family as usize][run], class);
+    pub(super) fn take(&mut self, family: u32, run: usize, standing: Standing) {
+        count(&mut self.own[family as usize][run], standing);
     }
 
     /// Counts the cases that all complete runs have.
@@ -43,13 +43,13 @@ impl Scores {
                 continue;
             };
             let decided = |(from, end, look): (u32, u32, u32)| {
-                looks.class(look) != Class::Missing || !(from..end).any(is_complete)
+                looks.standing(look) != Standing::Unknown || !(from..end).any(is_complete)
             };
             if course.ended().all(decided) {
                 for (from, end, look) in course.ended() {
                     let runs = from as usize..end as usize;
                     for score in &mut self.common[*family as usize][runs] {
-                        count(score, looks.class(look));
+                        count(score, looks.standing(look));
                     }
                 }
             }
@@ -80,7 +80,7 @@ impl Scores {
     }
 }
 
-fn count(score: &mut Score, class: Class) {
-    score.of += usize::from(class != Class::Missing);
-    score.good += usize::from(class == Class::Good);
+fn count(score: &mut Score, standing: Standing) {
+    score.of += usize::from(standing != Standing::Unknown);
+    score.good += usize::from(standing == Standing::Good);
 }

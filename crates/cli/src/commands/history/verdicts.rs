@@ -2,8 +2,7 @@
 
 use super::place::{range_text, run_json, run_text};
 use etalon_history::{AdapterRun, CaseHistory, History, HistoryError, Labels, Outcome, RunId};
-use etalon_record::Standing;
-use etalon_stats::{Class, Happening, happenings};
+use etalon_stats::{Happening, Standing, happenings};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
@@ -71,10 +70,10 @@ impl Verdicts {
         let parts = parts.filter(|part| {
             part.timeline == of_case.timeline && is_meant(history, part.run, labels)
         });
-        let classes = classes(history, parts, &by_run);
+        let standings = standings(history, parts, &by_run);
         Ok(Some(Self {
             timeline: Rc::clone(&of_case.timeline),
-            happenings: happenings(&classes),
+            happenings: happenings(&standings),
             records,
         }))
     }
@@ -134,29 +133,27 @@ impl Verdicts {
     }
 }
 
-/// Returns the class of a case in each run that says something about it. A run without a record shows that
+/// Returns the standing of a case in each run that says something about it. A run without a record shows that
 /// the case is missing only if the run is complete and at least half as large as the last run of its kind
 /// that has the case: smaller runs had not selected it.
-fn classes<'h>(
+fn standings<'h>(
     history: &History,
     parts: impl Iterator<Item = &'h AdapterRun>,
     by_run: &HashMap<RunId, &Drawn>,
-) -> Vec<(RunId, Class)> {
+) -> Vec<(RunId, Standing)> {
     let mut sizes = BTreeMap::new();
-    let mut classes = Vec::new();
+    let mut standings = Vec::new();
     for part in parts {
         let Some(info) = history.run(part.run) else {
             continue;
         };
         let kind = (info.kind, info.profile.clone());
-        let class = match by_run.get(&part.run) {
+        let standing = match by_run.get(&part.run) {
             Some(drawn) => {
                 sizes.insert(kind, part.records);
                 match drawn.outcome.standing() {
-                    Standing::Good => Class::Good,
-                    Standing::Bad => Class::Bad,
-                    Standing::Flaky => Class::Flaky,
                     Standing::Unknown => continue,
+                    standing => standing,
                 }
             }
             None => {
@@ -165,10 +162,10 @@ fn classes<'h>(
                 if !is_complete || info.missing > 0 {
                     continue;
                 }
-                Class::Missing
+                Standing::Unknown
             }
         };
-        classes.push((part.run, class));
+        standings.push((part.run, standing));
     }
-    classes
+    standings
 }
