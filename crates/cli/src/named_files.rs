@@ -60,27 +60,57 @@ impl NamedFiles<'_> {
     }
 }
 
-/// Checks that a page can be written to a file that the user named: only a page of etalon is replaced.
-///
-/// # Errors
-/// If the file is anything else.
-pub(crate) fn check_page(path: &Path) -> Result<(), Failure> {
-    /// A part of every page's last line.
-    const MADE: &[u8] = b"Made by etalon from ";
-    check_file(path)?;
-    let Ok(found) = fs::symlink_metadata(path) else {
-        return Ok(());
-    };
-    let is_page = |text: Vec<u8>| {
-        text.starts_with(b"<!DOCTYPE html>") && text.windows(MADE.len()).any(|part| part == MADE)
-    };
-    if !found.is_file() || !fs::read(path).is_ok_and(is_page) {
-        return Err(Failure::usage(format!(
-            "{} exists and is no page of etalon; name another file",
-            path.display()
-        )));
+/// A file of one kind that a command writes where the user names it, and writes again there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Renewed {
+    /// A page.
+    Page,
+    /// A list of cases by their worth.
+    Order,
+    /// A picture.
+    Picture,
+}
+
+/// The beginning of every list of cases by their worth.
+pub(crate) const ORDER_HEAD: &str =
+    "# Cases by the planted bugs that each one catches beyond those before it, per second.\n";
+
+impl Renewed {
+    fn is_one(self, bytes: &[u8]) -> bool {
+        /// A part of every page's last line.
+        const MADE: &[u8] = b"Made by etalon from ";
+        match self {
+            Self::Page => {
+                let made = bytes.windows(MADE.len()).any(|part| part == MADE);
+                bytes.starts_with(b"<!DOCTYPE html>") && made
+            }
+            Self::Order => bytes.starts_with(ORDER_HEAD.as_bytes()),
+            Self::Picture => bytes.starts_with(b"\x89PNG\r\n\x1a\n"),
+        }
     }
-    Ok(())
+
+    /// Checks that such a file can be written to a path that the user named: only one of its kind is replaced.
+    ///
+    /// # Errors
+    /// If anything else is there.
+    pub(crate) fn check(self, path: &Path) -> Result<(), Failure> {
+        check_file(path)?;
+        let Ok(found) = fs::symlink_metadata(path) else {
+            return Ok(());
+        };
+        if found.is_file() && fs::read(path).is_ok_and(|bytes| self.is_one(&bytes)) {
+            return Ok(());
+        }
+        let kind = match self {
+            Self::Page => "page of etalon",
+            Self::Order => "order that etalon wrote",
+            Self::Picture => "PNG file",
+        };
+        Err(Failure::usage(format!(
+            "{} exists and is no {kind}; name another file",
+            path.display()
+        )))
+    }
 }
 
 /// Checks that a file that the user named can be written. A regular file, or a link to one, can be replaced; a new file

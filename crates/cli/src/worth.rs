@@ -1,5 +1,6 @@
 //! The order of cases by what they find per second, for runs with a time limit.
 
+use crate::named_files::ORDER_HEAD;
 use etalon_case::Case;
 use etalon_runner::Hunted;
 use std::collections::{HashMap, HashSet};
@@ -43,10 +44,8 @@ pub(crate) fn order(cases: &[Case], hunted: &Hunted) -> String {
     let bugs = (0..).zip(&hunted.records);
     let bugs = bugs.filter(|(_, record)| record.mutant.legal.is_none());
     let mut left: HashSet<usize> = bugs.map(|(number, _)| number).collect();
-    let mut text = String::from(
-        "# Cases by the planted bugs that each one catches beyond those before it, per second.\n\
-         # Written by: etalon mutants --full --order cases/order.txt\n",
-    );
+    let mut text =
+        format!("{ORDER_HEAD}# Written by: etalon mutants --full --order cases/order.txt\n");
     loop {
         let worth = |number: usize| {
             let catches = &hunted.catches[number];

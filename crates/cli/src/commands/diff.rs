@@ -2,7 +2,7 @@
 
 use crate::failure::{Failure, IMPROVED, INCOMPLETE, UNEXPECTED};
 use crate::flags::Format;
-use crate::named_files::check_page;
+use crate::named_files::Renewed;
 use crate::output::{print, print_json, say, table_options};
 use crate::saved_run::UnpackArguments;
 use clap::{Args, ValueEnum};
@@ -59,7 +59,7 @@ pub(crate) struct Arguments {
 /// Compares two runs or two benches.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     if let Some(page) = &arguments.out {
-        check_page(page)?;
+        Renewed::Page.check(page)?;
     }
     let unpack = arguments.unpack;
     let [before, after] = [

@@ -3,7 +3,7 @@
 use crate::cases::{build, library};
 use crate::failure::{Failure, UNEXPECTED};
 use crate::flags::{CaseProfile, Format};
-use crate::named_files::{check_file, replace};
+use crate::named_files::{Renewed, replace};
 use crate::out_folder::{Claim, Out};
 use crate::output::{print, print_json, summarize, table_options};
 use crate::processors::processors;
@@ -78,7 +78,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         return list(&chosen, arguments.format);
     }
     if let Some(path) = &arguments.order {
-        check_file(path)?;
+        Renewed::Order.check(path)?;
     }
     let claim = Out {
         folder: &arguments.out,

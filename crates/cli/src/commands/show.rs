@@ -3,11 +3,11 @@
 use crate::cases::{find, library};
 use crate::catalogue::drawn;
 use crate::failure::Failure;
+use crate::named_files::{Renewed, replace};
 use crate::output::{print, say};
 use crate::scene_text;
 use clap::Args;
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
@@ -31,6 +31,9 @@ pub(crate) struct Arguments {
 
 /// Prints a case: purpose, scene, JSON, shaders.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    if let Some(path) = &arguments.png {
+        Renewed::Picture.check(path)?;
+    }
     let library = library(arguments.cases.as_ref())?;
     let found = find(&library, &arguments.case)?;
     let case = found.build().map_err(Failure::usage)?;
@@ -78,7 +81,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         let png = png.ok_or_else(|| {
             Failure::usage(format!("{} has no picture of a suitable size", case.id))
         })?;
-        fs::write(path, png).map_err(|e| Failure::of_file("write", path, &e))?;
+        replace(path, &png)?;
         say!("{}: the rasterizer's picture", path.display());
     }
     Ok(0)
