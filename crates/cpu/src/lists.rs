@@ -6,7 +6,7 @@ use etalon_scene::Pool;
 
 /// A fragment, and the number of the next node in its list. Numbers start from 1.
 #[derive(Clone, Copy, Debug)]
-struct Stored {
+struct StoredFragment {
     color: [f32; 4],
     depth: f32,
     behind: usize,
@@ -18,7 +18,7 @@ pub(crate) struct Lists {
     size: [usize; 2],
     /// The number of each texel's first node, or 0.
     heads: Vec<usize>,
-    nodes: Vec<Stored>,
+    nodes: Vec<StoredFragment>,
     most: usize,
 }
 
@@ -52,7 +52,7 @@ impl Lists {
             if self.nodes.len() == self.most {
                 return;
             }
-            self.nodes.push(Stored {
+            self.nodes.push(StoredFragment {
                 color: node.color.map(|v| v[lane]),
                 depth: node.depth[lane],
                 behind: self.heads[head],

@@ -25,7 +25,7 @@ const STANDING: usize = 3;
 /// The driver that failed. It draws cases of findings, and reduces failures.
 pub trait Driver {
     /// A case that findings can name.
-    type Named;
+    type NamedCase;
     /// A case that was drawn.
     type Case;
     /// The reason why the driver can no longer be used.
@@ -58,7 +58,7 @@ pub trait Driver {
 }
 
 /// A case that the adapter's findings name.
-struct Named<N> {
+struct NamedCase<N> {
     case: N,
     id: String,
     /// The numbers of the findings.
@@ -70,14 +70,14 @@ struct Named<N> {
 /// The attachments of a case that are compared: a bug can show in only one of them, and another bug in
 /// others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Part {
+enum ComparedAttachments {
     /// All attachments.
     All,
     Color,
     DepthStencil,
 }
 
-impl Part {
+impl ComparedAttachments {
     /// Returns the part in which a failure with these traits shows.
     fn of(traits: &Traits) -> Self {
         match traits.aspect() {
@@ -111,13 +111,13 @@ impl Part {
 
 /// A case that was drawn, and its reduction.
 struct Tried<C> {
-    seen: Option<Seen<C>>,
+    seen: Option<DrawnCase<C>>,
     /// The reduced case; the inner `None` if the case does not fail as a finding says.
     reduced: Option<Option<Reduced<C>>>,
 }
 
 /// A case as it was drawn.
-struct Seen<C> {
+struct DrawnCase<C> {
     case: C,
     record: Record,
     traits: Traits,
@@ -135,8 +135,8 @@ struct Reduced<C> {
 /// The known bugs of an adapter.
 pub struct KnownBugs<D: Driver> {
     expectations: Expectations,
-    named: Vec<Named<D::Named>>,
-    tried: BTreeMap<(usize, Part), Tried<D::Case>>,
+    named: Vec<NamedCase<D::Named>>,
+    tried: BTreeMap<(usize, ComparedAttachments), Tried<D::Case>>,
     /// The numbers of the cases that represent findings.
     standing: Vec<usize>,
     driver: D,
@@ -151,7 +151,7 @@ impl<D: Driver> KnownBugs<D> {
         driver: D,
     ) -> Self {
         let expectations = expectations.about(adapter);
-        let mut named: Vec<Named<D::Named>> = Vec::new();
+        let mut named: Vec<NamedCase<D::Named>> = Vec::new();
         if !expectations.all().is_empty() {
             for (id, case) in cases {
                 let of_case = expectations.bad(adapter, &id);
@@ -160,7 +160,7 @@ impl<D: Driver> KnownBugs<D> {
                 if !findings.is_empty()
                     && let Some(document) = driver.document(&case)
                 {
-                    named.push(Named {
+                    named.push(NamedCase {
                         case,
                         id,
                         findings,
@@ -191,7 +191,7 @@ impl<D: Driver> KnownBugs<D> {
         traits: &Traits,
         steady: bool,
     ) -> Result<Option<Match>, D::Error> {
-        let part = Part::of(traits);
+        let part = ComparedAttachments::of(traits);
         if steady && verdict.is_violation() {
             for number in self.may_leave(traits) {
                 let place = (number, part);
@@ -204,9 +204,9 @@ impl<D: Driver> KnownBugs<D> {
             }
         }
         // The bug can also show in other parts.
-        let parts: &[Part] = match part {
-            Part::All => &[Part::All],
-            _ => &[Part::Color, Part::DepthStencil],
+        let parts: &[ComparedAttachments] = match part {
+            ComparedAttachments::All => &[ComparedAttachments::All],
+            _ => &[ComparedAttachments::Color, ComparedAttachments::DepthStencil],
         };
         for number in self.standing.clone() {
             for part in parts {
@@ -219,7 +219,7 @@ impl<D: Driver> KnownBugs<D> {
         let places = self.tried.keys().copied();
         let alike =
             places.filter_map(|place| Some((place, self.similarity(place, verdict, traits)?)));
-        let mut alike: Vec<((usize, Part), Similarity)> = alike.collect();
+        let mut alike: Vec<((usize, ComparedAttachments), Similarity)> = alike.collect();
         // Prefers the case that shares the most with the failure.
         alike.sort_by_key(|(place, similarity)| {
             let known = self.left(*place).map(|r| &r.traits);
@@ -246,13 +246,13 @@ impl<D: Driver> KnownBugs<D> {
     }
 
     /// Returns the reduced case.
-    fn left(&self, place: (usize, Part)) -> Option<&Reduced<D::Case>> {
+    fn left(&self, place: (usize, ComparedAttachments)) -> Option<&Reduced<D::Case>> {
         self.tried.get(&place)?.reduced.as_ref()?.as_ref()
     }
 
     fn similarity(
         &self,
-        place: (usize, Part),
+        place: (usize, ComparedAttachments),
         verdict: Verdict,
         traits: &Traits,
     ) -> Option<Similarity> {
@@ -269,7 +269,7 @@ impl<D: Driver> KnownBugs<D> {
 
     fn matched(
         &self,
-        place: (usize, Part),
+        place: (usize, ComparedAttachments),
         verdict: Verdict,
         traits: &Traits,
         difference: Option<Difference>,
@@ -310,7 +310,7 @@ impl<D: Driver> KnownBugs<D> {
 
     /// Draws a case, and reduces it if it fails as the finding says and is useful for a failure with these
     /// traits.
-    fn reduced(&mut self, place: (usize, Part), traits: &Traits) -> Result<(), D::Error> {
+    fn reduced(&mut self, place: (usize, ComparedAttachments), traits: &Traits) -> Result<(), D::Error> {
         if self.driver.is_stopped() {
             return Ok(());
         }
@@ -320,7 +320,7 @@ impl<D: Driver> KnownBugs<D> {
             self.tried.insert(place, Tried { seen, reduced });
         }
         // The reduced case can resemble a failure that has more states, or another violation.
-        let of_use = |seen: &mut Seen<D::Case>| {
+        let of_use = |seen: &mut DrawnCase<D::Case>| {
             traits.may_be_left_of(&seen.traits)
                 || seen.traits.may_be_left_of(traits)
                 || traits.aspect().is_some() && seen.traits.aspect().is_some()
@@ -342,7 +342,7 @@ impl<D: Driver> KnownBugs<D> {
     }
 
     /// Draws a part of a case. Returns it if it fails as a finding says.
-    fn drawn(&mut self, place: (usize, Part)) -> Result<Option<Seen<D::Case>>, D::Error> {
+    fn drawn(&mut self, place: (usize, ComparedAttachments)) -> Result<Option<DrawnCase<D::Case>>, D::Error> {
         let (number, part) = place;
         let document = self.driver.document(&self.named[number].case);
         let Some(document) = document.and_then(|document| part.of_document(document)) else {
@@ -355,7 +355,7 @@ impl<D: Driver> KnownBugs<D> {
             return Ok(None);
         }
         let traits = Traits::of(&document, &Symptom::of(&record));
-        Ok(Some(Seen {
+        Ok(Some(DrawnCase {
             case,
             record,
             traits,
@@ -364,7 +364,7 @@ impl<D: Driver> KnownBugs<D> {
 
     /// Reduces a case. A case that ends its worker is kept as it is, because each step would cost a
     /// process.
-    fn reduce(&mut self, seen: Seen<D::Case>) -> Result<Reduced<D::Case>, D::Error> {
+    fn reduce(&mut self, seen: DrawnCase<D::Case>) -> Result<Reduced<D::Case>, D::Error> {
         let (case, symptom, traits) = if seen.record.verdict.is_violation() {
             self.driver.reduce(seen.case, seen.record)?
         } else {
@@ -379,7 +379,7 @@ impl<D: Driver> KnownBugs<D> {
     }
 
     /// Returns true if the reduced case fails in a new process.
-    fn is_steady(&mut self, place: (usize, Part)) -> bool {
+    fn is_steady(&mut self, place: (usize, ComparedAttachments)) -> bool {
         let tried = self.tried.get_mut(&place);
         let reduced = tried.and_then(|t| t.reduced.as_mut()?.as_mut());
         let Some(Reduced {
@@ -396,7 +396,7 @@ impl<D: Driver> KnownBugs<D> {
 }
 
 /// Returns the cases that represent each finding: some of its cases, evenly spaced.
-fn standing<N>(named: &[Named<N>]) -> Vec<usize> {
+fn standing<N>(named: &[NamedCase<N>]) -> Vec<usize> {
     let mut of_each: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (number, case) in named.iter().enumerate() {
         for finding in &case.findings {

@@ -32,7 +32,7 @@ pub struct Signature(BTreeSet<String>);
 
 /// The parts of a scene that become its signature.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Detail {
+enum SceneDetail {
     /// Keys, and the words of some keys.
     Keys,
     /// Keys, all words, and whether colours and depths are below 0 or above 1.
@@ -42,16 +42,16 @@ enum Detail {
 impl Signature {
     /// Returns the signature of a document.
     pub fn of(document: &Value) -> Self {
-        Self::with(document, Detail::Keys)
+        Self::with(document, SceneDetail::Keys)
     }
 
     /// Returns the signature with everything except numbers: all words and booleans, sample counts, and
     /// whether values of colours and depths are below 0 or above 1.
     pub fn exact(document: &Value) -> Self {
-        Self::with(document, Detail::Words)
+        Self::with(document, SceneDetail::Words)
     }
 
-    fn with(document: &Value, detail: Detail) -> Self {
+    fn with(document: &Value, detail: SceneDetail) -> Self {
         let mut states = BTreeSet::new();
         let add = |states: &mut BTreeSet<String>, path: &str, value: &Value| {
             add(states, path, value, detail);
@@ -64,7 +64,7 @@ impl Signature {
             }
             for key in ["samples", "texels"] {
                 match attachment.1.get(key) {
-                    Some(count) if key == "samples" && detail == Detail::Words => {
+                    Some(count) if key == "samples" && detail == SceneDetail::Words => {
                         states.insert(format!("{key}={count}"));
                     }
                     Some(_) => {
@@ -89,7 +89,7 @@ impl Signature {
                 .flatten()
             {
                 match key.as_str() {
-                    "params" if detail == Detail::Words => {
+                    "params" if detail == SceneDetail::Words => {
                         add_sides(&mut states, key, value);
                     }
                     "params" | "textures" | "counters" => {}
@@ -191,8 +191,8 @@ fn list<'v>(value: &'v Value, key: &str) -> &'v [Value] {
 }
 
 /// Adds the keys below a value with their words.
-fn add(states: &mut BTreeSet<String>, path: &str, value: &Value, detail: Detail) {
-    let words = detail == Detail::Words;
+fn add(states: &mut BTreeSet<String>, path: &str, value: &Value, detail: SceneDetail) {
+    let words = detail == SceneDetail::Words;
     match value {
         Value::Object(map) => {
             for (key, value) in map {

@@ -174,7 +174,7 @@ fn repeated(values: &[ByteArray; SHARED_TEXTS], time: i64, n: usize) -> Vec<Colu
 
 /// Rows of frame times that are not in a row group yet.
 #[derive(Default)]
-struct Times {
+struct TimeRows {
     texts: [Vec<ByteArray>; SHARED_TEXTS],
     time: Vec<i64>,
     cases: Vec<ByteArray>,
@@ -182,7 +182,7 @@ struct Times {
     numbers: [Vec<Option<f64>>; 5],
 }
 
-impl Times {
+impl TimeRows {
     fn flush(&mut self, table: &mut Table) -> Result<(), ExportError> {
         let times = std::mem::take(self);
         let mut columns: Vec<Column> = times.texts.map(Column::Text).into();
@@ -207,7 +207,7 @@ fn frame_times(
     keys.sort_by(|a, b| a.timeline.cmp(&b.timeline));
     for of_adapter in keys.chunk_by(|a, b| a.timeline == b.timeline) {
         let mut table = None;
-        let mut rows = Times::default();
+        let mut rows = TimeRows::default();
         for key in of_adapter {
             let case = history.case_name(key.case)?;
             for point in history

@@ -3,7 +3,7 @@
 use etalon_frame::TextureFormat;
 
 /// The layout of a texel's channels in client memory.
-enum Layout {
+enum ChannelLayout {
     /// One integer of this many bytes per channel.
     Each(usize),
     /// One integer of this many bytes per texel, with the channels at these bits.
@@ -11,24 +11,24 @@ enum Layout {
 }
 
 /// Returns the layout of the client format of `gl_format`.
-fn layout(format: TextureFormat) -> Layout {
+fn layout(format: TextureFormat) -> ChannelLayout {
     match format {
-        TextureFormat::Rgb10a2Unorm => Layout::Packed(4, &[0, 10, 20, 30]),
-        TextureFormat::Rg11b10Ufloat => Layout::Packed(4, &[0, 11, 22]),
-        TextureFormat::B5g6r5Unorm => Layout::Packed(2, &[11, 5, 0]),
-        TextureFormat::Bgr5a1Unorm => Layout::Packed(2, &[11, 6, 1, 0]),
-        TextureFormat::Bgra4Unorm => Layout::Packed(2, &[12, 8, 4, 0]),
-        TextureFormat::Rgba16Float => Layout::Each(2),
-        TextureFormat::Rgba32Float => Layout::Each(4),
-        _ => Layout::Each(1),
+        TextureFormat::Rgb10a2Unorm => ChannelLayout::Packed(4, &[0, 10, 20, 30]),
+        TextureFormat::Rg11b10Ufloat => ChannelLayout::Packed(4, &[0, 11, 22]),
+        TextureFormat::B5g6r5Unorm => ChannelLayout::Packed(2, &[11, 5, 0]),
+        TextureFormat::Bgr5a1Unorm => ChannelLayout::Packed(2, &[11, 6, 1, 0]),
+        TextureFormat::Bgra4Unorm => ChannelLayout::Packed(2, &[12, 8, 4, 0]),
+        TextureFormat::Rgba16Float => ChannelLayout::Each(2),
+        TextureFormat::Rgba32Float => ChannelLayout::Each(4),
+        _ => ChannelLayout::Each(1),
     }
 }
 
 /// Returns the size of a texel in client memory.
 pub(crate) fn texel_bytes(format: TextureFormat) -> usize {
     match layout(format) {
-        Layout::Each(size) => size * format.color_channels().len(),
-        Layout::Packed(size, _) => size,
+        ChannelLayout::Each(size) => size * format.color_channels().len(),
+        ChannelLayout::Packed(size, _) => size,
     }
 }
 
@@ -36,10 +36,10 @@ pub(crate) fn texel_bytes(format: TextureFormat) -> usize {
 pub(crate) fn places(format: TextureFormat) -> Vec<[u32; 2]> {
     let channels = (0..).zip(format.color_channels());
     match layout(format) {
-        Layout::Each(size) => channels
+        ChannelLayout::Each(size) => channels
             .map(|(c, _)| [c * 8 * size as u32, 8 * size as u32])
             .collect(),
-        Layout::Packed(_, shifts) => channels
+        ChannelLayout::Packed(_, shifts) => channels
             .zip(shifts)
             .map(|((_, e), s)| [*s, e.bits()])
             .collect(),
@@ -50,12 +50,12 @@ pub(crate) fn places(format: TextureFormat) -> Vec<[u32; 2]> {
 pub(crate) fn pack(format: TextureFormat, codes: &[u32]) -> Vec<u8> {
     let mut bytes = Vec::new();
     match layout(format) {
-        Layout::Each(size) => {
+        ChannelLayout::Each(size) => {
             for code in codes {
                 put(&mut bytes, *code, size);
             }
         }
-        Layout::Packed(size, shifts) => {
+        ChannelLayout::Packed(size, shifts) => {
             for texel in codes.chunks_exact(shifts.len()) {
                 let word = texel.iter().zip(shifts).fold(0, |w, (c, s)| w | c << s);
                 put(&mut bytes, word, size);
@@ -68,8 +68,8 @@ pub(crate) fn pack(format: TextureFormat, codes: &[u32]) -> Vec<u8> {
 /// Returns the codes of a client image.
 pub(crate) fn unpack(format: TextureFormat, bytes: &[u8]) -> Vec<u32> {
     match layout(format) {
-        Layout::Each(size) => bytes.chunks_exact(size).map(get).collect(),
-        Layout::Packed(size, shifts) => {
+        ChannelLayout::Each(size) => bytes.chunks_exact(size).map(get).collect(),
+        ChannelLayout::Packed(size, shifts) => {
             let masks: Vec<u32> = format.color_channels().iter().map(|e| e.mask()).collect();
             let texels = bytes.chunks_exact(size).map(get);
             texels

@@ -545,7 +545,7 @@ pub(crate) fn spoil(context: &Context, format: TextureFormat, surface: &Surface)
 fn copy_image(context: &Context, from: &Surface, to: &Surface) {
     let gl = &context.gl;
     let [width, height] = from.size().map(|side| side as i32);
-    let (source, target) = (Place::of(from), Place::of(to));
+    let (source, target) = (CopiedImage::of(from), CopiedImage::of(to));
     // SAFETY: the context is current, has the function, and owns the images, which are of equal size.
     unsafe {
         gl.copy_image_sub_data(
@@ -569,14 +569,14 @@ fn copy_image(context: &Context, from: &Surface, to: &Surface) {
 }
 
 /// An image as copies name it. Renderbuffers have names, as textures do.
-struct Place {
+struct CopiedImage {
     name: glow::Texture,
     binding: u32,
     level: i32,
     layer: i32,
 }
 
-impl Place {
+impl CopiedImage {
     fn of(surface: &Surface) -> Self {
         match surface.storage {
             Storage::Texture(part) => Self {

@@ -281,7 +281,7 @@ fn texture(
     path: PathTarget,
 ) -> Result<Storage, BackendError> {
     let gl = &context.gl;
-    let shape = Shape::of(path, size);
+    let shape = TextureShape::of(path, size);
     let target = shape.binding;
     check_size(context, path, shape)?;
     // SAFETY: the context is current; no client memory is read.
@@ -336,7 +336,7 @@ fn texture(
 ///
 /// # Safety
 /// The context is current, and the texture has these parameters.
-unsafe fn set_parameters(gl: &glow::Context, shape: Shape) {
+unsafe fn set_parameters(gl: &glow::Context, shape: TextureShape) {
     // SAFETY: upheld by the caller.
     let set = |name, value: u32| unsafe {
         gl.tex_parameter_i32(shape.binding, name, value as i32);
@@ -352,7 +352,7 @@ unsafe fn set_parameters(gl: &glow::Context, shape: Shape) {
 
 /// The texture that an attachment is a part of.
 #[derive(Clone, Copy)]
-struct Shape {
+struct TextureShape {
     binding: u32,
     /// The size of level 0.
     size: [u32; 2],
@@ -364,7 +364,7 @@ struct Shape {
     layer: i32,
 }
 
-impl Shape {
+impl TextureShape {
     /// Returns the part of a texture of this shape that is used.
     fn part(self, texture: glow::Texture) -> Part {
         Part {
@@ -414,7 +414,7 @@ impl Shape {
 }
 
 /// Checks that the context supports textures of the size that the part needs.
-fn check_size(context: &Context, path: PathTarget, shape: Shape) -> Result<(), BackendError> {
+fn check_size(context: &Context, path: PathTarget, shape: TextureShape) -> Result<(), BackendError> {
     let name = match path {
         PathTarget::Plain | PathTarget::Renderbuffer => return Ok(()),
         PathTarget::MipLevel | PathTarget::ArrayLayer => glow::MAX_TEXTURE_SIZE,
@@ -474,7 +474,7 @@ fn view(
 ) -> Result<(Part, glow::Texture), BackendError> {
     let gl = &context.gl;
     let samples = kind.samples();
-    let mut shape = Shape::of(kind.target(), size);
+    let mut shape = TextureShape::of(kind.target(), size);
     if samples > 1 {
         shape.binding = glow::TEXTURE_2D_MULTISAMPLE;
     }

@@ -26,7 +26,7 @@ pub enum GlobError {
 }
 
 /// A list in braces that is not closed yet.
-struct List {
+struct OpenBraces {
     /// The number of the step that jumps to all alternatives.
     fork: usize,
     /// The numbers of their first steps.
@@ -40,7 +40,7 @@ struct List {
 /// Returns the steps of a glob.
 pub(crate) fn steps(glob: &str) -> Result<Vec<Step>, GlobError> {
     let mut steps = Vec::new();
-    let mut lists: Vec<List> = Vec::new();
+    let mut lists: Vec<OpenBraces> = Vec::new();
     let mut chars = glob.chars().peekable();
     // True at the start of a part of a path.
     let mut begins = true;
@@ -65,7 +65,7 @@ pub(crate) fn steps(glob: &str) -> Result<Vec<Step>, GlobError> {
             '[' => steps.push(class(&mut chars)?),
             '\\' => steps.push(Step::Char(chars.next().ok_or(GlobError::Backslash)?)),
             '{' => {
-                lists.push(List {
+                lists.push(OpenBraces {
                     fork: steps.len(),
                     starts: vec![steps.len() + 1],
                     ends: Vec::new(),

@@ -75,14 +75,14 @@ impl Judge {
         case: &Case,
         limits: &Limits,
         frames: &[Frame],
-        then: impl Fn(Compared<'_>) -> T,
+        then: impl Fn(ComparedFrame<'_>) -> T,
     ) -> impl Iterator<Item = Result<T, String>> {
         frames.iter().enumerate().map(move |(index, frame)| {
             let judgements = self.cache.get(number, case, index, limits);
             let sets = self.cache.sets(number, case, index);
             let scene = judged_scene(case, index);
             let (comparison, judgement) = best(scene, &judgements, frame, &sets)?;
-            Ok(then(Compared {
+            Ok(then(ComparedFrame {
                 index,
                 frame,
                 comparison,
@@ -107,7 +107,7 @@ impl Judge {
         let mut worst: Option<Band> = None;
         let mut first = None;
         let each = self.compare_each(number, case, limits, frames, |compared| {
-            let Compared {
+            let ComparedFrame {
                 index,
                 frame,
                 comparison,
@@ -145,7 +145,7 @@ impl Judge {
 }
 
 /// A frame of one of a case's scenes, compared with the judgement that it fits best.
-struct Compared<'a> {
+struct ComparedFrame<'a> {
     index: usize,
     frame: &'a Frame,
     comparison: Comparison,
@@ -165,8 +165,8 @@ fn unjudged(case: &Case, adapter: &str, limits: &Limits, reason: Reason) -> Judg
 }
 
 /// Judges the frame of one of a case's scenes.
-fn judge_scene(case: &Case, adapter: &str, limits: &Limits, compared: Compared<'_>) -> Judged {
-    let Compared {
+fn judge_scene(case: &Case, adapter: &str, limits: &Limits, compared: ComparedFrame<'_>) -> Judged {
+    let ComparedFrame {
         index,
         frame,
         mut comparison,

@@ -27,20 +27,20 @@ pub(crate) fn judged_texels(case: &Case) -> Texels {
 
 /// Everything but the rules that legal sets depend on.
 type Key = (SceneKey, Texels, Limits);
-type Entry = Arc<Mutex<KnownSets>>;
+type CachedJudgements = Arc<Mutex<KnownSets>>;
 
 /// Legal sets by scene, limits and permissions.
 #[derive(Debug, Default)]
 pub(crate) struct JudgementCache {
     /// The keys of the scenes judged so far, by the number of the case and the index of the scene.
     scenes: Mutex<HashMap<(usize, usize), SceneKey>>,
-    cache: Mutex<Cache>,
+    cache: Mutex<CacheMap>,
     geometries: Geometries,
 }
 
 #[derive(Debug, Default)]
-struct Cache {
-    entries: HashMap<Key, Entry>,
+struct CacheMap {
+    entries: HashMap<Key, CachedJudgements>,
     /// The keys of all sets, oldest first, with the size of each set in bytes.
     order: VecDeque<(Key, usize)>,
     bytes: usize,

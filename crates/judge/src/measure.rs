@@ -11,11 +11,11 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 #[derive(Debug, Default)]
 pub struct Truths {
     /// The truths, by question and scene.
-    scenes: Mutex<HashMap<(String, String), Vec<Known>>>,
+    scenes: Mutex<HashMap<(String, String), Vec<CachedTruth>>>,
 }
 
 /// A truth, and its picture once it has been computed.
-type Known = (Truth, Arc<OnceLock<Arc<TruthPicture>>>);
+type CachedTruth = (Truth, Arc<OnceLock<Arc<TruthPicture>>>);
 
 impl Truths {
     /// Returns the exact picture of a method. Methods that should show the same picture share it.

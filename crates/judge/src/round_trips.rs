@@ -62,7 +62,7 @@ fn leans_on(case: &Case) -> BTreeSet<TextureFormat> {
 /// The result of an adapter's round trips.
 #[derive(Clone, Debug, Default)]
 pub struct RoundTrips {
-    failed: BTreeMap<TextureFormat, Failed>,
+    failed: BTreeMap<TextureFormat, FailedTrip>,
     /// Formats whose round trip the expectations skip, with the reason.
     unchecked: BTreeMap<TextureFormat, String>,
     /// The reason why the driver no longer starts.
@@ -71,7 +71,7 @@ pub struct RoundTrips {
 
 /// A round trip that failed.
 #[derive(Clone, Debug)]
-struct Failed {
+struct FailedTrip {
     trip: FailedRoundTrip,
     /// The reason why the failure is expected.
     expected: Option<String>,
@@ -103,7 +103,7 @@ impl RoundTrips {
             let reason = reason.map_or_else(String::new, |e| e.reason.clone());
             self.unchecked.insert(format, reason);
         } else if fails(record) {
-            let failed = Failed {
+            let failed = FailedTrip {
                 trip: FailedRoundTrip {
                     case: case.id.clone(),
                     verdict: record.verdict,
@@ -128,7 +128,7 @@ impl RoundTrips {
         }
         let formats = leans_on(case);
         let failed = formats.iter().filter_map(|format| self.failed.get(format));
-        let failed: Vec<&Failed> = failed.collect();
+        let failed: Vec<&FailedTrip> = failed.collect();
         if failed.is_empty() {
             return None;
         }

@@ -89,7 +89,7 @@ pub enum MethodName {
 }
 
 /// The draws of a scene and the polygons that should be seen.
-struct Shown {
+struct ShownSolids {
     /// The draws.
     draws: Vec<Draw>,
     /// All polygons that can be visible.
@@ -97,7 +97,7 @@ struct Shown {
 }
 
 pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
-    let Shown { draws, polygons } = match *wire {
+    let ShownSolids { draws, polygons } = match *wire {
         Wire::FlyThrough { method, eye } => {
             within("eye", eye, 0.0..=8.0)?;
             fly_through(method, eye)
@@ -189,12 +189,12 @@ fn moved(faces: &[Face], by: DMat4) -> Vec<Face> {
     faces.iter().map(|face| face.moved(&by)).collect()
 }
 
-fn fly_through(method: MethodName, eye: f64) -> Result<Shown, ParameterError> {
+fn fly_through(method: MethodName, eye: f64) -> Result<ShownSolids, ParameterError> {
     let turn = DMat4::from_rotation_x(0.26) * DMat4::from_rotation_y(0.52);
     let from = DVec3::new(0.0, 0.0, eye);
     let view = View::perspective(SIZE, [from, from - DVec3::Z], 60.0, [0.1, 20.0]);
     let polygons = settle(SIZE, &view.see(&moved(&colored_box(1.0), turn)));
-    Ok(Shown {
+    Ok(ShownSolids {
         draws: vec![opaque(&polygons, one_pass(method)?)],
         polygons,
     })
@@ -206,19 +206,19 @@ fn front_view(distance: f64) -> View {
     View::perspective(SIZE, [eye, DVec3::ZERO], 40.0, [0.5, 20.0])
 }
 
-fn open_mesh(method: MethodName, angle: f64) -> Result<Shown, ParameterError> {
+fn open_mesh(method: MethodName, angle: f64) -> Result<ShownSolids, ParameterError> {
     let mut faces = colored_box(1.0);
     // The lid.
     faces.remove(3);
     let turn = DMat4::from_rotation_x(angle.to_radians()) * DMat4::from_rotation_y(0.61);
     let polygons = settle(SIZE, &front_view(4.6).see(&moved(&faces, turn)));
-    Ok(Shown {
+    Ok(ShownSolids {
         draws: vec![opaque(&polygons, one_pass(method)?)],
         polygons,
     })
 }
 
-fn mirrored(method: MethodName, angle: f64) -> Result<Shown, ParameterError> {
+fn mirrored(method: MethodName, angle: f64) -> Result<ShownSolids, ParameterError> {
     let (cull, flips) = match method {
         MethodName::BackFlipped => (CullMode::Back, true),
         other => (one_pass(other)?, false),
@@ -228,7 +228,7 @@ fn mirrored(method: MethodName, angle: f64) -> Result<Shown, ParameterError> {
     let mirror = DMat4::from_scale(DVec3::new(-1.0, 1.0, 1.0));
     let faces = colored_box(0.7);
     let view = front_view(6.0);
-    let mut shown = Shown {
+    let mut shown = ShownSolids {
         draws: Vec::new(),
         polygons: Vec::new(),
     };
@@ -244,7 +244,7 @@ fn mirrored(method: MethodName, angle: f64) -> Result<Shown, ParameterError> {
     Ok(shown)
 }
 
-fn see_through(method: MethodName, alpha: f64) -> Result<Shown, ParameterError> {
+fn see_through(method: MethodName, alpha: f64) -> Result<ShownSolids, ParameterError> {
     let passes = match method {
         MethodName::FrontThenBack => vec![CullMode::Front, CullMode::Back],
         other => vec![one_pass(other)?],
@@ -266,19 +266,19 @@ fn see_through(method: MethodName, alpha: f64) -> Result<Shown, ParameterError> 
         draw.targets[0].blend = stage::over();
         draw
     }));
-    Ok(Shown {
+    Ok(ShownSolids {
         draws,
         polygons: [solid, faces].concat(),
     })
 }
 
-fn closed_mesh(method: MethodName, segments: u32) -> Result<Shown, ParameterError> {
+fn closed_mesh(method: MethodName, segments: u32) -> Result<ShownSolids, ParameterError> {
     let turn = DMat4::from_rotation_x(0.7) * DMat4::from_rotation_y(0.3);
     let faces = moved(&torus(segments), turn);
     let mut polygons = settle(SIZE, &front_view(4.6).see(&faces));
     let depth = |p: &Polygon| p.corners.iter().map(|c| c[2]).sum::<f64>();
     polygons.sort_by(|a, b| depth(b).total_cmp(&depth(a)));
-    Ok(Shown {
+    Ok(ShownSolids {
         draws: vec![opaque(&polygons, one_pass(method)?)],
         polygons,
     })
@@ -309,7 +309,7 @@ fn torus(segments: u32) -> Vec<Face> {
     faces
 }
 
-fn field(method: MethodName, objects: u32) -> Result<Shown, ParameterError> {
+fn field(method: MethodName, objects: u32) -> Result<ShownSolids, ParameterError> {
     let (cull, by_object) = match method {
         MethodName::Frustum => (CullMode::None, true),
         other => (one_pass(other)?, false),
@@ -319,7 +319,7 @@ fn field(method: MethodName, objects: u32) -> Result<Shown, ParameterError> {
     let view = View::parallel(SIZE, [eye, DVec3::ZERO], 2.0, [5.0, 15.0]);
     let side = f64::from(objects).sqrt().ceil();
     let half = 0.32 * 6.0 / side;
-    let mut shown = Shown {
+    let mut shown = ShownSolids {
         draws: Vec::new(),
         polygons: Vec::new(),
     };

@@ -21,14 +21,14 @@ use etalon_scene::{
 };
 
 /// A least and a greatest code.
-type Range = [u32; 2];
+type CodeRange = [u32; 2];
 
 /// Returns true for the draws that a bug affects, given the pass index.
 type Strikes = fn(usize, &Draw) -> bool;
 
 /// The rules of a coarse depth buffer. Any of them can be wrong.
 #[derive(Clone, Copy)]
-struct Unit {
+struct DepthRules {
     /// The side of a tile, in texels.
     side: usize,
     /// The draws whose writes are not recorded.
@@ -40,7 +40,7 @@ struct Unit {
     /// True if draws whose shader writes depth are tested with the depths of their vertices.
     trusts_vertices: bool,
     /// Returns true if a draw is rejected by mistake, given its depths and the stored ones.
-    also: fn(CompareFunction, Range, Range) -> bool,
+    also: fn(CompareFunction, CodeRange, CodeRange) -> bool,
     /// The depth that is recorded for the initial clear.
     initial: Option<f32>,
     /// True if a new pass resets the ranges to those after the initial clear.
@@ -55,7 +55,7 @@ struct Unit {
     loses_stencil: bool,
 }
 
-impl Default for Unit {
+impl Default for DepthRules {
     /// Returns a coarse depth without a bug.
     fn default() -> Self {
         Self {
@@ -78,11 +78,11 @@ impl Default for Unit {
 /// The coarse depth buffer of one prepared scene.
 #[derive(Default)]
 struct Coarse {
-    unit: Unit,
+    unit: DepthRules,
     /// The ranges of each attachment's tiles, row by row; empty for attachments without depth.
-    maps: Vec<Vec<Range>>,
+    maps: Vec<Vec<CodeRange>>,
     /// The maps after the initial clear.
-    initial: Vec<Vec<Range>>,
+    initial: Vec<Vec<CodeRange>>,
     before: Option<DepthState>,
     /// The tiles that are rejected, and copies of the attachments before the draw.
     rejected: Vec<Area>,
@@ -95,7 +95,7 @@ fn encoding(scene: &Scene, index: usize) -> Option<ChannelEncoding> {
 }
 
 /// Returns the range of the depths in an area.
-fn range(surface: &Surface, area: Area) -> Range {
+fn range(surface: &Surface, area: Area) -> CodeRange {
     let codes = texel_rows(surface, area).flat_map(|texels| {
         let planes = surface.planes.iter();
         planes.flat_map(move |plane| &plane[texels.clone()])
@@ -106,7 +106,7 @@ fn range(surface: &Surface, area: Area) -> Range {
 }
 
 /// Returns true if no depth of a draw passes against any stored depth.
-fn rejects(compare: CompareFunction, [lo, hi]: Range, [min, max]: Range) -> bool {
+fn rejects(compare: CompareFunction, [lo, hi]: CodeRange, [min, max]: CodeRange) -> bool {
     match compare {
         CompareFunction::Never => true,
         Less => lo >= max,
@@ -194,7 +194,7 @@ impl Coarse {
         encoding: ChannelEncoding,
         [columns, rows]: [usize; 2],
         draw: &Draw,
-    ) -> Vec<(usize, Range)> {
+    ) -> Vec<(usize, CodeRange)> {
         let vertices = &draw.mesh.vertices;
         if vertices.iter().any(|v| v.position[3] <= 0.0) {
             return Vec::new();
@@ -205,7 +205,7 @@ impl Coarse {
         };
         let [near, far] = draw.viewport.depth;
         let (near, far) = (near.min(far), near.max(far));
-        let mut found: Vec<Option<Range>> = vec![None; columns * rows];
+        let mut found: Vec<Option<CodeRange>> = vec![None; columns * rows];
         for primitive in draw.mesh.primitives(draw.topology) {
             let corners: Vec<[f32; 3]> = match &primitive {
                 PrimitiveVertices::Point(vertex) => vec![place(vertex)],
@@ -314,7 +314,7 @@ pub fn with_faithful_hierarchy(scene: Scene) -> impl Prepared {
     PreparedScene::new(scene, Memory::new(memory))
 }
 
-fn coarse(unit: Unit) -> Plant {
+fn coarse(unit: DepthRules) -> Plant {
     memory(move |coarse: &mut Coarse, moment, scene, stored| {
         coarse.unit = unit;
         coarse.reached(moment, scene, stored);
@@ -349,13 +349,13 @@ bugs! {
         ("points", "points and lines", |_, draw| THIN.contains(&draw.topology)),
     ] {
         "{name}-missed: The coarse depth misses what is written by {what}." =>
-            coarse(Unit { missed, ..Unit::default() });
+            coarse(DepthRules { missed, ..DepthRules::default() });
     }
     for side in [16, 32, 64] {
         "shader-depth-missed-in-tiles-of-{side}: A coarse depth of {side}×{side} misses depths that shaders write." =>
-            coarse(Unit { side, missed: SHADER_DEPTH, ..Unit::default() });
+            coarse(DepthRules { side, missed: SHADER_DEPTH, ..DepthRules::default() });
         "always-missed-in-tiles-of-{side}: A coarse depth of {side}×{side} misses draws that always pass." =>
-            coarse(Unit { side, missed: ALWAYS, ..Unit::default() });
+            coarse(DepthRules { side, missed: ALWAYS, ..DepthRules::default() });
     }
     for (name, what, overrated as Strikes) in [
         ("write-off", "writes no depth", |_, d| d.depth.is_some() && !writes(d)),
@@ -364,41 +364,41 @@ bugs! {
         ("stencil", "has a stencil test", |_, d| d.stencil.is_some()),
     ] {
         "{name}-noted-as-written: A draw that {what} counts as writing every texel it touches." =>
-            coarse(Unit { overrated, ..Unit::default() });
+            coarse(DepthRules { overrated, ..DepthRules::default() });
     }
     "compare-kept: The coarse depth is tested with the comparison of the draw before." =>
-        coarse(Unit { compare: |before, compare| before.map_or(compare, |before| before.compare), ..Unit::default() });
+        coarse(DepthRules { compare: |before, compare| before.map_or(compare, |before| before.compare), ..DepthRules::default() });
     "first-direction-kept: The coarse depth is tested with less behind a draw with less." =>
-        coarse(Unit {
+        coarse(DepthRules {
             compare: |before, compare| if before.is_some_and(|b| b.compare == Less) { Less } else { compare },
-            ..Unit::default()
+            ..DepthRules::default()
         });
     "shader-depth-ignored: Draws whose shader writes depth are rejected by that of their vertices." =>
-        coarse(Unit { trusts_vertices: true, ..Unit::default() });
+        coarse(DepthRules { trusts_vertices: true, ..DepthRules::default() });
     "greatest-used-for-greater: Greater is tested against the greatest depth of a tile." =>
-        coarse(Unit { also: |c, [_, hi], [_, max]| c == Greater && hi <= max, ..Unit::default() });
+        coarse(DepthRules { also: |c, [_, hi], [_, max]| c == Greater && hi <= max, ..DepthRules::default() });
     "least-used-for-less: Less is tested against the least depth of a tile." =>
-        coarse(Unit { also: |c, [lo, _], [min, _]| c == Less && lo >= min, ..Unit::default() });
+        coarse(DepthRules { also: |c, [lo, _], [min, _]| c == Less && lo >= min, ..DepthRules::default() });
     "less-equal-bound-rejected: Less-equal rejects what is equal to the greatest depth." =>
-        coarse(Unit { also: |c, [lo, _], [_, max]| c == LessEqual && lo >= max, ..Unit::default() });
+        coarse(DepthRules { also: |c, [lo, _], [_, max]| c == LessEqual && lo >= max, ..DepthRules::default() });
     "greater-equal-bound-rejected: Greater-equal rejects what is equal to the least depth." =>
-        coarse(Unit { also: |c, [_, hi], [min, _]| c == GreaterEqual && hi <= min, ..Unit::default() });
+        coarse(DepthRules { also: |c, [_, hi], [min, _]| c == GreaterEqual && hi <= min, ..DepthRules::default() });
     "equal-bound-rejected: Equal rejects a draw that meets a tile's depths at one end only." =>
-        coarse(Unit { also: |c, [lo, hi], [min, max]| c == Equal && (lo >= max || hi <= min), ..Unit::default() });
+        coarse(DepthRules { also: |c, [lo, hi], [min, max]| c == Equal && (lo >= max || hi <= min), ..DepthRules::default() });
     for n in [0, 1] {
         "clear-missed-after-{n}: The coarse depth misses the first clear and holds {n}." =>
-            coarse(Unit { initial: Some(n as f32), ..Unit::default() });
+            coarse(DepthRules { initial: Some(n as f32), ..DepthRules::default() });
     }
     "reset-between-passes: In the next pass, the coarse depth is that of the clear." =>
-        coarse(Unit { forgets: true, ..Unit::default() });
+        coarse(DepthRules { forgets: true, ..DepthRules::default() });
     for columns in [4, 8, 16] {
         "columns-wrap-at-{columns}: A row of coarse depths begins anew after {columns} tiles." =>
-            coarse(Unit { columns, ..Unit::default() });
+            coarse(DepthRules { columns, ..DepthRules::default() });
     }
     "load-missed: The coarse depth misses the clear of a load operation." =>
-        coarse(Unit { misses_loads: true, ..Unit::default() });
+        coarse(DepthRules { misses_loads: true, ..DepthRules::default() });
     "edge-missed: Tiles that extend beyond the attachment keep the coarse depth of the clear." =>
-        coarse(Unit { misses_edges: true, ..Unit::default() });
+        coarse(DepthRules { misses_edges: true, ..DepthRules::default() });
     "stencil-lost: Where tiles are rejected, fragments that fail the depth test leave stencil." =>
-        coarse(Unit { loses_stencil: true, ..Unit::default() });
+        coarse(DepthRules { loses_stencil: true, ..DepthRules::default() });
 }

@@ -19,9 +19,9 @@ fn unclipped(draw: &mut Draw, size: [u32; 2]) {
     }
 }
 
-type Bug = fn([f32; 4], [f32; 2]) -> [f32; 4];
+type ViewportBug = fn([f32; 4], [f32; 2]) -> [f32; 4];
 
-fn rects(bug: Bug) -> Plant {
+fn rects(bug: ViewportBug) -> Plant {
     sized(move |draw, size| draw.viewport.rect = bug(draw.viewport.rect, size.map(|s| s as f32)))
 }
 

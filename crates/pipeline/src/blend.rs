@@ -19,7 +19,7 @@ pub struct BlendInput<R> {
 
 /// A factor before it is multiplied. Zero and one need no arithmetic: `0 * x = 0` is exact for finite `x`, and
 /// `1 * x = x` for every `x`, in every specification.
-enum Factor<R> {
+enum BlendFactorValue<R> {
     Zero,
     One,
     Value(R),
@@ -95,12 +95,12 @@ fn side<A: Arithmetic>(
     a: &mut A,
     encoding: ChannelEncoding,
     operand: A::Real,
-    factor: Factor<A::Real>,
+    factor: BlendFactorValue<A::Real>,
 ) -> A::Real {
     match factor {
-        Factor::Zero => a.blend_zero(operand),
-        Factor::One => operand,
-        Factor::Value(value) => a.blend_product(encoding, operand, value),
+        BlendFactorValue::Zero => a.blend_zero(operand),
+        BlendFactorValue::One => operand,
+        BlendFactorValue::Value(value) => a.blend_product(encoding, operand, value),
     }
 }
 
@@ -111,11 +111,11 @@ fn factor<A: Arithmetic>(
     encoding: ChannelEncoding,
     input: &BlendInput<A::Real>,
     c: usize,
-) -> Factor<A::Real> {
+) -> BlendFactorValue<A::Real> {
     let value = match factor {
-        BlendFactor::Zero => return Factor::Zero,
-        BlendFactor::One => return Factor::One,
-        BlendFactor::SrcAlphaSaturated if c == 3 => return Factor::One,
+        BlendFactor::Zero => return BlendFactorValue::Zero,
+        BlendFactor::One => return BlendFactorValue::One,
+        BlendFactor::SrcAlphaSaturated if c == 3 => return BlendFactorValue::One,
         BlendFactor::SrcAlphaSaturated => {
             let rest = a.blend_complement(encoding, input.dst[3]);
             a.min(input.src[3], rest)
@@ -140,7 +140,7 @@ fn factor<A: Arithmetic>(
         | BlendFactor::OneMinusConstantAlpha => a.blend_complement(encoding, value),
         _ => value,
     };
-    Factor::Value(a.blend_factor(encoding, value))
+    BlendFactorValue::Value(a.blend_factor(encoding, value))
 }
 
 #[cfg(test)]

@@ -129,7 +129,7 @@ impl Expectations {
             } else {
                 let first = known.cases.iter().find_map(|glob| ids.first(glob, &left));
                 let first = first.filter(|_| !adapters.is_empty());
-                first.map(|first| Reach { first, adapters })
+                first.map(|first| NamedPairs { first, adapters })
             };
             reaches.push(reach);
         }
@@ -298,7 +298,7 @@ impl<'r> Excuses<'r> {
 }
 
 /// The cases and adapters that an expectation names.
-struct Reach {
+struct NamedPairs {
     /// The index of one of its cases.
     first: usize,
     /// The indices of its adapters.

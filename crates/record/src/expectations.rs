@@ -196,7 +196,7 @@ impl Known {
 #[derive(Clone, Debug, Default)]
 pub struct Expectations {
     all: Vec<Known>,
-    globs: Vec<Globs>,
+    globs: Vec<EntryGlobs>,
     /// The globs over case ids, made when the first case is looked up.
     index: OnceLock<GlobIndex>,
     /// The name of the only adapter that the expectations are about, if they were chosen for it.
@@ -207,7 +207,7 @@ pub struct Expectations {
 }
 
 #[derive(Clone, Debug)]
-struct Globs {
+struct EntryGlobs {
     adapters: Vec<Glob>,
     driver: Glob,
     device: Option<Glob>,
@@ -223,7 +223,7 @@ fn matches_if_given(glob: Option<&Glob>, text: &str) -> bool {
     glob.is_none_or(|glob| glob.is_match(text))
 }
 
-impl Globs {
+impl EntryGlobs {
     fn match_adapter(&self, adapter: &AdapterRecord) -> bool {
         let named = |name: &str| self.adapters.iter().any(|g| g.is_match(name));
         self.applies
@@ -412,7 +412,7 @@ impl Expectations {
                 ));
             }
         }
-        let globs = Globs {
+        let globs = EntryGlobs {
             version,
             processor: build_if_given("processor", &known.processor)?,
             device: build_if_given("device", &known.device)?,

@@ -24,11 +24,11 @@ const FIRST_FILES: usize = 1 << 20;
 #[derive(Debug)]
 pub struct OutputFolder {
     folder: PathBuf,
-    state: Mutex<State>,
+    state: Mutex<FolderState>,
 }
 
 #[derive(Debug)]
-struct State {
+struct FolderState {
     /// The paths of the files that etalon wrote, below the folder.
     listed: HashSet<String>,
     /// True if these paths are in no list yet.
@@ -50,7 +50,7 @@ impl OutputFolder {
         let listed = list.unwrap_or_else(|| unlisted::files(folder));
         Ok(Self {
             folder: folder.to_owned(),
-            state: Mutex::new(State {
+            state: Mutex::new(FolderState {
                 listed,
                 is_unlisted,
                 list: None,
@@ -127,7 +127,7 @@ impl OutputFolder {
     }
 
     /// Checks that a folder of etalon has listed files and folders only.
-    fn check_folder(&self, state: &State, name: &str) -> Result<(), RecordError> {
+    fn check_folder(&self, state: &FolderState, name: &str) -> Result<(), RecordError> {
         let folder = self.folder.join(name);
         let failed = || RecordError::io("read", &folder);
         for entry in fs::read_dir(&folder).map_err(failed())? {
@@ -281,10 +281,10 @@ impl OutputFolder {
     }
 
     /// Adds a path to the list. A new list begins with the files of an earlier version.
-    fn append(&self, state: &mut State, name: &str) -> Result<(), RecordError> {
+    fn append(&self, state: &mut FolderState, name: &str) -> Result<(), RecordError> {
         let path = self.folder.join(LIST);
         let failed = || RecordError::io("write", &path);
-        let State { listed, list, .. } = state;
+        let FolderState { listed, list, .. } = state;
         let file = match list {
             Some(file) => file,
             None => {
@@ -442,7 +442,7 @@ impl OutputFolder {
         Ok(())
     }
 
-    fn state(&self) -> MutexGuard<'_, State> {
+    fn state(&self) -> MutexGuard<'_, FolderState> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

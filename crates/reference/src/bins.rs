@@ -25,7 +25,7 @@ const RUN: usize = 32;
 
 /// A primitive of a pass, and the texels that it can touch.
 #[derive(Clone, Debug)]
-struct Reach {
+struct PrimitiveReach {
     /// The draw within the pass.
     draw: u32,
     /// The primitive within the draw's setup.
@@ -43,7 +43,7 @@ pub(crate) struct PassSetup {
     /// For each draw, the common bounds of each [`RUN`] of its primitives.
     bounds: Vec<Vec<Bounds>>,
     clips: Vec<Clip>,
-    reaches: Vec<Reach>,
+    reaches: Vec<PrimitiveReach>,
     /// The box around the samples of the texel at the upper left.
     samples: SnapBox,
     /// Sub-texel units per texel.
@@ -71,7 +71,7 @@ impl PassSetup {
             for (i, primitive) in primitives.iter().enumerate() {
                 let [columns, rows] = touched(&primitive.shape);
                 if !columns.is_empty() && !rows.is_empty() {
-                    setup.reaches.push(Reach {
+                    setup.reaches.push(PrimitiveReach {
                         draw: d as u32,
                         primitive: i as u32,
                         columns,
@@ -105,7 +105,7 @@ impl PassSetup {
         self.draws.iter_mut().flatten()
     }
 
-    fn primitive(&self, reach: &Reach) -> &SnappedPrimitive {
+    fn primitive(&self, reach: &PrimitiveReach) -> &SnappedPrimitive {
         &self.draws[reach.draw as usize][reach.primitive as usize]
     }
 
@@ -135,7 +135,7 @@ impl PassSetup {
     /// Returns the rows of the pass's attachments, from the top, with the primitives of a range of draws.
     pub(crate) fn rows(&self, draws: Range<usize>) -> Rows<'_> {
         let first = |draw: usize| {
-            let before = |reach: &Reach| (reach.draw as usize) < draw;
+            let before = |reach: &PrimitiveReach| (reach.draw as usize) < draw;
             self.reaches.partition_point(before) as u32
         };
         let mut coming: Vec<u32> = (first(draws.start)..first(draws.end)).collect();
@@ -296,8 +296,8 @@ impl Rows<'_> {
 #[derive(Default)]
 pub(crate) struct Segments {
     /// Primitives with their columns in the row, sorted by first column.
-    coming: Vec<Member>,
-    members: Vec<Member>,
+    coming: Vec<RowMember>,
+    members: Vec<RowMember>,
     numbers: Vec<u32>,
     /// Columns at which a triangle starts or stops certainly covering texels.
     breaks: Vec<u32>,
@@ -305,7 +305,7 @@ pub(crate) struct Segments {
 
 /// A primitive in a row.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Member {
+struct RowMember {
     start: u32,
     number: u32,
     end: u32,
@@ -333,7 +333,7 @@ impl Segments {
                 }
             }
             if !columns.is_empty() {
-                self.coming.push(Member {
+                self.coming.push(RowMember {
                     start: columns.start,
                     number: *number,
                     end: columns.end,

@@ -52,7 +52,7 @@ pub(crate) fn is_cut_line(context: &PassContext<'_>, draw: &Draw, ends: [usize; 
 }
 
 /// The visible part of a primitive and its position error.
-struct Seen<'a> {
+struct VisiblePart<'a> {
     context: &'a PassContext<'a>,
     draw: &'a Draw,
     units: f64,
@@ -60,7 +60,7 @@ struct Seen<'a> {
     off: [f64; 2],
 }
 
-impl<'a> Seen<'a> {
+impl<'a> VisiblePart<'a> {
     fn new(context: &'a PassContext<'a>, draw: &'a Draw) -> Self {
         Self {
             context,
@@ -136,7 +136,7 @@ impl<'a> Seen<'a> {
 
 /// The part of a triangle that clipping leaves.
 pub(crate) struct CutTriangle<'a> {
-    seen: Seen<'a>,
+    seen: VisiblePart<'a>,
     vertices: [usize; 3],
     homogeneous: HomogeneousTriangle,
     /// The corners of the visible part, each as its weights of the three vertices.
@@ -153,7 +153,7 @@ impl<'a> CutTriangle<'a> {
         draw: &'a Draw,
         vertices: [usize; 3],
     ) -> Option<Self> {
-        let mut seen = Seen::new(context, draw);
+        let mut seen = VisiblePart::new(context, draw);
         let windows = vertices.map(|v| seen.window(v));
         let near = windows.map(|window| seen.near_viewport(window));
         let depths = vertices.map(|v| seen.between_planes(v, DEPTH_SLACK));
@@ -369,7 +369,7 @@ pub(crate) struct CutLine {
 impl CutLine {
     /// Returns the part of a line that clipping leaves; `None` if nothing is left.
     pub(crate) fn new(context: &PassContext<'_>, draw: &Draw, line: [usize; 2]) -> Option<Self> {
-        let mut seen = Seen::new(context, draw);
+        let mut seen = VisiblePart::new(context, draw);
         let windows = line.map(|v| seen.window(v));
         let near = windows.map(|window| seen.near_viewport(window));
         let error = seen.error();

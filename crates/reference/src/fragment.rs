@@ -122,7 +122,7 @@ impl Walk<'_> {
             let shaded = Shaded {
                 front,
                 masked,
-                incoming: self.in_range(place, own_depth, Source::Own),
+                incoming: self.in_range(place, own_depth, DepthSource::Own),
                 output: &output,
                 covered,
             };
@@ -145,8 +145,8 @@ impl Walk<'_> {
             }
         }
         let source = match output.depth {
-            Some(_) => Source::Written,
-            None => Source::Own,
+            Some(_) => DepthSource::Written,
+            None => DepthSource::Own,
         };
         let incoming = self.in_range(place, output.depth.unwrap_or(own_depth), source);
         for face in self.faces(place, front, &output, notes) {
@@ -571,7 +571,7 @@ impl Walk<'_> {
     /// Returns the depth that is tested and stored. It is clamped to the viewport's range if the draw clamps;
     /// otherwise the rules decide about a depth outside the range. A fixed-function depth is always inside if
     /// the primitive is clipped.
-    fn in_range(&self, place: &Place<'_>, depth: Range, source: Source) -> Incoming {
+    fn in_range(&self, place: &Place<'_>, depth: Range, source: DepthSource) -> Incoming {
         let [near, far] = place.draw.viewport.depth.map(f64::from);
         let (near, far) = (near.min(far), near.max(far));
         let held = depth.float.clamp(near, far);
@@ -582,7 +582,7 @@ impl Walk<'_> {
         let unit = depth.float.clamp(0.0, 1.0);
         let slack = self.rules.float_error.value() * 4.0;
         let outside = depth.float.low < near - slack || depth.float.high > far + slack;
-        let written = source == Source::Written;
+        let written = source == DepthSource::Written;
         // The rules can let a point beyond the near or far plane be drawn.
         let point = matches!(place.primitive.shape, Shape::Point(_));
         let exported = written || point || place.primitive.is_biased();
@@ -845,7 +845,7 @@ impl StencilOutcome {
 
 /// The source of a depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Source {
+enum DepthSource {
     /// The fragment's interpolated depth.
     Own,
     /// The shader's output.

@@ -18,14 +18,14 @@ use std::collections::BTreeSet;
 
 /// Outcomes of single draws, by state, draw and signature.
 #[derive(Debug, Default)]
-struct Known {
+struct DrawOutcomes {
     by_words: FxHashMap<SmallVec<[u64; 6]>, State>,
     key: SmallVec<[u64; 6]>,
     /// For each draw, the number of outcomes that were looked up and the number found.
     asked: Vec<[u32; 2]>,
 }
 
-impl Known {
+impl DrawOutcomes {
     /// Returns true if outcomes of a draw recur often enough to keep them. If every sample has its own
     /// signature, as with interpolated depths or a shader that reads its position, a cache costs more than it
     /// saves.
@@ -159,7 +159,7 @@ impl Walk<'_> {
                     walk: self,
                     pass: p,
                     picture: &mut picture,
-                    known: Known::default(),
+                    known: DrawOutcomes::default(),
                 };
                 match (&tracer, strokes) {
                     (Some(tracer), _) => tracer.trace(draws, &mut brush),
@@ -406,7 +406,7 @@ struct Brush<'b, 'a> {
     walk: &'b Walk<'a>,
     pass: usize,
     picture: &'b mut [State],
-    known: Known,
+    known: DrawOutcomes,
 }
 
 impl Strokes for Brush<'_, '_> {

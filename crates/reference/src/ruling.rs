@@ -16,7 +16,7 @@ use etalon_scene as scene;
 const LISTED: usize = 3;
 
 /// An aspect of an attachment, as part of a legal set.
-struct View {
+struct AspectView {
     attachment: usize,
     name: String,
     aspect: Aspect,
@@ -25,7 +25,7 @@ struct View {
     first: usize,
 }
 
-impl View {
+impl AspectView {
     fn of<'a, T>(&self, channels: &'a [T]) -> &'a [T] {
         &channels[self.first..self.first + self.encodings.len()]
     }
@@ -46,13 +46,13 @@ impl View {
 }
 
 /// The sample of a ruling, with everything known about it.
-struct Known<'a> {
+struct RuledSample<'a> {
     walk: &'a Walk<'a>,
     notes: &'a [Note],
     set: &'a TexelSet,
     /// The initial contents, in the channels of the set.
     initial: Vec<CodeInterval>,
-    views: Vec<View>,
+    views: Vec<AspectView>,
 }
 
 /// Returns the ruling on a sample. If a frame is given, the ruling also has the values that came back.
@@ -65,7 +65,7 @@ pub(crate) fn ruling(
     frame: Option<&Frame>,
 ) -> Ruling {
     let first = walk.finish(std::slice::from_ref(initial), at, &mut Notes(None));
-    let known = Known {
+    let known = RuledSample {
         walk,
         notes,
         set,
@@ -84,7 +84,7 @@ pub(crate) fn ruling(
     }
 }
 
-fn views(walk: &Walk<'_>, at: Sample) -> Vec<View> {
+fn views(walk: &Walk<'_>, at: Sample) -> Vec<AspectView> {
     let mut first = 0;
     let mut views = Vec::new();
     for index in walk.scene.read.iter().filter(|i| walk.has_shape(**i, at)) {
@@ -92,7 +92,7 @@ fn views(walk: &Walk<'_>, at: Sample) -> Vec<View> {
         for aspect in attachment.format.aspects() {
             let encodings = walk.read_encoding(*index, *aspect).0.into_owned();
             let next = first + encodings.len();
-            views.push(View {
+            views.push(AspectView {
                 attachment: *index,
                 name: attachment.name.clone(),
                 aspect: *aspect,
@@ -105,7 +105,7 @@ fn views(walk: &Walk<'_>, at: Sample) -> Vec<View> {
     views
 }
 
-impl Known<'_> {
+impl RuledSample<'_> {
     /// Returns the values that came back, in the channels of the set; `None` if the frame does not fit the
     /// scene.
     fn actual(&self, at: Sample, frame: &Frame) -> Option<Vec<i64>> {
@@ -128,7 +128,7 @@ impl Known<'_> {
     fn demand(&self, actual: Option<&[i64]>) -> Demand {
         let colors = self.views.iter().filter(|v| v.aspect == Aspect::Color);
         let several_colors = colors.count() > 1;
-        let views: Vec<&View> = self.views.iter().collect();
+        let views: Vec<&AspectView> = self.views.iter().collect();
         if self.set.is_open() {
             return Demand::Open {
                 returned: actual.map(|orders| returned(&views, orders)),
@@ -163,17 +163,17 @@ impl Known<'_> {
 
     /// Returns the views whose values differ from the nearest outcome. If each of these values is legal in
     /// some other outcome, returns all views: then only the combination is wrong.
-    fn wrong_views(&self, orders: &[i64]) -> Vec<&View> {
-        let inside = |channels: &[CodeInterval], view: &View| {
+    fn wrong_views(&self, orders: &[i64]) -> Vec<&AspectView> {
+        let inside = |channels: &[CodeInterval], view: &AspectView| {
             let both = view.of(channels).iter().zip(view.of(orders));
             both.into_iter().all(|(c, o)| c.contains(*o))
         };
-        let outside = |view: &&View| {
+        let outside = |view: &&AspectView| {
             let nearest = self.set.nearest(orders);
             nearest.is_some_and(|w| !inside(&w.channels, view))
         };
-        let wrong: Vec<&View> = self.views.iter().filter(outside).collect();
-        let legal = |view: &&View| self.set.worlds.iter().any(|w| inside(&w.channels, view));
+        let wrong: Vec<&AspectView> = self.views.iter().filter(outside).collect();
+        let legal = |view: &&AspectView| self.set.worlds.iter().any(|w| inside(&w.channels, view));
         if wrong.iter().all(legal) {
             self.views.iter().collect()
         } else {
@@ -182,7 +182,7 @@ impl Known<'_> {
     }
 
     /// Returns the allowed outcomes in some views, and the number of outcomes that are not listed.
-    fn allowed(&self, focus: &[&View]) -> (Vec<Vec<Allowed>>, usize) {
+    fn allowed(&self, focus: &[&AspectView]) -> (Vec<Vec<Allowed>>, usize) {
         let mut outcomes: Vec<Vec<&[CodeInterval]>> = Vec::new();
         for world in &self.set.worlds {
             let outcome: Vec<&[CodeInterval]> =
@@ -211,7 +211,7 @@ impl Known<'_> {
     }
 
     /// Returns earlier contents of a view that came back although later draws had to replace them.
-    fn kept(&self, view: &View, orders: &[i64]) -> Option<Returned> {
+    fn kept(&self, view: &AspectView, orders: &[i64]) -> Option<Returned> {
         if self.set.worlds.len() != 1 {
             return None;
         }
@@ -239,7 +239,7 @@ impl Known<'_> {
     }
 
     /// Returns the stores to a view in order, with the contents as they would be read back.
-    fn stores(&self, view: &View) -> impl Iterator<Item = (&Note, Vec<CodeInterval>)> {
+    fn stores(&self, view: &AspectView) -> impl Iterator<Item = (&Note, Vec<CodeInterval>)> {
         let (attachment, aspect, n) = (view.attachment, view.aspect, view.encodings.len());
         let name = view.name.clone();
         self.notes.iter().filter_map(move |note| {
@@ -260,7 +260,7 @@ impl Known<'_> {
 
     /// Returns the operations that decide a view: the last draw that stores, and the rejections of later
     /// draws; then the number of rejected draws that are not listed.
-    fn reasons(&self, view: &View) -> (Vec<Reason>, usize) {
+    fn reasons(&self, view: &AspectView) -> (Vec<Reason>, usize) {
         let mut reasons = Vec::new();
         let mut since = None;
         if let Some((note, _)) = self.stores(view).last() {
@@ -306,7 +306,7 @@ impl Known<'_> {
 
     /// Returns the rejections of all draws, or of the draws after `since`. A rejection is the last operation
     /// that a draw reaches.
-    fn ends(&self, view: &View, since: Option<(usize, usize)>) -> Vec<Reason> {
+    fn ends(&self, view: &AspectView, since: Option<(usize, usize)>) -> Vec<Reason> {
         let mut draws: Vec<(usize, usize)> = Vec::new();
         let effective = self.events().filter(|e| !e.effect.is_none());
         for draw in effective.filter_map(|e| e.origin.draw()) {
@@ -329,7 +329,7 @@ impl Known<'_> {
     }
 
     /// Returns the rejection of a draw that does not store to a view.
-    fn end(&self, view: &View, (pass, draw): (usize, usize)) -> Reason {
+    fn end(&self, view: &AspectView, (pass, draw): (usize, usize)) -> Reason {
         let events = || {
             let mine = |e: &&Event| e.origin.draw() == Some((pass, draw));
             self.events().filter(mine)
@@ -364,7 +364,7 @@ impl Known<'_> {
     }
 
     /// Returns the source of a view's initial contents.
-    fn first_source(&self, view: &View) -> Initial {
+    fn first_source(&self, view: &AspectView) -> Initial {
         match &self.walk.scene.attachments[view.attachment].contents {
             scene::Contents::Texels(_) => Initial::Upload,
             _ => Initial::Clear,
@@ -389,7 +389,7 @@ fn elsewhere(reason: &Reason) -> Option<Rejection> {
 }
 
 /// Returns the values that came back, in some views.
-fn returned(views: &[&View], orders: &[i64]) -> Vec<Contents> {
+fn returned(views: &[&AspectView], orders: &[i64]) -> Vec<Contents> {
     let exact: Vec<CodeInterval> = orders.iter().map(|o| CodeInterval::exact(*o)).collect();
     views.iter().map(|view| view.contents(&exact)).collect()
 }

@@ -14,7 +14,7 @@ use smallvec::SmallVec;
 
 /// A texture as a sampler sees it.
 #[derive(Clone, Copy)]
-struct Texture {
+struct SampledTexture {
     /// The attachment.
     index: usize,
     /// The reading pass, if an earlier pass drew to the texture.
@@ -22,7 +22,7 @@ struct Texture {
 }
 
 /// The texels that one coordinate has reached, before addressing.
-type Taps = SmallVec<[([i64; 2], [Range; 4]); 4]>;
+type ReachedTexels = SmallVec<[([i64; 2], [Range; 4]); 4]>;
 
 /// The maximum number of texels of a drawn texture that one coordinate can reach; beyond it, any result is
 /// legal.
@@ -37,7 +37,7 @@ impl Walk<'_> {
         let drawn = self.is_drawn_before(index, place.pass);
         match (place.draw.sampler, self.coordinates(place)) {
             (Some(sampler), Some(uv)) => {
-                let texture = Texture {
+                let texture = SampledTexture {
                     index,
                     pass: drawn.then_some(place.pass),
                 };
@@ -141,7 +141,7 @@ impl Walk<'_> {
     /// Returns all results of legal filtering at a coordinate: the hull over all coordinates that rounding
     /// can lead to; `None` if a texel among them can contain anything. A linear filter is linear in each
     /// coordinate between two texel centres, so its extremes are at ends and centres.
-    fn sampled(&self, texture: Texture, sampler: Sampler, uv: [Interval; 2]) -> Option<[Range; 4]> {
+    fn sampled(&self, texture: SampledTexture, sampler: Sampler, uv: [Interval; 2]) -> Option<[Range; 4]> {
         if uv
             .iter()
             .any(|v| !(v.low.is_finite() && v.high.is_finite()))
@@ -170,7 +170,7 @@ impl Walk<'_> {
             return None;
         }
         let mut result: Option<[Range; 4]> = None;
-        let mut taps = Taps::new();
+        let mut taps = ReachedTexels::new();
         for y in &down {
             for x in &across {
                 let value = match sampler.filter {
@@ -192,10 +192,10 @@ impl Walk<'_> {
 
     fn tap(
         &self,
-        texture: Texture,
+        texture: SampledTexture,
         sampler: Sampler,
         at: [i64; 2],
-        taps: &mut Taps,
+        taps: &mut ReachedTexels,
     ) -> Option<[Range; 4]> {
         if let Some((_, texel)) = taps.iter().find(|(known, _)| *known == at) {
             return Some(*texel);
@@ -237,10 +237,10 @@ impl Walk<'_> {
     /// floats, and, if the rules allow it, in steps that are rounded to codes.
     fn weighted(
         &self,
-        texture: Texture,
+        texture: SampledTexture,
         sampler: Sampler,
         at: [f64; 2],
-        taps: &mut Taps,
+        taps: &mut ReachedTexels,
     ) -> Option<[Range; 4]> {
         let first = at.map(f64::floor);
         let weight = [at[0] - first[0], at[1] - first[1]];

@@ -144,7 +144,7 @@ fn is_far(context: &PassContext<'_>, draw: &Draw, indices: PrimitiveVertices) ->
 }
 
 /// The data that differ between shapes of primitives.
-struct Parts {
+struct ShapeData {
     shape: Shape,
     window_depth: Depth,
     clip_depth: Depth,
@@ -161,7 +161,7 @@ fn parts(
     vertices: &mut Vertices,
     indices: PrimitiveVertices,
     filter: &Filter<'_>,
-) -> Option<Parts> {
+) -> Option<ShapeData> {
     let fill = draw.polygon_mode == PolygonMode::Fill;
     match indices {
         PrimitiveVertices::Point(i) if is_cut(context, draw, &[i]) => {
@@ -217,7 +217,7 @@ fn snapped(
     vertices: &mut Vertices,
     indices: PrimitiveVertices,
     grid: Grid,
-) -> Parts {
+) -> ShapeData {
     let units = units_per_texel(context.limits);
     let error = context.rules.float_error.value();
     let v = match indices {
@@ -285,7 +285,7 @@ fn snapped(
         indices,
         boxes,
     };
-    Parts {
+    ShapeData {
         uv: draw.shader.uses_uv().then(|| over.uv()),
         reciprocal_w: draw.shader.reads_w().then(|| over.reciprocal_w()),
         distances: over.distances(),
@@ -303,7 +303,7 @@ fn point_behind(
     draw: &Draw,
     vertices: &mut Vertices,
     i: usize,
-) -> Option<Parts> {
+) -> Option<ShapeData> {
     let [.., w] = draw.mesh.vertices[i].position;
     let [width, height] = context.size.map(|s| s as f32);
     let [[across], [down], _] = window_position(
@@ -334,7 +334,7 @@ fn cut_triangle(
     draw: &Draw,
     vertices: &mut Vertices,
     triangle: [usize; 3],
-) -> Option<Parts> {
+) -> Option<ShapeData> {
     let cut = CutTriangle::new(context, draw, triangle)?;
     let boxes = triangle.map(|i| {
         let uncut = !is_cut(context, draw, &[i]);
@@ -352,7 +352,7 @@ fn cut_triangle(
         bias = clamped_at_vertices(bias, &[window_depth.hull]);
     }
     let clipping = clipping_distances(draw);
-    Some(Parts {
+    Some(ShapeData {
         shape: Shape::Triangle(cut.triangle(boxes, ids)),
         clip_depth: cut.clip_depth(),
         bias,
@@ -367,7 +367,7 @@ fn cut_triangle(
 
 /// Returns the part of a line that clipping leaves if it reaches behind the eye or crosses the near or far
 /// plane.
-fn cut_line(context: &PassContext<'_>, draw: &Draw, line: [usize; 2]) -> Option<Parts> {
+fn cut_line(context: &PassContext<'_>, draw: &Draw, line: [usize; 2]) -> Option<ShapeData> {
     let cut = CutLine::new(context, draw, line)?;
     let units = units_per_texel(context.limits);
     let error = context.rules.float_error.value();
@@ -387,7 +387,7 @@ fn cut_line(context: &PassContext<'_>, draw: &Draw, line: [usize; 2]) -> Option<
         .collect();
     let may_be_missing = cut.may_be_clipped || may_be_lost_behind(context, draw, line);
     distances.extend(may_be_missing.then_some(Distance::UNKNOWN));
-    Some(Parts {
+    Some(ShapeData {
         shape: Shape::Line(cut.ends),
         window_depth: Depth::along(cut.ends, cut.window_z, units, error),
         // The near and far planes have already clipped the line.

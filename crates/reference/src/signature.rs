@@ -28,14 +28,14 @@ pub(crate) struct Inputs {
     sample: bool,
     /// True if the primitives themselves matter, because counters identify fragments by them.
     primitives: bool,
-    textures: SmallVec<[Texture; 2]>,
+    textures: SmallVec<[TextureEffect; 2]>,
     /// For each primitive, the number of the set of values that are constant over it.
     kinds: Vec<u32>,
 }
 
 /// The effect of a texture that a draw reads on its signatures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Texture {
+enum TextureEffect {
     /// Only through the sample's contents and the coordinates.
     Known,
     /// Through the texel under the sample, as uploaded.
@@ -166,7 +166,7 @@ impl Walk<'_> {
         inputs
     }
 
-    fn texture(&self, pass: usize, draw: &Draw, index: usize) -> Texture {
+    fn texture(&self, pass: usize, draw: &Draw, index: usize) -> TextureEffect {
         let attachment = &self.scene.attachments[index];
         let drawn = self.is_drawn_before(index, pass);
         let reading_pass = &self.scene.passes[pass];
@@ -174,13 +174,13 @@ impl Walk<'_> {
         let same_shape = same_size && attachment.samples == self.scene.pass_samples(reading_pass);
         match (draw.sampler.filter(|_| draw.shader.uses_uv()), drawn) {
             // The coordinates select the texels, which are the same for all samples.
-            (Some(_), false) => Texture::Known,
-            (Some(_), true) => Texture::Value(index),
-            (None, true) if same_shape || !same_size => Texture::Known,
-            (None, true) => Texture::Value(index),
+            (Some(_), false) => TextureEffect::Known,
+            (Some(_), true) => TextureEffect::Value(index),
+            (None, true) if same_shape || !same_size => TextureEffect::Known,
+            (None, true) => TextureEffect::Value(index),
             (None, false) => match &attachment.contents {
-                Contents::Texels(_) => Texture::Uploaded(index),
-                _ => Texture::Known,
+                Contents::Texels(_) => TextureEffect::Uploaded(index),
+                _ => TextureEffect::Known,
             },
         }
     }
@@ -260,7 +260,7 @@ impl Walk<'_> {
             signature.words.push(u64::from(at.sample));
         }
         for texture in &inputs.textures {
-            let Texture::Uploaded(index) = texture else {
+            let TextureEffect::Uploaded(index) = texture else {
                 continue;
             };
             signature.constant = false;
@@ -344,7 +344,7 @@ impl Walk<'_> {
             }
         }
         for (t, texture) in inputs.textures.iter().enumerate() {
-            if let Texture::Value(_) = texture {
+            if let TextureEffect::Value(_) = texture {
                 let nowhere = World::default();
                 for channel in self.texel(place, &nowhere, t) {
                     signature.words.extend(range_bits(channel).as_flattened());
@@ -357,7 +357,7 @@ impl Walk<'_> {
 impl Inputs {
     /// Returns true if signatures have values that earlier passes drew.
     pub(crate) fn reads_earlier_passes(&self) -> bool {
-        let drawn = |texture: &Texture| matches!(texture, Texture::Value(_));
+        let drawn = |texture: &TextureEffect| matches!(texture, TextureEffect::Value(_));
         self.textures.iter().any(drawn)
     }
 

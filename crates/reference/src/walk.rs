@@ -31,7 +31,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 /// Worlds by sample and number of passes; `None` if the sample is open.
-type Known = HashMap<(Sample, usize), Option<Rc<Worlds>>>;
+type SampleWorlds = HashMap<(Sample, usize), Option<Rc<Worlds>>>;
 
 /// Returns true if a texel is inside a draw's scissor rectangle.
 pub(crate) fn in_scissor(draw: &Draw, at: Sample) -> bool {
@@ -57,7 +57,7 @@ pub(crate) struct Walk<'a> {
     /// The results that depend on discarded contents.
     pub(crate) undefined: Undefined,
     /// Samples of other texels that a story needed, by number of passes.
-    known: RefCell<Known>,
+    known: RefCell<SampleWorlds>,
     /// A line that the walk lets cover a sample, even if the rules leave that open.
     pub(crate) forced: Cell<Option<Forced>>,
     pub(crate) pictures: RefCell<Pictures>,

@@ -278,10 +278,10 @@ fn area_table<'a>() -> Table<'a, AreaRow<'a>> {
 }
 
 /// The text that a terminal shows below a bug.
-type Reason = fn(&MutantRecord) -> Option<&String>;
+type BugNote = fn(&MutantRecord) -> Option<&String>;
 
 /// Returns the bugs to look at: those only noticed, survived, or caught only by cases of other areas.
-fn noted(hunt: &Hunt) -> [(&'static str, Vec<&MutantRecord>, Reason); 3] {
+fn noted(hunt: &Hunt) -> [(&'static str, Vec<&MutantRecord>, BugNote); 3] {
     let found = |outcome| hunt.mutants.iter().filter(move |m| m.outcome == outcome);
     let seen = |m: &&MutantRecord| matches!(m.outcome, Catch::Caught | Catch::Noticed);
     let elsewhere = hunt
@@ -289,8 +289,8 @@ fn noted(hunt: &Hunt) -> [(&'static str, Vec<&MutantRecord>, Reason); 3] {
         .iter()
         .filter(seen)
         .filter(|m| !m.by_own_area());
-    let legal: Reason = |m| m.mutant.legal.as_ref();
-    let first: Reason = |m| m.first.as_ref().map(|first| &first.case);
+    let legal: BugNote = |m| m.mutant.legal.as_ref();
+    let first: BugNote = |m| m.first.as_ref().map(|first| &first.case);
     [
         ("Noticed", found(Catch::Noticed).collect(), legal),
         ("Survived", found(Catch::Survived).collect(), legal),

@@ -70,7 +70,7 @@ struct Window {
     height: u32,
 }
 
-struct View<'a> {
+struct PictureView<'a> {
     image: &'a FrameImage,
     window: Window,
     /// Page pixels per texel.
@@ -117,16 +117,16 @@ pub struct Ringed {
 /// Returns the pictures of an image with a ring around a sample (column, row and number), or `None` if the
 /// image's lists do not fit its size.
 pub fn ringed_pictures(image: &FrameImage, sample: [u32; 3]) -> Option<Ringed> {
-    let view = View::of(image)?;
+    let view = PictureView::of(image)?;
     let color = image.aspect == Aspect::Color;
     let value = |codes: &[u32], sample, channel| view.value(codes, sample, channel);
     let alike =
         |sample| (0..3).all(|c| value(&image.low, sample, c) == value(&image.actual, sample, c));
     let alpha = color && image.channels.len() == 4 && (0..image.wrong.len()).all(alike);
     let look = match (color, alpha) {
-        (true, false) => Look::Rgb,
-        (true, true) => Look::Grey(3),
-        (false, _) => Look::Grey(0),
+        (true, false) => ShownChannels::Rgb,
+        (true, true) => ShownChannels::Grey(3),
+        (false, _) => ShownChannels::Grey(0),
     };
     let codes = |codes: &[u32]| view.ringed(sample, |sample, _, _| view.texel(codes, sample, look));
     let difference = view.ringed(sample, |sample, _, _| match image.wrong[sample] {
@@ -154,10 +154,10 @@ pub(crate) fn named(
     [allowed, actual]: [&str; 2],
     bounds: bool,
 ) -> Option<Strip> {
-    let view = View::of(image)?;
+    let view = PictureView::of(image)?;
     let mut pictures = Vec::new();
     let same = image.low == image.high;
-    let mut add = |channels: &str, look: Look| {
+    let mut add = |channels: &str, look: ShownChannels| {
         let ends = [
             ("", &image.low),
             (" low", &image.low),
@@ -170,10 +170,10 @@ pub(crate) fn named(
         pictures.push(view.plain(format!("{actual}{channels}"), &image.actual, look));
     };
     let color = image.aspect == Aspect::Color;
-    add("", if color { Look::Rgb } else { Look::Grey(0) });
+    add("", if color { ShownChannels::Rgb } else { ShownChannels::Grey(0) });
     let alpha = alpha(image);
     if alpha == Alpha::Varies {
-        add(" alpha", Look::Grey(3));
+        add(" alpha", ShownChannels::Grey(3));
     }
     pictures.push(view.difference());
     let pictures = pictures.into_iter().collect::<Option<Vec<_>>>()?;
@@ -266,12 +266,12 @@ fn alpha(image: &FrameImage) -> Alpha {
 
 /// The channels of a texel that a picture shows.
 #[derive(Clone, Copy)]
-enum Look {
+enum ShownChannels {
     Rgb,
     Grey(usize),
 }
 
-impl<'a> View<'a> {
+impl<'a> PictureView<'a> {
     /// Returns the view of an image, or `None` if its lists do not fit its size.
     fn of(image: &'a FrameImage) -> Option<Self> {
         if !image.is_whole() || image.wrong.is_empty() || image.channels.is_empty() {
@@ -306,14 +306,14 @@ impl<'a> View<'a> {
     }
 
     /// Draws one pixel per sample. Each sample of the texels has a separate tile, side by side.
-    fn plain(&self, label: String, codes: &[u32], look: Look) -> Option<Picture> {
+    fn plain(&self, label: String, codes: &[u32], look: ShownChannels) -> Option<Picture> {
         self.draw(label, 1, |sample, _, _| self.texel(codes, sample, look))
     }
 
-    fn texel(&self, codes: &[u32], sample: usize, look: Look) -> [u8; 3] {
+    fn texel(&self, codes: &[u32], sample: usize, look: ShownChannels) -> [u8; 3] {
         match look {
-            Look::Rgb => [0, 1, 2].map(|c| self.value(codes, sample, c)),
-            Look::Grey(channel) => [self.value(codes, sample, channel); 3],
+            ShownChannels::Rgb => [0, 1, 2].map(|c| self.value(codes, sample, c)),
+            ShownChannels::Grey(channel) => [self.value(codes, sample, channel); 3],
         }
     }
 

@@ -117,19 +117,19 @@ pub(crate) fn some(count: u64) -> Option<u64> {
 pub(crate) struct Table<'a, R> {
     class: &'static str,
     caption: Option<(String, bool)>,
-    columns: Vec<Column<'a, R>>,
+    columns: Vec<TableColumn<'a, R>>,
     row_class: Box<dyn Fn(&R) -> &'static str + 'a>,
 }
 
-struct Column<'a, R> {
+struct TableColumn<'a, R> {
     name: Cell,
-    kind: Kind,
+    kind: ColumnKind,
     cell: Box<dyn Fn(&R) -> Cell + 'a>,
     on_terminal: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Kind {
+enum ColumnKind {
     Head,
     Text,
     Number,
@@ -139,9 +139,9 @@ macro_rules! columns {
     ($($about:literal $name:ident $kind:ident)*) => { $(
         #[doc = $about]
         pub(crate) fn $name<C: Into<Cell>>(mut self, name: impl Into<Cell>, cell: impl Fn(&R) -> C + 'a) -> Self {
-            self.columns.push(Column {
+            self.columns.push(TableColumn {
                 name: name.into(),
-                kind: Kind::$kind,
+                kind: ColumnKind::$kind,
                 cell: Box::new(move |row| cell(row).into()),
                 on_terminal: true,
             });
@@ -229,32 +229,32 @@ impl<'a, R> Table<'a, R> {
         }
     }
 
-    fn cell_on_page(&self, column: &Column<'a, R>, row: &R) -> Markup {
+    fn cell_on_page(&self, column: &TableColumn<'a, R>, row: &R) -> Markup {
         let cell = (column.cell)(row);
         // A stacked table has no head on a narrow screen.
         let name = column
             .page_name()
             .filter(|_| self.class.contains("stacked"));
         match column.kind {
-            Kind::Head => cell.with("scope", "row".to_owned()).element("th"),
-            Kind::Text => cell.with("data-head", name).element("td"),
-            Kind::Number => cell.with("data-head", name).class("num").element("td"),
+            ColumnKind::Head => cell.with("scope", "row".to_owned()).element("th"),
+            ColumnKind::Text => cell.with("data-head", name).element("td"),
+            ColumnKind::Number => cell.with("data-head", name).class("num").element("td"),
         }
     }
 
     /// Returns the lines of the table's head in Markdown, and a line per row. The cells' texts must already
     /// be Markdown.
     pub(crate) fn markdown(&self, rows: impl IntoIterator<Item = R>) -> (String, Vec<String>) {
-        let line = |cell: &dyn Fn(&Column<'a, R>) -> Cell| {
+        let line = |cell: &dyn Fn(&TableColumn<'a, R>) -> Cell| {
             let cells = self
                 .columns
                 .iter()
                 .map(|c| cell(c).text.unwrap_or_default());
             format!("| {} |", cells.collect::<Vec<_>>().join(" | "))
         };
-        let mark = |c: &Column<'a, R>| match c.kind {
-            Kind::Head | Kind::Text => "---|",
-            Kind::Number => "---:|",
+        let mark = |c: &TableColumn<'a, R>| match c.kind {
+            ColumnKind::Head | ColumnKind::Text => "---|",
+            ColumnKind::Number => "---:|",
         };
         let marks: String = self.columns.iter().map(mark).collect();
         let head = format!("{}\n|{marks}", line(&|c| c.name.clone()));
@@ -270,7 +270,7 @@ impl<'a, R> Table<'a, R> {
         options: TableOptions,
         optional: &[&'static str],
     ) -> (String, Vec<&'static str>) {
-        let columns: Vec<&Column<'a, R>> = self.columns.iter().filter(|c| c.on_terminal).collect();
+        let columns: Vec<&TableColumn<'a, R>> = self.columns.iter().filter(|c| c.on_terminal).collect();
         let names: Vec<String> = columns.iter().map(|c| c.name.on_terminal()).collect();
         let cells = |row| columns.iter().map(|c| (c.cell)(&row)).collect();
         let rows: Vec<Vec<Cell>> = rows.into_iter().map(cells).collect();
@@ -299,7 +299,7 @@ impl<'a, R> Table<'a, R> {
         let mut table = builder.build();
         table.with(Style::rounded());
         for (place, x) in shown.iter().enumerate() {
-            if columns[*x].kind == Kind::Number {
+            if columns[*x].kind == ColumnKind::Number {
                 table.modify(Columns::one(place), Alignment::right());
             }
             for (y, row) in rows.iter().enumerate().filter(|_| options.color) {
@@ -317,7 +317,7 @@ impl<'a, R> Table<'a, R> {
     }
 }
 
-impl<R> Column<'_, R> {
+impl<R> TableColumn<'_, R> {
     /// Returns the text of the name on a page. It begins with a capital letter, unless [`as_is`] made it.
     fn page_name(&self) -> Option<String> {
         let text = self.name.text.as_deref();

@@ -59,7 +59,7 @@ impl Batches {
         let next = AtomicUsize::new(0);
         let found: Mutex<Vec<Option<Record>>> = Mutex::new(vec![None; cases.len()]);
         let (launch, limits) = (&self.launch, &self.limits);
-        let share = Share {
+        let share = BatchState {
             launch,
             limits,
             timeout: self.timeout,
@@ -86,7 +86,7 @@ impl Batches {
 }
 
 /// The state that the workers of a batch share.
-struct Share<'a> {
+struct BatchState<'a> {
     launch: &'a Launch,
     limits: &'a Limits,
     timeout: Duration,
@@ -96,7 +96,7 @@ struct Share<'a> {
     stop: &'a AtomicBool,
 }
 
-impl Share<'_> {
+impl BatchState<'_> {
     /// Returns true if there are cases left to draw.
     fn is_left(&self) -> bool {
         self.next.load(Ordering::Relaxed) < self.cases.len()

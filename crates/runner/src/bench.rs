@@ -151,7 +151,7 @@ pub fn bench(
     let adapters = plan
         .adapters
         .into_iter()
-        .map(|(launch, worker)| Adapter {
+        .map(|(launch, worker)| BenchAdapter {
             spent: Duration::ZERO,
             record: AdapterRecord::from(&worker),
             launch: launch.clone(),
@@ -164,7 +164,7 @@ pub fn bench(
             ),
         })
         .collect();
-    let mut bench = Bench {
+    let mut bench = RunningBench {
         cases: plan.cases,
         adapters,
         expectations: plan.expectations,
@@ -181,7 +181,7 @@ pub fn bench(
         budget: plan.budget,
         counter: plan.counter,
     };
-    let run = |bench: &mut Bench<'_, '_>| -> Result<(), RecordError> {
+    let run = |bench: &mut RunningBench<'_, '_>| -> Result<(), RecordError> {
         let mut pairs = bench.judge()?;
         bench.count(&mut pairs)?;
         for number in 0..bench.rounds {
@@ -193,7 +193,7 @@ pub fn bench(
     };
     run(&mut bench).map_err(BenchError::Write)?;
     let mut ends = beside::read(plan.folder).map_err(BenchError::Write)?;
-    for Adapter {
+    for BenchAdapter {
         supervisor, record, ..
     } in &mut bench.adapters
     {
@@ -207,7 +207,7 @@ pub fn bench(
 }
 
 /// An adapter and its worker.
-struct Adapter {
+struct BenchAdapter {
     record: AdapterRecord,
     launch: Launch,
     supervisor: Supervisor,
@@ -215,7 +215,7 @@ struct Adapter {
     spent: Duration,
 }
 
-impl Adapter {
+impl BenchAdapter {
     /// Returns true if the adapter's rounds have used up their time.
     fn is_spent(&self, limit: Option<Duration>) -> bool {
         limit.is_some_and(|limit| self.spent >= limit)
@@ -223,7 +223,7 @@ impl Adapter {
 }
 
 /// A case and an adapter that draws it correctly, both by index, with the fingerprint of the picture.
-struct Pair {
+struct TimedPair {
     case: usize,
     adapter: usize,
     picture: u64,
@@ -233,15 +233,15 @@ struct Pair {
     cell: Option<String>,
 }
 
-impl Pair {
+impl TimedPair {
     fn rounds(&self) -> u32 {
         self.record.rounds.len() as u32
     }
 }
 
-struct Bench<'a, 'e> {
+struct RunningBench<'a, 'e> {
     cases: &'a [Case],
-    adapters: Vec<Adapter>,
+    adapters: Vec<BenchAdapter>,
     expectations: &'a Expectations,
     writer: BenchWriter,
     events: &'e mut dyn FnMut(BenchEvent),
@@ -259,9 +259,9 @@ struct Bench<'a, 'e> {
     counter: Option<InstructionCounter>,
 }
 
-impl Bench<'_, '_> {
+impl RunningBench<'_, '_> {
     /// Judges all pictures. Returns the pairs that may be timed, in the order of timing.
-    fn judge(&mut self) -> Result<Vec<Pair>, RecordError> {
+    fn judge(&mut self) -> Result<Vec<TimedPair>, RecordError> {
         let judge = Judge::default();
         let mut pairs = Vec::new();
         for (number, case) in self.cases.iter().enumerate() {
@@ -300,7 +300,7 @@ impl Bench<'_, '_> {
                     && judged.may_be_timed()
                 {
                     self.summary.timed += 1;
-                    pairs.push(Pair {
+                    pairs.push(TimedPair {
                         case: number,
                         adapter: index,
                         picture,
@@ -339,7 +339,7 @@ impl Bench<'_, '_> {
 
     /// Counts the instructions of all pairs on software adapters, before their frames are timed, and keeps the
     /// pairs that may still be timed.
-    fn count(&mut self, pairs: &mut Vec<Pair>) -> Result<(), RecordError> {
+    fn count(&mut self, pairs: &mut Vec<TimedPair>) -> Result<(), RecordError> {
         let Some(counter) = self.counter else {
             return Ok(());
         };
@@ -437,7 +437,7 @@ impl Bench<'_, '_> {
 
     /// Removes the pairs that need no further round: all pairs of an adapter whose time has run out, and
     /// pairs whose intervals are narrow enough.
-    fn finish(&mut self, number: u32, pairs: &mut Vec<Pair>) -> Result<(), RecordError> {
+    fn finish(&mut self, number: u32, pairs: &mut Vec<TimedPair>) -> Result<(), RecordError> {
         let within = self.within.filter(|_| number as usize >= MIN_ROUNDS);
         let enough: Vec<Option<Enough>> = pairs
             .iter()
@@ -478,7 +478,7 @@ impl Bench<'_, '_> {
     }
 
     /// Times one round of all cases that still have rounds, and removes cases that fail.
-    fn round(&mut self, number: u32, pairs: &mut Vec<Pair>) -> Result<(), RecordError> {
+    fn round(&mut self, number: u32, pairs: &mut Vec<TimedPair>) -> Result<(), RecordError> {
         for adapter in &mut self.adapters {
             adapter.supervisor.stop();
         }
@@ -580,7 +580,7 @@ impl Bench<'_, '_> {
 
 /// Returns true if the interval of a pair's value is narrow enough, relative to the value. The value is the
 /// rate of its cell, or otherwise its wall time.
-fn is_narrow(pair: &Pair, pairs: &[Pair], software: bool, share: f64) -> bool {
+fn is_narrow(pair: &TimedPair, pairs: &[TimedPair], software: bool, share: f64) -> bool {
     if let Some(cell) = &pair.cell {
         let other = pairs.iter().find(|other| {
             let same = other.cell.as_ref() == Some(cell) && other.adapter == pair.adapter;

@@ -54,13 +54,13 @@ pub fn hunt(
     let jobs = plan.jobs.clamp(1, plan.mutants.len().max(1));
     let numbers: Vec<usize> = (0..jobs).collect();
     let found = each(jobs, &numbers, |job| {
-        let mut share: Vec<Mutant> = plan
+        let mut share: Vec<HuntedMutant> = plan
             .mutants
             .iter()
             .enumerate()
             .skip(*job)
             .step_by(jobs)
-            .map(|(number, info)| Mutant::new(number, info, open(&info.name)))
+            .map(|(number, info)| HuntedMutant::new(number, info, open(&info.name)))
             .collect();
         let mut catches = Vec::with_capacity(plan.cases.len());
         for (number, case) in plan.cases.iter().enumerate() {
@@ -95,7 +95,7 @@ fn try_case(
     judge: &Judge,
     number: usize,
     case: &Case,
-    share: &mut [Mutant],
+    share: &mut [HuntedMutant],
     full: bool,
 ) -> Catches {
     let mut catches = Catches::default();
@@ -184,13 +184,13 @@ fn draw(backend: &dyn Backend, case: &Case) -> Result<Vec<Frame>, String> {
 }
 
 /// A planted bug that is being hunted.
-struct Mutant {
+struct HuntedMutant {
     at: usize,
     backend: Option<Box<dyn Backend>>,
     record: MutantRecord,
 }
 
-impl Mutant {
+impl HuntedMutant {
     fn new(number: usize, info: &MutantInfo, backend: Option<Box<dyn Backend>>) -> Self {
         Self {
             at: number,

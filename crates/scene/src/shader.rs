@@ -13,7 +13,7 @@ use std::borrow::Cow;
 pub const STENCIL_REFERENCE: u32 = 1;
 
 /// The facts of one shader.
-struct Facts {
+struct ShaderFacts {
     /// The WGSL source.
     wgsl: &'static str,
     /// False if there is only a vertex shader.
@@ -49,7 +49,7 @@ struct Facts {
     /// True if the shader writes the stencil reference.
     reference: bool,
     /// The depth that the shader writes.
-    depth: Depth,
+    depth: WrittenDepth,
     /// True if the shader can discard fragments.
     discards: bool,
     /// The number of clip distances that its vertices output.
@@ -103,7 +103,7 @@ enum PoolUse {
 
 /// The depth that a shader writes.
 #[derive(PartialEq, Eq)]
-enum Depth {
+enum WrittenDepth {
     /// The shader writes no depth; the fragment's own depth is used.
     Fixed,
     /// The red of the vertex colour.
@@ -112,7 +112,7 @@ enum Depth {
     Computed,
 }
 
-impl Facts {
+impl ShaderFacts {
     /// A shader that reads only vertex attributes and writes one colour.
     const PLAIN: Self = Self {
         wgsl: "",
@@ -132,7 +132,7 @@ impl Facts {
         mask: false,
         reads_mask: false,
         reference: false,
-        depth: Depth::Fixed,
+        depth: WrittenDepth::Fixed,
         discards: false,
         clip_distances: 0,
         cull_distances: 0,
@@ -146,7 +146,7 @@ impl Facts {
 }
 
 /// Declares [`Shader`] and the facts of each shader from one table. A row lists only the facts that differ
-/// from [`Facts::PLAIN`]; its source is `shaders/<name>.wgsl`.
+/// from [`ShaderFacts::PLAIN`]; its source is `shaders/<name>.wgsl`.
 macro_rules! shaders {
     ($($(#[$doc:meta])* $variant:ident = $name:literal { $($fact:ident: $value:expr),* }),+ $(,)?) => {
         state_enum! {
@@ -155,18 +155,18 @@ macro_rules! shaders {
         }
 
         /// A row per shader, in declaration order.
-        static FACTS: [Facts; [$($name),+].len()] = [
-            $(Facts {
+        static FACTS: [ShaderFacts; [$($name),+].len()] = [
+            $(ShaderFacts {
                 wgsl: include_str!(concat!("../../../shaders/", $name, ".wgsl")),
                 $($fact: $value,)*
-                ..Facts::PLAIN
+                ..ShaderFacts::PLAIN
             }),+
         ];
     };
 }
 
 impl Shader {
-    fn facts(self) -> &'static Facts {
+    fn facts(self) -> &'static ShaderFacts {
         &FACTS[self as usize]
     }
 
@@ -207,12 +207,12 @@ impl Shader {
 
     /// Returns true if the fragment shader replaces the fragment's depth.
     pub fn writes_depth(self) -> bool {
-        self.facts().depth != Depth::Fixed
+        self.facts().depth != WrittenDepth::Fixed
     }
 
     /// Returns true if the depth that the shader writes is the vertex colour's red.
     pub fn depth_from_vertex_color(self) -> bool {
-        self.facts().depth == Depth::VertexRed
+        self.facts().depth == WrittenDepth::VertexRed
     }
 
     /// Returns true if the shader writes a sample mask: the red of texture 0.
@@ -360,7 +360,7 @@ shaders! {
     /// `params.color`; counts its runs.
     CountedColor = "counted_color" { params: true, counter: true, position_only: true },
     /// Like `flat_color_depth`, and counts its runs.
-    CountedDepth = "counted_depth" { params: true, depth: Depth::VertexRed, counter: true },
+    CountedDepth = "counted_depth" { params: true, depth: WrittenDepth::VertexRed, counter: true },
     /// Like `texel_discard`, and counts its runs.
     CountedDiscard = "counted_discard" { params: true, textures: 1, discards: true, counter: true, position_only: true },
     /// The vertex colour, flat; culled by both texture coordinates.
@@ -380,13 +380,13 @@ shaders! {
     /// The vertex colour; first does as many steps of work as `params.back_color`'s red says.
     ExpensiveColor = "expensive_color" { params: true },
     /// Like `expensive_color`, and writes the fragment's own window depth as depth.
-    ExpensiveDepth = "expensive_depth" { params: true, depth: Depth::Computed, reads_depth: true },
+    ExpensiveDepth = "expensive_depth" { params: true, depth: WrittenDepth::Computed, reads_depth: true },
     /// Like `expensive_color`, and discards if the vertex colour's alpha is below `params.color`'s.
     ExpensiveDiscard = "expensive_discard" { params: true, discards: true },
     /// `params.color`; writes the red of the texel of texture 0 under the fragment as stencil reference.
     ExportedColor = "exported_color" { params: true, textures: 1, reference: true, position_only: true },
     /// Like `exported_color`, and writes the texel's green as depth.
-    ExportedDepth = "exported_depth" { params: true, textures: 1, reference: true, depth: Depth::Computed, position_only: true },
+    ExportedDepth = "exported_depth" { params: true, textures: 1, reference: true, depth: WrittenDepth::Computed, position_only: true },
     /// Like `exported_color`, and discards if the texel's blue is below `params.color`'s.
     ExportedDiscard = "exported_discard" { params: true, textures: 1, reference: true, discards: true, position_only: true },
     /// Like `exported_color` on front faces; `params.back_color` and the texel's alpha on back faces.
@@ -397,7 +397,7 @@ shaders! {
     /// The vertex colour, flat.
     FlatColor = "flat_color" {},
     /// `params.color`; writes the vertex colour's red as depth.
-    FlatColorDepth = "flat_color_depth" { params: true, depth: Depth::VertexRed },
+    FlatColorDepth = "flat_color_depth" { params: true, depth: WrittenDepth::VertexRed },
     /// The vertex colour of either the first or the last vertex of a primitive, flat.
     FlatEither = "flat_either" { either: true },
     /// The vertex colour, faded to `params.back_color` with the distance between the near and far
@@ -406,7 +406,7 @@ shaders! {
     /// The fragment's window coordinates times `params.color`'s red and green; its blue and alpha.
     FragCoordColor = "frag_coord_color" { params: true, coordinates: true, position_only: true },
     /// The vertex colour, flat; writes the fragment's own window depth as depth.
-    FragCoordDepth = "frag_coord_depth" { depth: Depth::Computed, reads_depth: true },
+    FragCoordDepth = "frag_coord_depth" { depth: WrittenDepth::Computed, reads_depth: true },
     /// `params.color` on front faces, `params.back_color` on back faces.
     FrontFacing = "front_facing" { params: true, position_only: true },
     /// Texture 0, blended along edges of luma. `params.color`: width and height of a texel in texture
@@ -419,7 +419,7 @@ shaders! {
     InputMaskSample = "input_mask_sample" { params: true, reads_mask: true, per_sample: true, position_only: true },
     /// The vertex colour; writes a depth that grows linearly with the distance, the clip-space w,
     /// between the planes in `params.color`'s red and green.
-    LinearDepth = "linear_depth" { params: true, reads_w: true, depth: Depth::Computed },
+    LinearDepth = "linear_depth" { params: true, reads_w: true, depth: WrittenDepth::Computed },
     /// Adds the vertex colour and the fragment's depth to the list of its texel. `params.color`: width and
     /// height of the picture.
     ListAppend = "list_append" { params: true, pool: PoolUse::Adds, reads_depth: true },
@@ -428,12 +428,12 @@ shaders! {
     ListCompose = "list_compose" { params: true, pool: PoolUse::Reads, position_only: true },
     /// The vertex colour; writes as depth the binary logarithm of the distance (the clip-space w) over
     /// `params.color`'s red, times its blue.
-    LogarithmicDepth = "logarithmic_depth" { params: true, reads_w: true, depth: Depth::Computed },
+    LogarithmicDepth = "logarithmic_depth" { params: true, reads_w: true, depth: WrittenDepth::Computed },
     /// `params.color` with the alpha of the texel of texture 0 under the fragment; writes the texel's red as
     /// sample mask.
     MaskedColor = "masked_color" { params: true, textures: 1, mask: true, position_only: true },
     /// Like `masked_color`, and writes the texel's green as depth.
-    MaskedDepth = "masked_depth" { params: true, textures: 1, mask: true, depth: Depth::Computed, position_only: true },
+    MaskedDepth = "masked_depth" { params: true, textures: 1, mask: true, depth: WrittenDepth::Computed, position_only: true },
     /// Like `masked_color`, and discards if the texel's blue is below `params.color`'s.
     MaskedDiscard = "masked_discard" { params: true, textures: 1, discards: true, mask: true, position_only: true },
     /// Like `sample_index`, and writes the red of the texel of texture 0 under the fragment as sample mask,
@@ -452,7 +452,7 @@ shaders! {
     Peel = "peel" { textures: 1, outputs: 2, discards: true, reads_depth: true },
     /// `params.color`; writes the number of the sample being shaded plus 1, in 32nds, as depth. Runs
     /// once per sample.
-    SampleDepth = "sample_depth" { params: true, depth: Depth::Computed, per_sample: true, position_only: true },
+    SampleDepth = "sample_depth" { params: true, depth: WrittenDepth::Computed, per_sample: true, position_only: true },
     /// The number of the sample being shaded in binary: red its lowest bit, alpha 1. Runs once
     /// per sample.
     SampleIndex = "sample_index" { per_sample: true, position_only: true },

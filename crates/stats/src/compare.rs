@@ -115,10 +115,10 @@ pub fn compare(before: &Samples, after: &Samples) -> Comparison {
     let ruled = ruled.map(|(b, a)| shift(b, a, LEVEL));
     let least = MINIMUM.ln();
     let side = |s: Shift| match s {
-        s if s.low > least => Side::Slower,
-        s if s.high < -least => Side::Faster,
-        s if s.low >= -least && s.high <= least => Side::Small,
-        _ => Side::Open,
+        s if s.low > least => IntervalSide::Slower,
+        s if s.high < -least => IntervalSide::Faster,
+        s if s.low >= -least && s.high <= least => IntervalSide::Small,
+        _ => IntervalSide::Open,
     };
     // Without a ruler, nothing confirms the times as measured.
     let guard = ruled.map_or(side(raw), side);
@@ -127,13 +127,13 @@ pub fn compare(before: &Samples, after: &Samples) -> Comparison {
         _ if before.rounds().min(after.rounds()) < MIN_ROUNDS => {
             Conclusion::CannotTell(Why::TooFewRounds)
         }
-        (Side::Slower, Side::Slower) | (Side::Faster, Side::Faster) if drifted => {
+        (IntervalSide::Slower, IntervalSide::Slower) | (IntervalSide::Faster, IntervalSide::Faster) if drifted => {
             Conclusion::CannotTell(Why::Drift)
         }
-        (Side::Slower, Side::Slower) => Conclusion::Slower,
-        (Side::Faster, Side::Faster) => Conclusion::Faster,
-        (Side::Small, Side::Small) => Conclusion::CannotTell(Why::Small),
-        (Side::Slower | Side::Faster, _) => Conclusion::CannotTell(moved(before, after)),
+        (IntervalSide::Slower, IntervalSide::Slower) => Conclusion::Slower,
+        (IntervalSide::Faster, IntervalSide::Faster) => Conclusion::Faster,
+        (IntervalSide::Small, IntervalSide::Small) => Conclusion::CannotTell(Why::Small),
+        (IntervalSide::Slower | IntervalSide::Faster, _) => Conclusion::CannotTell(moved(before, after)),
         _ => Conclusion::CannotTell(Why::Noise),
     };
     Comparison {
@@ -159,7 +159,7 @@ fn moved(before: &Samples, after: &Samples) -> Why {
 }
 
 /// The position of an interval relative to [`MINIMUM`].
-enum Side {
+enum IntervalSide {
     Slower,
     Faster,
     Small,

@@ -27,7 +27,7 @@ pub fn smallest_visible(before: &Samples, after: &Samples) -> Option<f64> {
     let before = Residuals::new(before);
     let after = Residuals::new(after);
     let mut random = Rand64::new(SEED);
-    let (mut b, mut a) = (Drawn::default(), Drawn::default());
+    let (mut b, mut a) = (Resampled::default(), Resampled::default());
     let mut room = Vec::new();
     let mut needed = Vec::with_capacity(RESAMPLES);
     for _ in 0..RESAMPLES {
@@ -51,7 +51,7 @@ struct Residuals {
 
 /// Drawn residuals; the two of a round stay together.
 #[derive(Default)]
-struct Drawn {
+struct Resampled {
     raw: Vec<f64>,
     ruled: Vec<f64>,
 }
@@ -64,7 +64,7 @@ impl Residuals {
         }
     }
 
-    fn draw(&self, random: &mut Rand64, into: &mut Drawn) {
+    fn draw(&self, random: &mut Rand64, into: &mut Resampled) {
         into.raw.clear();
         into.ruled.clear();
         for _ in 0..self.raw.len() {

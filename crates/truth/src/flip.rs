@@ -24,14 +24,14 @@ const COLOR_EXPONENT: f64 = 0.7;
 const KNEE: [f64; 2] = [0.4, 0.95];
 
 /// A quantity of each texel, row by row.
-type Plane = Vec<f64>;
+type PixelPlane = Vec<f64>;
 /// A colour in XYZ, Lab, or linear red, green and blue.
 type Color = [f64; 3];
 
 /// Returns the mean difference of two pictures, from 0 to 1. Each texel has three codes in sRGB.
 pub(super) fn mean_flip(size: [u32; 2], truth: &[u8], picture: &[u8]) -> f64 {
     let size = size.map(|length| length as usize);
-    let [truth, picture] = [truth, picture].map(|codes| Seen::of(size, codes));
+    let [truth, picture] = [truth, picture].map(|codes| PerceivedPicture::of(size, codes));
     let largest = difference([0.0, 1.0, 0.0].lab().hunt(), [0.0, 0.0, 1.0].lab().hunt());
     let [share, below] = KNEE;
     let knee = share * largest;
@@ -44,7 +44,7 @@ pub(super) fn mean_flip(size: [u32; 2], truth: &[u8], picture: &[u8]) -> f64 {
         } else {
             below + (color - knee) / (largest - knee) * (1.0 - below)
         };
-        let differ = |of: fn(&Seen) -> &Plane| (of(&truth)[texel] - of(&picture)[texel]).abs();
+        let differ = |of: fn(&PerceivedPicture) -> &PixelPlane| (of(&truth)[texel] - of(&picture)[texel]).abs();
         let feature = differ(|seen| &seen.edges).max(differ(|seen| &seen.points));
         sum += color.powf(1.0 - (FRAC_1_SQRT_2 * feature).sqrt()).min(1.0);
     }
@@ -52,15 +52,15 @@ pub(super) fn mean_flip(size: [u32; 2], truth: &[u8], picture: &[u8]) -> f64 {
 }
 
 /// A picture as an eye sees it.
-struct Seen {
+struct PerceivedPicture {
     /// The filtered colours in Lab, with Hunt's adjustment.
     colors: Vec<Color>,
     /// The strengths of edges and points.
-    edges: Plane,
-    points: Plane,
+    edges: PixelPlane,
+    points: PixelPlane,
 }
 
-impl Seen {
+impl PerceivedPicture {
     fn of(size: [usize; 2], codes: &[u8]) -> Self {
         let opponents: Vec<Color> = codes
             .chunks_exact(3)
@@ -69,8 +69,8 @@ impl Seen {
                 opponent(relative(linear))
             })
             .collect();
-        let planes = [0, 1, 2].map(|c| opponents.iter().map(|color| color[c]).collect::<Plane>());
-        let luminance: Plane = planes[0].iter().map(|l| (l + 16.0) / 116.0).collect();
+        let planes = [0, 1, 2].map(|c| opponents.iter().map(|color| color[c]).collect::<PixelPlane>());
+        let luminance: PixelPlane = planes[0].iter().map(|l| (l + 16.0) / 116.0).collect();
         let [edges, points] = features(size, &luminance);
         let filtered = [0, 1, 2].map(|c| blurred(size, &planes[c], SENSITIVITY[c]));
         let white = [1.0; 3].xyz();
@@ -174,7 +174,7 @@ fn kernel(radius: i32, function: impl Fn(f64) -> f64) -> Vec<f64> {
 }
 
 /// Convolves a plane with one kernel along rows and another along columns. The texels at the border repeat.
-fn convolve([width, height]: [usize; 2], plane: &[f64], across: &[f64], down: &[f64]) -> Plane {
+fn convolve([width, height]: [usize; 2], plane: &[f64], across: &[f64], down: &[f64]) -> PixelPlane {
     let neighbour = |place: usize, offset: usize, radius: usize, length: usize| {
         (place + offset).saturating_sub(radius).min(length - 1)
     };
@@ -201,7 +201,7 @@ fn convolve([width, height]: [usize; 2], plane: &[f64], across: &[f64], down: &[
 }
 
 /// Returns a plane as the eye resolves it.
-fn blurred(size: [usize; 2], plane: &[f64], sensitivity: &[(f64, f64)]) -> Plane {
+fn blurred(size: [usize; 2], plane: &[f64], sensitivity: &[(f64, f64)]) -> PixelPlane {
     let radius = (3.0 * (WIDEST / (2.0 * PI * PI)).sqrt() * TEXELS_PER_DEGREE).ceil() as i32;
     let gauss = |width: f64| {
         kernel(radius, |x| {
@@ -227,7 +227,7 @@ fn blurred(size: [usize; 2], plane: &[f64], sensitivity: &[(f64, f64)]) -> Plane
 }
 
 /// Returns the strengths of edges and of points in luminance: the first and the second derivative of a Gaussian.
-fn features(size: [usize; 2], luminance: &[f64]) -> [Plane; 2] {
+fn features(size: [usize; 2], luminance: &[f64]) -> [PixelPlane; 2] {
     let deviation = 0.5 * FEATURE * TEXELS_PER_DEGREE;
     let radius = (3.0 * deviation).ceil() as i32;
     let gauss = |x: f64| (-x * x / (2.0 * deviation * deviation)).exp();

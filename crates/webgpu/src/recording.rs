@@ -44,7 +44,7 @@ pub fn recording(
 
 /// Texels in the mapped buffer.
 #[derive(Clone, Copy)]
-struct Rows {
+struct MappedRows {
     /// The first byte.
     offset: u64,
     /// The distance between rows.
@@ -61,22 +61,22 @@ struct Memories(Vec<Call>);
 
 impl Memories {
     /// Adds a copy of rows, and returns the number of the memory.
-    fn rows(&mut self, rows: Rows) -> u32 {
+    fn rows(&mut self, rows: MappedRows) -> u32 {
         let bytes = u64::from(rows.row) * u64::from(rows.rows);
         self.add("read_rows", &[rows], bytes)
     }
 
     /// Adds a copy that gathers bits into bytes. The bits of a byte are 8 bytes of the mapped buffer: four
     /// bytes of a texel in each of two images. Returns the number of the memory.
-    fn bits(&mut self, halves: [Rows; 2]) -> u32 {
+    fn bits(&mut self, halves: [MappedRows; 2]) -> u32 {
         let [first, _] = halves;
         let bytes = u64::from(first.row / 4) * u64::from(first.rows);
         self.add("read_bits", &halves, bytes)
     }
 
-    fn add(&mut self, function: &str, rows: &[Rows], bytes: u64) -> u32 {
+    fn add(&mut self, function: &str, rows: &[MappedRows], bytes: u64) -> u32 {
         let number = self.0.len() as u32;
-        let arguments = |rows: &Rows| {
+        let arguments = |rows: &MappedRows| {
             [
                 Argument::Offset(rows.offset),
                 Argument::Unsigned(rows.pitch),
@@ -97,7 +97,7 @@ impl Memories {
 /// Returns the places of an image's codes.
 fn planes(memories: &mut Memories, image: &ImageReading) -> Vec<Plane> {
     let texel = image.texel_bytes() as u32;
-    let rows = |number: u64| Rows {
+    let rows = |number: u64| MappedRows {
         offset: image.offset + number * image.image_bytes(),
         pitch: image.pitch,
         row: image.size[0] * texel,
@@ -139,7 +139,7 @@ fn counters(memories: &mut Memories, reading: &Reading) -> Vec<RecordedCounter> 
         let part = |place: &Place| {
             let bytes = reading.bytes as u32;
             let output = *memory.get_or_insert_with(|| {
-                memories.rows(Rows {
+                memories.rows(MappedRows {
                     offset: 0,
                     pitch: bytes,
                     row: bytes,

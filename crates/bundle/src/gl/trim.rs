@@ -30,11 +30,11 @@ pub(super) fn trimmed(calls: &[Call], trim: Trim) -> Vec<&Call> {
         return calls.iter().collect();
     }
     let mut keep = vec![true; calls.len()];
-    let mut slots: BTreeMap<Key, Slot> = BTreeMap::new();
+    let mut slots: BTreeMap<Key, StateSlot> = BTreeMap::new();
     for (index, call) in calls.iter().enumerate() {
         if let Some(setter) = setter(call) {
             keep[index] = false;
-            let slot = slots.entry(setter.key).or_insert_with(|| Slot {
+            let slot = slots.entry(setter.key).or_insert_with(|| StateSlot {
                 guards: setter.guards,
                 active: setter.initial.into_iter().collect(),
                 pending: Vec::new(),
@@ -89,7 +89,7 @@ enum Key {
 type Value = (String, Vec<u64>);
 
 /// The known value of a piece of state.
-struct Slot {
+struct StateSlot {
     guards: &'static [u32],
     /// The calls that set the value at the last action.
     active: Vec<Value>,
@@ -97,7 +97,7 @@ struct Slot {
     pending: Vec<(usize, Value)>,
 }
 
-impl Slot {
+impl StateSlot {
     /// Returns true if a capability is on, including the calls since the last action.
     fn is_on(&self) -> bool {
         let replaced = self.pending.first().is_some_and(|(_, v)| is_whole(v));
@@ -153,7 +153,7 @@ const OFFSETS: &[u32] = &[0x8037, 0x2A02, 0x2A01];
 const ON: [u32; 2] = [0x0BD0, 0x809D];
 
 /// A function that sets state.
-struct Known {
+struct StateFunction {
     function: &'static str,
     family: &'static str,
     /// True if each value of the first argument has its own state.
@@ -171,8 +171,8 @@ const fn known(
     whole: bool,
     initial: Option<&'static [u64]>,
     guards: &'static [u32],
-) -> Known {
-    Known {
+) -> StateFunction {
+    StateFunction {
         function,
         family,
         by_target: false,
@@ -182,8 +182,8 @@ const fn known(
     }
 }
 
-const fn by_target(function: &'static str, initial: Option<&'static [u64]>) -> Known {
-    Known {
+const fn by_target(function: &'static str, initial: Option<&'static [u64]>) -> StateFunction {
+    StateFunction {
         function,
         family: function,
         by_target: true,
@@ -198,7 +198,7 @@ const F1: u64 = 0x3f80_0000;
 const D1: u64 = 0x3ff0_0000_0000_0000;
 
 /// The functions, with the initial values of OpenGL 4.6, tables 23.
-const KNOWN: [Known; 39] = [
+const KNOWN: [StateFunction; 39] = [
     known(
         "glCullFace",
         "cull_face",
@@ -348,7 +348,7 @@ const KNOWN: [Known; 39] = [
     by_target("glViewportIndexedf", None),
 ];
 
-fn known_of(function: &str) -> Option<&'static Known> {
+fn known_of(function: &str) -> Option<&'static StateFunction> {
     // Functions of extensions set the same state as those of later versions.
     let core = |name: &str| {
         ["OES", "ARB", "ANGLE", "EXT"]

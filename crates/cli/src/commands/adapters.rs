@@ -25,7 +25,7 @@ pub(crate) struct Arguments {
 
 /// All facts of an adapter: identity, limits and origin.
 #[derive(Serialize)]
-struct Facts<'a> {
+struct AdapterFacts<'a> {
     #[serde(flatten)]
     record: AdapterRecord,
     #[serde(flatten)]
@@ -38,10 +38,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         file: arguments.file.adapter_file.as_deref(),
         ..Query::default()
     })?;
-    let ready: Vec<Facts<'_>> = adapters
+    let ready: Vec<AdapterFacts<'_>> = adapters
         .ready
         .iter()
-        .map(|(launch, worker)| Facts {
+        .map(|(launch, worker)| AdapterFacts {
             record: worker.into(),
             origin: adapters.origins.get(&launch.adapter),
         })

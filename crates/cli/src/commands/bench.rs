@@ -84,7 +84,7 @@ const MATRIX: &str = "perf/matrix/";
 
 /// Judges the pictures of the selected cases, measures the correct ones, writes samples and reports.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let selected = Selected::new(arguments)?;
+    let selected = BenchCases::new(arguments)?;
     let counter = arguments.instructions.then(instruction_counter).transpose();
     let counter = counter.map_err(Failure::usage)?;
     // The samples of a concurrent or an earlier bench must not be lost.
@@ -139,7 +139,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
 }
 
 /// The cases of a bench.
-struct Selected {
+struct BenchCases {
     /// The cases to measure, in order.
     cases: Vec<Case>,
     /// The digest of all selected cases; a shard measures a part of them.
@@ -147,7 +147,7 @@ struct Selected {
     shard: Option<Shard>,
 }
 
-impl Selected {
+impl BenchCases {
     fn new(arguments: &Arguments) -> Result<Self, Failure> {
         let mut selection = arguments.selection.clone();
         let by_default = selection.globs.is_empty();
@@ -180,7 +180,7 @@ fn names(adapters: &Adapters) -> Result<BTreeSet<String>, Failure> {
     Ok(names)
 }
 
-fn header(arguments: &Arguments, selected: &Selected, adapters: &Adapters) -> BenchHeader {
+fn header(arguments: &Arguments, selected: &BenchCases, adapters: &Adapters) -> BenchHeader {
     BenchHeader {
         format: BENCH_FORMAT,
         etalon: provenance::VERSION.to_owned(),
@@ -209,7 +209,7 @@ fn header(arguments: &Arguments, selected: &Selected, adapters: &Adapters) -> Be
 
 /// Returns the processor's limits, if a case belongs to the performance matrix, whose rates are compared with
 /// them.
-fn limits(selected: &Selected) -> Vec<ProcessorLimits> {
+fn limits(selected: &BenchCases) -> Vec<ProcessorLimits> {
     if !selected.cases.iter().any(|case| cell(&case.id).is_some()) {
         return Vec::new();
     }

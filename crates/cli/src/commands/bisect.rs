@@ -59,7 +59,7 @@ pub(crate) struct Arguments {
 }
 
 /// One release that cases are drawn with.
-struct Drawn {
+struct DrawnRelease {
     launch: Launch,
     /// The worker that discovery started; later ones start on demand.
     worker: Option<Worker>,
@@ -67,7 +67,7 @@ struct Drawn {
 }
 
 /// The part of a search that all rounds share.
-struct Search<'a> {
+struct ReleaseSearch<'a> {
     folder: &'a Path,
     cases: &'a [Case],
     library: Option<&'a PathBuf>,
@@ -108,7 +108,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     versions
         .write(&arguments.out)
         .map_err(Failure::incomplete)?;
-    let search = Search {
+    let search = ReleaseSearch {
         folder: &arguments.out.join(WORK_FOLDER),
         cases: &cases,
         library: arguments.cases.as_ref(),
@@ -210,13 +210,13 @@ fn selected(arguments: &Arguments) -> Result<Vec<Case>, Failure> {
 }
 
 /// Returns the adapters that were found, in the order of the releases.
-fn in_order(releases: &[(String, Release)], adapters: &mut Adapters) -> Vec<Drawn> {
+fn in_order(releases: &[(String, Release)], adapters: &mut Adapters) -> Vec<DrawnRelease> {
     let mut found: BTreeMap<String, (Launch, Worker)> = BTreeMap::new();
     for (launch, worker) in adapters.ready.drain(..) {
         found.insert(launch.adapter.clone(), (launch, worker));
     }
     let each = releases.iter().filter_map(|(name, _)| found.remove(name));
-    each.map(|(launch, worker)| Drawn {
+    each.map(|(launch, worker)| DrawnRelease {
         launch,
         adapter: (&worker).into(),
         worker: Some(worker),
@@ -227,7 +227,7 @@ fn in_order(releases: &[(String, Release)], adapters: &mut Adapters) -> Vec<Draw
 fn header(
     arguments: &Arguments,
     releases: &[(String, Release)],
-    drawn: &[Drawn],
+    drawn: &[DrawnRelease],
 ) -> VersionsHeader {
     VersionsHeader {
         format: VERSIONS_FORMAT,
@@ -257,12 +257,12 @@ fn undrawn(case: &Case, releases: usize) -> CaseVersions {
     }
 }
 
-impl Search<'_> {
+impl ReleaseSearch<'_> {
     /// Draws until every case is decided or the search is stopped. Writes the file after each round.
     fn run(
         &self,
         versions: &mut Versions,
-        drawn: &mut [Drawn],
+        drawn: &mut [DrawnRelease],
         findings: &Expectations,
         out: &Path,
     ) -> Result<(), Failure> {
@@ -314,7 +314,7 @@ impl Search<'_> {
     /// another process.
     fn draw(
         &self,
-        drawn: &mut Drawn,
+        drawn: &mut DrawnRelease,
         numbers: &[usize],
         bar: &ProgressBar,
     ) -> Result<Vec<(usize, Verdict)>, Failure> {

@@ -103,7 +103,7 @@ fn drawn(arguments: &Arguments) -> Result<u8, Failure> {
         adapter: &adapter,
         machine: &provenance::machine(),
     };
-    let driver = Driver {
+    let driver = ReadyDriver {
         launch: &launch,
         timeout,
     };
@@ -139,7 +139,7 @@ fn saved(arguments: &Arguments, run: &Path) -> Result<u8, Failure> {
     };
     bundled.require_value()?;
     let recording = saved_recording(&recorded.adapter, &case.scene);
-    let evidence = Evidence {
+    let evidence = DriverResults {
         checks: Checks::Absent,
         recording: recording.map_err(|why| bundled.refused(&why))?,
         due: bundled.due(&recorded.frame, &judged.record)?,
@@ -228,13 +228,13 @@ struct Bundled<'a> {
 
 /// A driver that can draw here.
 #[derive(Clone, Copy)]
-struct Driver<'a> {
+struct ReadyDriver<'a> {
     launch: &'a Launch,
     timeout: Duration,
 }
 
 /// The driver's results on the case.
-struct Evidence {
+struct DriverResults {
     checks: Checks,
     recording: Recording,
     judged: Judged,
@@ -267,8 +267,8 @@ impl Bundled<'_> {
     fn write(
         &self,
         name: &str,
-        evidence: &Evidence,
-        driver: Option<Driver<'_>>,
+        evidence: &DriverResults,
+        driver: Option<ReadyDriver<'_>>,
     ) -> Result<u8, Failure> {
         let arguments = self.arguments;
         let (program, ran) = self.program(evidence, driver)?;
@@ -293,7 +293,7 @@ impl Bundled<'_> {
         }
     }
 
-    fn evidence(&self, driver: Driver<'_>) -> Result<Evidence, Failure> {
+    fn evidence(&self, driver: ReadyDriver<'_>) -> Result<DriverResults, Failure> {
         self.require_value()?;
         let checks = self.checks()?;
         let recorded = self.recorded()?;
@@ -304,7 +304,7 @@ impl Bundled<'_> {
             return Err(self.refused(&format!("calls of backend {backend} are not recorded")));
         };
         let newest = self.arguments.latest.as_ref();
-        Ok(Evidence {
+        Ok(DriverResults {
             checks,
             recording,
             judged,
@@ -315,7 +315,7 @@ impl Bundled<'_> {
         })
     }
 
-    fn described<'a>(&'a self, evidence: &'a Evidence) -> ReducedCase<'a> {
+    fn described<'a>(&'a self, evidence: &'a DriverResults) -> ReducedCase<'a> {
         ReducedCase {
             record: &evidence.judged.record,
             symptom: self.symptom,
@@ -333,8 +333,8 @@ impl Bundled<'_> {
     /// Returns the program, and its run if it ran here. Fails if that run does not show the bug.
     fn program(
         &self,
-        evidence: &Evidence,
-        driver: Option<Driver<'_>>,
+        evidence: &DriverResults,
+        driver: Option<ReadyDriver<'_>>,
     ) -> Result<(Program, Option<ProgramRun>), Failure> {
         let head = Head {
             title: self.title(evidence.finding.as_ref()),
@@ -347,7 +347,7 @@ impl Bundled<'_> {
                     .map_err(|e| self.refused(&format!("no program can be printed: {e}")))
             },
             |program| match driver {
-                Some(Driver { launch, timeout }) => built_and_run(program, launch, timeout),
+                Some(ReadyDriver { launch, timeout }) => built_and_run(program, launch, timeout),
                 None => Ok(None),
             },
         )?;
@@ -361,7 +361,7 @@ impl Bundled<'_> {
     }
 
     /// Returns the files next to the program: the case and the pictures.
-    fn files(&self, evidence: &Evidence) -> Result<Vec<File>, Failure> {
+    fn files(&self, evidence: &DriverResults) -> Result<Vec<File>, Failure> {
         let FailingArguments { case, adapter, .. } = &self.arguments.failing;
         let origin = match self.arguments.run {
             Some(_) => format!("Drawn as {case} on {adapter}."),
@@ -380,7 +380,7 @@ impl Bundled<'_> {
     /// it ran here; `files` are the files next to the report.
     fn report(
         &self,
-        evidence: &Evidence,
+        evidence: &DriverResults,
         language: Language,
         (run, built): (String, Option<String>),
         files: &[File],
@@ -550,7 +550,7 @@ impl Bundled<'_> {
 
     /// Returns the number of processes in which the case fails with its symptom, and the number of all
     /// processes.
-    fn frequency(&self, driver: Driver<'_>) -> Result<[u32; 2], Failure> {
+    fn frequency(&self, driver: ReadyDriver<'_>) -> Result<[u32; 2], Failure> {
         let (runs, at_once) = if self.adapter.backend == "webgpu" {
             (BROWSERS, 1)
         } else {
@@ -571,7 +571,7 @@ impl Bundled<'_> {
     }
 
     /// Returns the newest release of a line, and whether it draws the case wrong.
-    fn newest(&self, line: &str, driver: Driver<'_>) -> Result<(String, bool), Failure> {
+    fn newest(&self, line: &str, driver: ReadyDriver<'_>) -> Result<(String, bool), Failure> {
         let file = self.arguments.failing.adapter_file();
         let mut releases = releases_of(file, line)?;
         let Some((name, release)) = releases.pop() else {
@@ -718,8 +718,8 @@ fn search(adapter: &AdapterRecord, symptom: &Symptom) -> Vec<String> {
 }
 
 /// Returns the command that runs the program on the driver, quoted for a shell; empty without a driver.
-fn run_command(driver: Option<Driver<'_>>) -> String {
-    let Some(Driver { launch, .. }) = driver else {
+fn run_command(driver: Option<ReadyDriver<'_>>) -> String {
+    let Some(ReadyDriver { launch, .. }) = driver else {
         return String::new();
     };
     let mut words: Vec<String> = Vec::new();

@@ -48,7 +48,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         return Err(Failure::nothing("there are no case files"));
     }
     let checked = check(&files, arguments.profile.into());
-    let report = Told {
+    let report = ToldCheck {
         broken: &broken,
         files: &checked,
         // The cases of a single file fit on a screen.
@@ -82,14 +82,14 @@ fn read(path: &Path) -> Result<Result<CaseFile, CaseError>, Failure> {
 }
 
 /// The result of a check, for text and JSON.
-struct Told<'a> {
+struct ToldCheck<'a> {
     broken: &'a [CaseError],
     files: &'a [CheckedFile],
     /// True if the text lists each case.
     each: bool,
 }
 
-impl Told<'_> {
+impl ToldCheck<'_> {
     fn errors(&self) -> usize {
         self.broken.len() + self.files.iter().map(|f| f.errors.len()).sum::<usize>()
     }

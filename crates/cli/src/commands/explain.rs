@@ -65,7 +65,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         (None, None) => (CpuBackend::new("cpu").limits().clone(), Vec::new()),
         (None, Some(name)) => draw(name, arguments.file.adapter_file.as_deref(), &case)?,
     };
-    let asked = Asked {
+    let asked = AskedTexel {
         case: &case,
         texel: arguments.texel,
         sample: arguments.sample,
@@ -109,7 +109,7 @@ fn refuse_outside(scene: &Scene, arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// The texel to explain, and the frames of the case's scenes, if it was drawn.
-struct Asked<'a> {
+struct AskedTexel<'a> {
     case: &'a Case,
     texel: [u32; 2],
     sample: Option<u32>,
@@ -117,15 +117,15 @@ struct Asked<'a> {
 }
 
 /// The story that one or several samples share.
-struct Told {
+struct SharedStory {
     story: Story,
     band: Option<Band>,
 }
 
 /// Stories under a heading.
-struct Section {
+struct StorySection {
     heading: Option<String>,
-    told: Vec<Told>,
+    told: Vec<SharedStory>,
     /// The lines about counters, and the worst band of a counter.
     counters: (Vec<String>, Option<Band>),
     /// True if the section judges the quality of a value, not its legality.
@@ -134,10 +134,10 @@ struct Section {
 
 /// The whole explanation.
 struct Explanation {
-    sections: Vec<Section>,
+    sections: Vec<StorySection>,
 }
 
-impl Asked<'_> {
+impl AskedTexel<'_> {
     fn all(&self, limits: &Limits, yardstick: bool) -> Result<Explanation, Failure> {
         let mut sections = vec![self.scene(0, limits)?];
         if yardstick {
@@ -151,9 +151,9 @@ impl Asked<'_> {
             }
         }
         if let Some((band, story)) = story_of_relation(self.case, limits, self.frames, self.texel) {
-            sections.push(Section {
+            sections.push(StorySection {
                 heading: Some("pictures that must be the same".to_owned()),
-                told: vec![Told {
+                told: vec![SharedStory {
                     story,
                     band: Some(band),
                 }],
@@ -165,7 +165,7 @@ impl Asked<'_> {
     }
 
     /// Returns the stories of one of the case's scenes, with the encodings that fit the frame best.
-    fn scene(&self, index: usize, limits: &Limits) -> Result<Section, Failure> {
+    fn scene(&self, index: usize, limits: &Limits) -> Result<StorySection, Failure> {
         let scene = match index {
             0 => self.case.judged_scene(),
             _ => &self.case.variants[index - 1].scene,
@@ -225,7 +225,7 @@ impl Asked<'_> {
             .flat_map(|c| &c.counters)
             .filter_map(|c| c.band)
             .max();
-        Ok(Section {
+        Ok(StorySection {
             heading,
             told: self.samples(index, (&judgement.limits, &rules), band),
             counters: (counters, worst),
@@ -233,11 +233,11 @@ impl Asked<'_> {
         })
     }
 
-    fn yardstick(&self, limits: &Limits) -> Section {
+    fn yardstick(&self, limits: &Limits) -> StorySection {
         let formats = self.case.judged_scene().formats();
         let first = limits.alternatives(&formats).swap_remove(0);
         let rules = Rules::yardstick(&first);
-        Section {
+        StorySection {
             heading: Some("by the yardstick".to_owned()),
             told: self.samples(0, (&first, &rules), |_| None),
             counters: (Vec::new(), None),
@@ -252,7 +252,7 @@ impl Asked<'_> {
         index: usize,
         by: (&Limits, &Rules),
         band: impl Fn(&Sample) -> Option<Band>,
-    ) -> Vec<Told> {
+    ) -> Vec<SharedStory> {
         let scene = match index {
             0 => self.case.judged_scene(),
             _ => &self.case.variants[index - 1].scene,
@@ -265,7 +265,7 @@ impl Asked<'_> {
                 shapes.push(shape);
             }
         }
-        let mut texels: Vec<Told> = Vec::new();
+        let mut texels: Vec<SharedStory> = Vec::new();
         for (size, samples) in shapes {
             let from = texels.len();
             for sample in (0..samples).filter(|s| self.sample.is_none_or(|asked| asked == *s)) {
@@ -283,12 +283,12 @@ impl Asked<'_> {
                     .iter_mut()
                     .find(|other| other.is_alike(&story))
                 {
-                    Some(Told { story: other, .. }) => {
+                    Some(SharedStory { story: other, .. }) => {
                         if let Some(ruling) = &mut other.ruling {
                             ruling.samples.push(sample);
                         }
                     }
-                    None => texels.push(Told { story, band }),
+                    None => texels.push(SharedStory { story, band }),
                 }
             }
         }
@@ -296,7 +296,7 @@ impl Asked<'_> {
     }
 }
 
-impl Told {
+impl SharedStory {
     /// Returns true if another sample's story is the same.
     fn is_alike(&self, story: &Story) -> bool {
         let ruling = story.ruling.as_ref().zip(self.story.ruling.as_ref());
@@ -311,7 +311,7 @@ impl Told {
     }
 }
 
-impl Section {
+impl StorySection {
     fn worst(&self) -> Option<Band> {
         let band = self.told.iter().filter_map(|t| t.band).max();
         band.max(self.counters.1)
@@ -320,7 +320,7 @@ impl Section {
 
 impl Explanation {
     fn worst(&self) -> Option<Band> {
-        self.sections.iter().filter_map(Section::worst).max()
+        self.sections.iter().filter_map(StorySection::worst).max()
     }
 
     /// Returns the text: the worst verdict, the case, then all stories.

@@ -105,7 +105,7 @@ fn parse_time(text: &str) -> Result<Duration, String> {
 }
 
 /// The results of the scenes of one adapter.
-struct Tally {
+struct SceneTally {
     adapter: String,
     scenes: u64,
     failing: u64,
@@ -118,7 +118,7 @@ struct Tally {
     groups: Vec<Group>,
 }
 
-impl Tally {
+impl SceneTally {
     /// Returns the groups that no finding explains.
     fn unexplained(&self) -> impl Iterator<Item = &Group> {
         self.groups.iter().filter(|g| !g.is_explained())
@@ -150,7 +150,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let _lock = claim.take()?;
     // Marks the folder as a fuzz folder before scenes are written into it.
     write(arguments, &[], true)?;
-    let search = Search {
+    let search = FuzzSearch {
         arguments,
         expectations: &expectations,
         library: &library,
@@ -185,12 +185,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     )
 }
 
-fn print(arguments: &Arguments, tallies: &[Tally], interrupted: bool) -> Result<(), Failure> {
+fn print(arguments: &Arguments, tallies: &[SceneTally], interrupted: bool) -> Result<(), Failure> {
     let report = arguments.out.join(FUZZ_FILE);
     match arguments.format {
         Format::Json => print_json(&json!({
             "interrupted": interrupted,
-            "adapters": tallies.iter().map(Tally::json).collect::<Vec<_>>(),
+            "adapters": tallies.iter().map(SceneTally::json).collect::<Vec<_>>(),
             "groups": tallies.iter().flat_map(|t| t.groups.iter().map(group_text::json)).collect::<Vec<_>>(),
             "report": report,
         }))?,
@@ -205,7 +205,7 @@ fn print(arguments: &Arguments, tallies: &[Tally], interrupted: bool) -> Result<
 }
 
 /// The part of a search that all adapters share.
-struct Search<'a> {
+struct FuzzSearch<'a> {
     arguments: &'a Arguments,
     expectations: &'a Expectations,
     library: &'a Library,
@@ -214,13 +214,13 @@ struct Search<'a> {
     timeout: Duration,
 }
 
-impl Search<'_> {
+impl FuzzSearch<'_> {
     fn is_stopped(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
 
     /// Draws the scenes of one adapter, groups the failing ones, and compares the groups with findings.
-    fn on_adapter(&self, launch: Launch, worker: Worker) -> Result<Tally, Failure> {
+    fn on_adapter(&self, launch: Launch, worker: Worker) -> Result<SceneTally, Failure> {
         let Arguments { seed, out, .. } = self.arguments;
         let adapter = AdapterRecord::from(&worker);
         let limits = &worker.hello.limits;
@@ -241,7 +241,7 @@ impl Search<'_> {
         };
         let bar = progress(if count == u64::MAX { 0 } else { count });
         bar.set_message(launch.adapter.clone());
-        let mut tally = Tally::new(&launch.adapter);
+        let mut tally = SceneTally::new(&launch.adapter);
         let batches = Batches::new(launch, worker, self.jobs, self.timeout);
         self.draw(batches, &mut maker, &mut failing, &mut tally, &bar)?;
         tally.seconds = begun.elapsed().as_secs_f64();
@@ -261,7 +261,7 @@ impl Search<'_> {
         mut batches: Batches,
         maker: &mut Maker,
         failing: &mut FailingScenes<'_>,
-        tally: &mut Tally,
+        tally: &mut SceneTally,
         bar: &ProgressBar,
     ) -> Result<(), Failure> {
         let groups = AtomicUsize::new(0);
@@ -362,7 +362,7 @@ fn joined<T>(thread: ScopedJoinHandle<'_, T>) -> T {
 }
 
 /// Writes a line about the search, a line about each adapter, then the groups.
-fn write(arguments: &Arguments, tallies: &[Tally], interrupted: bool) -> Result<(), Failure> {
+fn write(arguments: &Arguments, tallies: &[SceneTally], interrupted: bool) -> Result<(), Failure> {
     let mut lines = vec![json!({
         "fuzz": 1,
         "etalon": provenance::VERSION,
@@ -372,7 +372,7 @@ fn write(arguments: &Arguments, tallies: &[Tally], interrupted: bool) -> Result<
         "seed": arguments.seed,
         "interrupted": interrupted,
     })];
-    lines.extend(tallies.iter().map(Tally::json));
+    lines.extend(tallies.iter().map(SceneTally::json));
     lines.extend(
         tallies
             .iter()
@@ -385,7 +385,7 @@ fn write(arguments: &Arguments, tallies: &[Tally], interrupted: bool) -> Result<
     Ok(())
 }
 
-impl Tally {
+impl SceneTally {
     fn new(adapter: &str) -> Self {
         Self {
             adapter: adapter.to_owned(),

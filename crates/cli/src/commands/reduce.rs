@@ -55,7 +55,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         timeout,
         listen()?,
     )?;
-    let report = Told {
+    let report = ToldReduction {
         arguments,
         before: &document["scene"],
         reduction: &smallest.reduction,
@@ -75,7 +75,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
 }
 
 /// A reduction, for text and JSON.
-struct Told<'a> {
+struct ToldReduction<'a> {
     arguments: &'a Arguments,
     before: &'a Value,
     reduction: &'a Reduction,
@@ -86,7 +86,7 @@ struct Told<'a> {
     seconds: f64,
 }
 
-impl Told<'_> {
+impl ToldReduction<'_> {
     fn scene(&self) -> &Value {
         &self.reduction.smallest.document["scene"]
     }

@@ -184,7 +184,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         // Without a history, labels limit expectations.
         arguments.news.labels.labels()?;
     }
-    let selected = Selected::new(arguments)?;
+    let selected = RunCases::new(arguments)?;
     let to_bless = file_to_bless(arguments)?;
     let expectations = expectations(arguments, to_bless.as_deref())?;
     let blessed = blessed(arguments, to_bless.as_deref())?;
@@ -272,7 +272,7 @@ fn known_by_look(
 }
 
 /// The cases of a run.
-struct Selected {
+struct RunCases {
     /// The cases to draw, in order.
     cases: Vec<Case>,
     /// The ids of all selected cases; a shard draws a part of them.
@@ -283,7 +283,7 @@ struct Selected {
     left_out: u64,
 }
 
-impl Selected {
+impl RunCases {
     fn new(arguments: &Arguments) -> Result<Self, Failure> {
         let Arguments { selection, .. } = arguments;
         let mut cases = chosen(selection)?;
@@ -404,7 +404,7 @@ impl<'a> Results<'a> {
     /// Reads the records back, and writes pages and lists next to them.
     fn write(
         arguments: &'a Arguments,
-        selected: &Selected,
+        selected: &RunCases,
         expectations: &Expectations,
         pictures: &Pictures,
         summary: RunSummary,
@@ -565,7 +565,7 @@ fn shuffle(cases: &mut [Case], seed: u64) {
 
 fn header(
     arguments: &Arguments,
-    selected: &Selected,
+    selected: &RunCases,
     adapters: &Adapters,
     dead: &[(AdapterRecord, String)],
 ) -> Header {

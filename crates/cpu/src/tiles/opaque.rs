@@ -200,7 +200,7 @@ struct Area {
 }
 
 /// A source of a triangle's depth codes.
-trait Source {
+trait CodeSource {
     /// Returns the codes of consecutive texels of a row.
     fn codes<S: Simd, U: SimdInt<S, Element = u32>>(
         &mut self,
@@ -213,7 +213,7 @@ trait Source {
 /// The same depth code for all texels.
 struct Flat(u32);
 
-impl Source for Flat {
+impl CodeSource for Flat {
     #[inline(always)]
     fn codes<S: Simd, U: SimdInt<S, Element = u32>>(&mut self, simd: S, _: i32, _: [i32; 2]) -> U {
         U::splat(simd, self.0)
@@ -223,7 +223,7 @@ impl Source for Flat {
 /// Depth codes of any kind.
 struct Any<'a>(&'a Depths, [i32; 2]);
 
-impl Source for Any<'_> {
+impl CodeSource for Any<'_> {
     #[inline(always)]
     fn codes<S: Simd, U: SimdInt<S, Element = u32>>(
         &mut self,
@@ -245,7 +245,7 @@ struct Floats<'a> {
     chunk: i32,
 }
 
-impl Source for Floats<'_> {
+impl CodeSource for Floats<'_> {
     #[inline(always)]
     fn codes<S: Simd, U: SimdInt<S, Element = u32>>(
         &mut self,
@@ -356,7 +356,7 @@ impl Opaque<'_> {
         I: SimdInt<S, Element = i32>,
         U: SimdInt<S, Element = u32, Mask = I::Mask>,
         I::Mask: Select<U>,
-        D: Source,
+        D: CodeSource,
     {
         let Planes {
             position,

@@ -38,7 +38,7 @@ impl<'a> Sources<'a> {
         let texels = self.texels;
         [
             texels.is_some_and(|t| t.first.exceeds_unit()),
-            texels.is_some_and(|t| t.second.as_ref().is_some_and(Texture::exceeds_unit)),
+            texels.is_some_and(|t| t.second.as_ref().is_some_and(SourceTexture::exceeds_unit)),
         ]
     }
 
@@ -62,20 +62,20 @@ impl<'a> Sources<'a> {
 /// The textures that a draw fetches from.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Texels<'a> {
-    first: Texture<'a>,
-    second: Option<Texture<'a>>,
+    first: SourceTexture<'a>,
+    second: Option<SourceTexture<'a>>,
 }
 
 /// A texture of the attachments' size.
 #[derive(Clone, Copy, Debug)]
-struct Texture<'a> {
+struct SourceTexture<'a> {
     image: &'a Image,
     channels: &'static [ChannelEncoding],
 }
 
 impl<'a> Texels<'a> {
     pub(crate) fn new(first: Fetched, second: Option<Fetched>, images: &'a [Image]) -> Self {
-        let texture = |fetched: Fetched| Texture {
+        let texture = |fetched: Fetched| SourceTexture {
             image: &images[fetched.index],
             channels: fetched.channels,
         };
@@ -86,7 +86,7 @@ impl<'a> Texels<'a> {
     }
 }
 
-impl Texture<'_> {
+impl SourceTexture<'_> {
     /// Returns true if values can be below 0 or above 1.
     #[inline(always)]
     fn exceeds_unit(&self) -> bool {

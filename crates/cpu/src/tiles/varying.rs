@@ -31,7 +31,7 @@ pub(crate) struct Varying {
 }
 
 /// The inputs of a blend by channel: source, second source and destination.
-struct Inputs {
+struct BlendInputs {
     source: [Plane; 4],
     second: [Plane; 4],
     stored: [Plane; 4],
@@ -50,7 +50,7 @@ struct Buffers {
 }
 
 /// A factor that is not multiplied yet.
-enum Factor<'a> {
+enum PendingFactor<'a> {
     Zero,
     One,
     Value(&'a [f32]),
@@ -72,7 +72,7 @@ impl Varying {
             #[inline(always)]
             || {
                 let zeros = [[0.0; TEXELS]; 4];
-                let mut inputs = Inputs {
+                let mut inputs = BlendInputs {
                     source: zeros,
                     second: zeros,
                     stored: zeros,
@@ -99,7 +99,7 @@ impl Varying {
         planes: &mut [u32],
         (places, masks): (&[u16], &[Mask]),
         sources: &Sources<'_>,
-        inputs: &mut Inputs,
+        inputs: &mut BlendInputs,
         buffers: &mut Buffers,
     ) {
         let Buffers {
@@ -183,7 +183,7 @@ impl Varying {
 
     /// Converts the operands of normalized channels to blending precision, unless they are already in range.
     #[inline(always)]
-    fn hold(&self, sources: &Sources<'_>, inputs: &mut Inputs, count: usize) {
+    fn hold(&self, sources: &Sources<'_>, inputs: &mut BlendInputs, count: usize) {
         let wide = sources.exceed_unit();
         for c in 0..4 {
             let encoding = self.encoding(c);
@@ -232,7 +232,7 @@ impl Varying {
         &self,
         part: BlendComponent,
         c: usize,
-        inputs: &Inputs,
+        inputs: &BlendInputs,
         [first, second]: &mut [Plane; 2],
         values: &mut [f32],
     ) {
@@ -242,10 +242,10 @@ impl Varying {
             (self.factor(part.dst_factor, c, inputs, second), d),
         ]
         .map(|(factor, any)| match factor {
-            Factor::Zero => (0.0, 0.0, &any[..]),
-            Factor::One => (1.0, 0.0, &any[..]),
-            Factor::Value(factors) => (0.0, 1.0, factors),
-            Factor::Complement(factors) => (1.0, -1.0, factors),
+            PendingFactor::Zero => (0.0, 0.0, &any[..]),
+            PendingFactor::One => (1.0, 0.0, &any[..]),
+            PendingFactor::Value(factors) => (0.0, 1.0, factors),
+            PendingFactor::Complement(factors) => (1.0, -1.0, factors),
         });
         let (plus, minus) = match part.operation {
             BlendOperation::Subtract => (1.0, -1.0),
@@ -264,7 +264,7 @@ impl Varying {
         &self,
         part: BlendComponent,
         c: usize,
-        inputs: &Inputs,
+        inputs: &BlendInputs,
         [first, second]: &mut [Plane; 2],
         values: &mut [f32],
     ) {
@@ -294,16 +294,16 @@ impl Varying {
         let held = matches!(encoding, ChannelEncoding::Snorm(_));
         let (same, rest) = (|x: f32| x, |x: f32| 1.0 - x);
         match factors {
-            (Factor::Value(x), Factor::Value(y)) => {
+            (PendingFactor::Value(x), PendingFactor::Value(y)) => {
                 summed(part.operation, values, (source, x, same), (stored, y, same));
             }
-            (Factor::Value(x), Factor::Complement(y)) if !held => {
+            (PendingFactor::Value(x), PendingFactor::Complement(y)) if !held => {
                 summed(part.operation, values, (source, x, same), (stored, y, rest));
             }
-            (Factor::Complement(x), Factor::Value(y)) if !held => {
+            (PendingFactor::Complement(x), PendingFactor::Value(y)) if !held => {
                 summed(part.operation, values, (source, x, rest), (stored, y, same));
             }
-            (Factor::Complement(x), Factor::Complement(y)) if !held => {
+            (PendingFactor::Complement(x), PendingFactor::Complement(y)) if !held => {
                 summed(part.operation, values, (source, x, rest), (stored, y, rest));
             }
             (x, y) => {
@@ -321,22 +321,22 @@ impl Varying {
     #[inline(always)]
     fn product(
         &self,
-        factor: Factor<'_>,
+        factor: PendingFactor<'_>,
         encoding: ChannelEncoding,
         operands: &[f32],
         products: &mut [f32],
     ) {
         let mut plain = Plain::<1>;
         match factor {
-            Factor::Zero => products.fill(0.0),
-            Factor::One => products.copy_from_slice(operands),
-            Factor::Value(factors) => {
+            PendingFactor::Zero => products.fill(0.0),
+            PendingFactor::One => products.copy_from_slice(operands),
+            PendingFactor::Value(factors) => {
                 let pairs = operands.iter().zip(factors);
                 for (product, (operand, factor)) in products.iter_mut().zip(pairs) {
                     [*product] = plain.blend_product(encoding, [*operand], [*factor]);
                 }
             }
-            Factor::Complement(factors) => {
+            PendingFactor::Complement(factors) => {
                 let pairs = operands.iter().zip(factors);
                 for (product, (operand, factor)) in products.iter_mut().zip(pairs) {
                     let factor = plain.blend_complement(encoding, [*factor]);
@@ -353,11 +353,11 @@ impl Varying {
         &self,
         factor: BlendFactor,
         c: usize,
-        inputs: &'a Inputs,
+        inputs: &'a BlendInputs,
         buffer: &'a mut Plane,
-    ) -> Factor<'a> {
+    ) -> PendingFactor<'a> {
         use BlendFactor as F;
-        let Inputs {
+        let BlendInputs {
             source,
             second,
             stored,
@@ -367,9 +367,9 @@ impl Varying {
             Plain::<1>.blend_operand(encoding, [self.constant[channel]])[0]
         };
         match factor {
-            F::Zero => Factor::Zero,
-            F::One => Factor::One,
-            F::SrcAlphaSaturated if c == 3 => Factor::One,
+            F::Zero => PendingFactor::Zero,
+            F::One => PendingFactor::One,
+            F::SrcAlphaSaturated if c == 3 => PendingFactor::One,
             F::SrcAlphaSaturated => {
                 let mut plain = Plain::<1>;
                 let encoding = self.encoding(c);
@@ -378,32 +378,32 @@ impl Varying {
                     let least = plain.min([*source], rest);
                     [*slot] = plain.blend_factor(encoding, least);
                 }
-                Factor::Value(buffer)
+                PendingFactor::Value(buffer)
             }
-            F::Src => Factor::Value(&source[c]),
-            F::OneMinusSrc => Factor::Complement(&source[c]),
-            F::SrcAlpha => Factor::Value(&source[3]),
-            F::OneMinusSrcAlpha => Factor::Complement(&source[3]),
-            F::Dst => Factor::Value(&stored[c]),
-            F::OneMinusDst => Factor::Complement(&stored[c]),
-            F::DstAlpha => Factor::Value(&stored[3]),
-            F::OneMinusDstAlpha => Factor::Complement(&stored[3]),
-            F::Src1 => Factor::Value(&second[c]),
-            F::OneMinusSrc1 => Factor::Complement(&second[c]),
-            F::Src1Alpha => Factor::Value(&second[3]),
-            F::OneMinusSrc1Alpha => Factor::Complement(&second[3]),
+            F::Src => PendingFactor::Value(&source[c]),
+            F::OneMinusSrc => PendingFactor::Complement(&source[c]),
+            F::SrcAlpha => PendingFactor::Value(&source[3]),
+            F::OneMinusSrcAlpha => PendingFactor::Complement(&source[3]),
+            F::Dst => PendingFactor::Value(&stored[c]),
+            F::OneMinusDst => PendingFactor::Complement(&stored[c]),
+            F::DstAlpha => PendingFactor::Value(&stored[3]),
+            F::OneMinusDstAlpha => PendingFactor::Complement(&stored[3]),
+            F::Src1 => PendingFactor::Value(&second[c]),
+            F::OneMinusSrc1 => PendingFactor::Complement(&second[c]),
+            F::Src1Alpha => PendingFactor::Value(&second[3]),
+            F::OneMinusSrc1Alpha => PendingFactor::Complement(&second[3]),
             F::Constant | F::OneMinusConstant => {
                 buffer.fill(constant(c));
                 match factor {
-                    F::Constant => Factor::Value(buffer),
-                    _ => Factor::Complement(buffer),
+                    F::Constant => PendingFactor::Value(buffer),
+                    _ => PendingFactor::Complement(buffer),
                 }
             }
             F::ConstantAlpha | F::OneMinusConstantAlpha => {
                 buffer.fill(constant(3));
                 match factor {
-                    F::ConstantAlpha => Factor::Value(buffer),
-                    _ => Factor::Complement(buffer),
+                    F::ConstantAlpha => PendingFactor::Value(buffer),
+                    _ => PendingFactor::Complement(buffer),
                 }
             }
         }

@@ -12,14 +12,14 @@ use std::rc::Rc;
 
 /// The verdict, the reason why it is expected, the verdict that was expected instead, whether it is due to
 /// fail, and whether it was inferred.
-type Look = (Verdict, Option<String>, Option<Verdict>, bool, bool);
+type LookKey = (Verdict, Option<String>, Option<Verdict>, bool, bool);
 
 /// All looks of a history, numbered in the order in which they were found.
 #[derive(Default)]
 pub(super) struct Looks {
     /// The first outcome of each look.
     outcomes: Vec<Rc<Outcome>>,
-    numbers: Interner<Look>,
+    numbers: Interner<LookKey>,
     of: HashMap<u32, u32>,
 }
 

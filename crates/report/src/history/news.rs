@@ -85,7 +85,7 @@ pub(super) fn number(event: Event) -> usize {
     place.unwrap_or_default()
 }
 
-struct Hit {
+struct NewsHit {
     line: usize,
     text: String,
     unexpected: bool,
@@ -95,7 +95,7 @@ impl News {
     pub(super) fn find(model: &Model<'_>) -> Self {
         let (families, looks) = (&model.families, &model.looks);
         let mut counts = vec![[0; 5]; model.timelines.len()];
-        let mut hits: BTreeMap<(usize, usize), Vec<Hit>> = BTreeMap::new();
+        let mut hits: BTreeMap<(usize, usize), Vec<NewsHit>> = BTreeMap::new();
         let mut sets: BTreeMap<(usize, u32), BTreeMap<usize, u64>> = BTreeMap::new();
         for (line, timeline) in model.timelines.iter().enumerate() {
             let is_last = |event: &&Happening<u32>| event.at as usize == timeline.last;
@@ -110,7 +110,7 @@ impl News {
                         continue;
                     }
                     let (before, now) = (course.look(event.after), course.look(event.at));
-                    hits.entry((kind, case)).or_default().push(Hit {
+                    hits.entry((kind, case)).or_default().push(NewsHit {
                         line,
                         text: format!("{} → {}", looks.text(before), looks.text(now)),
                         unexpected: looks.is_unexpected(now),
@@ -118,7 +118,7 @@ impl News {
                 }
             }
         }
-        let of_case = |((kind, case), hits): (&(usize, usize), &Vec<Hit>)| {
+        let of_case = |((kind, case), hits): (&(usize, usize), &Vec<NewsHit>)| {
             of_case(model, *kind, &model.cases[*case], hits)
         };
         let mut items: Vec<Item> = hits.iter().map(of_case).collect();
@@ -159,9 +159,9 @@ impl News {
     }
 }
 
-fn of_case(model: &Model<'_>, kind: usize, case: &str, hits: &[Hit]) -> Item {
+fn of_case(model: &Model<'_>, kind: usize, case: &str, hits: &[NewsHit]) -> Item {
     let unexpected = hits.iter().any(|hit| hit.unexpected);
-    let entry = |hit: &Hit| {
+    let entry = |hit: &NewsHit| {
         model.states.get(&Subject {
             case: case.to_owned(),
             timeline: model.name(hit.line).to_owned(),

@@ -56,7 +56,7 @@ pub(super) fn read(
                 let (runs, points): (Vec<_>, Vec<_>) = points.iter().filter_map(point).unzip();
                 let said = said.iter().filter(|(kind, ..)| *kind == time);
                 if !points.is_empty() {
-                    measured.push(Measured {
+                    measured.push(MeasuredTime {
                         series: series_list.len(),
                         time,
                         runs,
@@ -75,7 +75,7 @@ pub(super) fn read(
         }
     }
     // Finding the changes takes nearly all of the time. All points were checked, so no error can occur.
-    let found = on_threads(&measured, Measured::timed);
+    let found = on_threads(&measured, MeasuredTime::timed);
     for (key, timed) in measured.iter().zip(found) {
         series_list[key.series].times.extend(timed);
     }
@@ -84,7 +84,7 @@ pub(super) fn read(
 }
 
 /// One kind of time of a series.
-struct Measured<'a> {
+struct MeasuredTime<'a> {
     /// The index of the series.
     series: usize,
     time: Time,
@@ -95,7 +95,7 @@ struct Measured<'a> {
     said: Vec<(usize, &'a TriageEntry)>,
 }
 
-impl Measured<'_> {
+impl MeasuredTime<'_> {
     fn timed(&self) -> Option<Timed> {
         let changes = change_points(&self.points).ok()?;
         Some(Timed {

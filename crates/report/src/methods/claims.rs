@@ -86,14 +86,14 @@ fn measured(checked: &Checked<'_>) -> Markup {
 }
 
 /// Figures of one outcome, as a range.
-struct Told {
+struct FigureRange {
     holds: Holds,
     text: String,
     places: String,
 }
 
 /// Joins equal figures of a scene into one entry, with the adapters and the settings at which they were found.
-fn together(figures: &[Figure]) -> Vec<Told> {
+fn together(figures: &[Figure]) -> Vec<FigureRange> {
     let groups = grouped(figures.iter().map(|f| ((f.holds, &*f.scene, f.text()), f)));
     let texts = groups.into_iter().map(|((holds, scene, _), figures)| {
         let adapters = distinct(figures.iter().map(|f| f.adapter.as_str()));
@@ -108,7 +108,7 @@ fn together(figures: &[Figure]) -> Vec<Told> {
                 some[some.len() - 1]
             ),
         };
-        Told {
+        FigureRange {
             holds,
             text: Figure::range(&figures),
             places: format!("{scene}{place} on {}", adapters.join(", ")),

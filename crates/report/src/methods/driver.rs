@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 
 /// The accuracy of one adapter's frames of one area and aspect.
 #[derive(Clone, Copy, Default)]
-struct Figures<'a> {
+struct DriverFigures<'a> {
     /// The accuracy of legal frames.
     legal: Option<Accuracy>,
     /// The case with the largest distance.
@@ -23,7 +23,7 @@ struct Figures<'a> {
     wrong: Option<Accuracy>,
 }
 
-impl<'a> Figures<'a> {
+impl<'a> DriverFigures<'a> {
     fn add(&mut self, case: &'a str, accuracy: &Accuracy, legal: bool) {
         if legal && self.legal.is_none_or(|sum| accuracy.max > sum.max) {
             self.farthest = case;
@@ -42,10 +42,10 @@ impl<'a> Figures<'a> {
 
 /// The rows of the table: for each area, aspect and encoding, the figures of each adapter. Codes of different
 /// encodings are never added.
-type Rows<'a> = BTreeMap<(&'a str, Aspect, Option<ChannelEncoding>), Vec<Figures<'a>>>;
+type DriverRows<'a> = BTreeMap<(&'a str, Aspect, Option<ChannelEncoding>), Vec<DriverFigures<'a>>>;
 
-fn rows<'a>(grid: &Grid<'a>) -> Rows<'a> {
-    let mut rows: Rows<'a> = BTreeMap::new();
+fn rows<'a>(grid: &Grid<'a>) -> DriverRows<'a> {
+    let mut rows: DriverRows<'a> = BTreeMap::new();
     for area in &grid.areas {
         for column in 0..grid.adapters.len() {
             for index in area.on(column) {
@@ -62,7 +62,7 @@ fn rows<'a>(grid: &Grid<'a>) -> Rows<'a> {
                 for accuracy in record.accuracy.iter().filter(|a| drawable(a)) {
                     let row = rows
                         .entry((area.name, accuracy.aspect, accuracy.encoding))
-                        .or_insert_with(|| vec![Figures::default(); grid.adapters.len()]);
+                        .or_insert_with(|| vec![DriverFigures::default(); grid.adapters.len()]);
                     row[column].add(&record.case, accuracy, legal);
                 }
             }
@@ -145,7 +145,7 @@ pub(crate) fn section(grid: &Grid<'_>) -> Option<Markup> {
     Some(section)
 }
 
-fn table(grid: &Grid<'_>, rows: &Rows<'_>) -> Markup {
+fn table(grid: &Grid<'_>, rows: &DriverRows<'_>) -> Markup {
     // The names of a row, its class, and a cell per adapter.
     type Row = ([String; 3], &'static str, Vec<Cell>);
     let speeds: Vec<Speed> = grid.adapters.iter().map(|a| speed(grid, a)).collect();
@@ -204,7 +204,7 @@ fn part(value: f64) -> String {
     }
 }
 
-fn cell(figures: &Figures<'_>, encoding: Option<ChannelEncoding>) -> Cell {
+fn cell(figures: &DriverFigures<'_>, encoding: Option<ChannelEncoding>) -> Cell {
     let shown = html! {
         @if let Some(legal) = &figures.legal {
             (digits(legal.mean, 2)) " / " (digits(legal.max, 3))
@@ -232,7 +232,7 @@ struct Shares {
 
 /// Returns the fractions of each area and adapter; none for areas without a known encoding.
 fn shares<'a>(
-    rows: &Rows<'a>,
+    rows: &DriverRows<'a>,
     aspect: Aspect,
     adapters: usize,
 ) -> BTreeMap<&'a str, Vec<Option<Shares>>> {
@@ -258,7 +258,7 @@ fn shares<'a>(
 }
 
 /// Returns a chart with a row per area and a mark per adapter at its mean distance.
-fn panel(grid: &Grid<'_>, rows: &Rows<'_>, aspect: Aspect) -> Markup {
+fn panel(grid: &Grid<'_>, rows: &DriverRows<'_>, aspect: Aspect) -> Markup {
     const ROW: f64 = 24.0;
     const NAMES: f64 = 96.0;
     const ZERO: f64 = 30.0;
@@ -329,14 +329,14 @@ mod tests {
                 mean,
                 max,
             };
-            let figures = vec![Figures {
+            let figures = vec![DriverFigures {
                 legal: Some(legal),
-                ..Figures::default()
+                ..DriverFigures::default()
             }];
             (("blend", Aspect::Color, encoding), figures)
         };
         let [eight, float] = [ChannelEncoding::Unorm(8), ChannelEncoding::Float32];
-        let rows: Rows<'_> = [
+        let rows: DriverRows<'_> = [
             row(Some(eight), 0.51, 1.0),
             row(Some(float), 83_886.08, 4_294_967_296.0),
             row(None, 1.0, 7.0),

@@ -62,14 +62,14 @@ fn best<'a>(methods: &Methods<'a>) -> Vec<Best<'a>> {
 }
 
 /// A method on an adapter with its error.
-type Candidate<'s, 'a> = (&'s Series<'a>, &'s Point<'a>, f64);
+type RankedMethod<'s, 'a> = (&'s Series<'a>, &'s Point<'a>, f64);
 
 fn candidates<'s, 'a>(
     methods: &'s Methods<'a>,
     scene: &'s SceneSeries<'a>,
     setting: &'s Setting<'a>,
     kind: Kind,
-) -> impl Iterator<Item = Candidate<'s, 'a>> {
+) -> impl Iterator<Item = RankedMethod<'s, 'a>> {
     let of_kind = scene
         .at(setting)
         .filter(move |(_, p)| methods.adapters[p.adapter].kind == kind);
@@ -77,7 +77,7 @@ fn candidates<'s, 'a>(
 }
 
 /// The most accurate method; if several are equal, the fastest of them.
-fn accurate<'s, 'a, 'c>(candidates: &'c [Candidate<'s, 'a>]) -> Option<&'c Candidate<'s, 'a>> {
+fn accurate<'s, 'a, 'c>(candidates: &'c [RankedMethod<'s, 'a>]) -> Option<&'c RankedMethod<'s, 'a>> {
     let time = |point: &Point<'_>| point.wall().unwrap_or(f64::INFINITY);
     candidates
         .iter()
@@ -87,7 +87,7 @@ fn accurate<'s, 'a, 'c>(candidates: &'c [Candidate<'s, 'a>]) -> Option<&'c Candi
         })
 }
 
-fn fast<'a>(methods: &Methods<'a>, candidates: &[Candidate<'_, 'a>]) -> Fast<'a> {
+fn fast<'a>(methods: &Methods<'a>, candidates: &[RankedMethod<'_, 'a>]) -> Fast<'a> {
     let first = candidates.first().map(|(series, ..)| series.method);
     if candidates
         .iter()

@@ -29,7 +29,7 @@ pub(super) fn best_place(values: &[f64], least: usize) -> Option<usize> {
 fn inner_distances<'a>(values: impl Iterator<Item = &'a f64> + Clone) -> Vec<f64> {
     let mut sorted: Vec<f64> = values.clone().copied().collect();
     sorted.sort_unstable_by(f64::total_cmp);
-    let mut seen = Seen(vec![(0.0, 0.0); sorted.len() + 1]);
+    let mut seen = RankSums(vec![(0.0, 0.0); sorted.len() + 1]);
     let mut total = 0.0;
     let (mut count, mut sum) = (0.0, 0.0);
     let mut sums = vec![0.0];
@@ -46,9 +46,9 @@ fn inner_distances<'a>(values: impl Iterator<Item = &'a f64> + Clone) -> Vec<f64
 }
 
 /// Counts and sums of the values so far, by rank from 1.
-struct Seen(Vec<(f64, f64)>);
+struct RankSums(Vec<(f64, f64)>);
 
-impl Seen {
+impl RankSums {
     fn add(&mut self, rank: usize, value: f64) {
         let mut node = rank;
         while let Some((count, sum)) = self.0.get_mut(node) {

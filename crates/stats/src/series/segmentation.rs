@@ -72,7 +72,7 @@ fn split(sums: &Sums, from: usize, to: usize, level: f64, found: &mut BTreeSet<u
 }
 
 /// A change between its neighbours.
-struct Candidate {
+struct CandidateChange {
     place: usize,
     holds: bool,
     /// The size of the test's statistic.
@@ -84,7 +84,7 @@ fn remove(sums: &Sums, found: &mut BTreeSet<usize>) {
     let runs = sums.values().len();
     let mut places: Vec<usize> = found.iter().copied().collect();
     let judged = |places: &[usize], index: usize| judge(sums, places, index, runs);
-    let mut candidates: Vec<Candidate> = (0..places.len())
+    let mut candidates: Vec<CandidateChange> = (0..places.len())
         .map(|index| judged(&places, index))
         .collect();
     loop {
@@ -108,7 +108,7 @@ fn remove(sums: &Sums, found: &mut BTreeSet<usize>) {
 
 /// Tests a change between the nearest changes that are far enough from it. Out of changes that are too near
 /// to each other, the one with the most evidence remains.
-fn judge(sums: &Sums, places: &[usize], index: usize, runs: usize) -> Candidate {
+fn judge(sums: &Sums, places: &[usize], index: usize, runs: usize) -> CandidateChange {
     let place = places[index];
     let before = places[..index].iter().rev();
     let after = places[index + 1..].iter();
@@ -121,7 +121,7 @@ fn judge(sums: &Sums, places: &[usize], index: usize, runs: usize) -> Candidate 
         .chain([runs])
         .find(|other| other - place >= MIN_RUNS);
     let (Some(from), Some(to)) = (from, to) else {
-        return Candidate {
+        return CandidateChange {
             place,
             holds: false,
             evidence: 0.0,
@@ -130,7 +130,7 @@ fn judge(sums: &Sums, places: &[usize], index: usize, runs: usize) -> Candidate 
     let test = test(sums, from, place, to);
     let alone = places[..index].last().is_none_or(|other| *other == from)
         && places.get(index + 1).is_none_or(|other| *other == to);
-    Candidate {
+    CandidateChange {
         place,
         holds: alone && test.shift.abs() >= STEP.ln() && test.p_of_any_place() <= LEVEL,
         evidence: test.shift.abs() / test.error,

@@ -44,7 +44,7 @@ pub(crate) struct Arguments {
 }
 
 /// A run, and whether it was added.
-struct Told<'a> {
+struct AddedRun<'a> {
     path: &'a Path,
     run: &'a NewRun,
     id: RunId,
@@ -78,7 +78,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
                 }
                 Err(error) => return Err(failure(error)),
             };
-            let line = Told {
+            let line = AddedRun {
                 path,
                 run,
                 id,
@@ -184,7 +184,7 @@ fn place_undated(runs: &mut [NewRun]) -> Vec<String> {
     undated
 }
 
-impl Told<'_> {
+impl AddedRun<'_> {
     fn records(&self) -> usize {
         self.run.adapters.iter().map(|a| a.outcomes.len()).sum()
     }

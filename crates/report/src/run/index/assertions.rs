@@ -10,7 +10,7 @@ use maud::{Markup, html};
 use std::collections::BTreeMap;
 
 pub(crate) fn section(grid: &Grid<'_>) -> Markup {
-    let rows: Vec<Figures<'_>> = grid.areas.iter().flat_map(|a| figures(grid, a)).collect();
+    let rows: Vec<SharedFigures<'_>> = grid.areas.iter().flat_map(|a| figures(grid, a)).collect();
     html! {
         section id="asserted" {
             h2 { "What was asserted" }
@@ -61,7 +61,7 @@ fn counters(grid: &Grid<'_>) -> Markup {
 }
 
 /// Adapters with the same figures of an area and aspect.
-struct Figures<'a> {
+struct SharedFigures<'a> {
     area: &'a str,
     aspect: Aspect,
     adapters: Vec<&'a str>,
@@ -72,7 +72,7 @@ struct Figures<'a> {
 
 /// Grouped by the figures as they are shown: an adapter that lacks a case or two does not stand
 /// apart for that.
-fn figures<'a>(grid: &Grid<'a>, area: &Area<'a>) -> Vec<Figures<'a>> {
+fn figures<'a>(grid: &Grid<'a>, area: &Area<'a>) -> Vec<SharedFigures<'a>> {
     let mut sums: BTreeMap<(Aspect, usize), Assertion> = BTreeMap::new();
     for column in 0..grid.adapters.len() {
         for assertion in area.on(column).flat_map(|i| &grid.record(i).assertions) {
@@ -88,7 +88,7 @@ fn figures<'a>(grid: &Grid<'a>, area: &Area<'a>) -> Vec<Figures<'a>> {
     let groups = grouped(shown).into_iter();
     let figures = groups.map(|((aspect, shown), adapters)| {
         let channels = || adapters.iter().map(|(_, channels)| *channels);
-        Figures {
+        SharedFigures {
             area: area.name,
             aspect,
             channels: [channels().min(), channels().max()].map(Option::unwrap_or_default),
@@ -111,8 +111,8 @@ fn shown(sum: &Assertion) -> [String; 6] {
     ]
 }
 
-fn asserted<'a>(grid: &'a Grid<'a>) -> Table<'a, Figures<'a>> {
-    let mut table = Table::<Figures<'_>>::new("figures")
+fn asserted<'a>(grid: &'a Grid<'a>) -> Table<'a, SharedFigures<'a>> {
+    let mut table = Table::<SharedFigures<'_>>::new("figures")
         .spoken("What was asserted of channels, by area and aspect")
         .head("Area", |f| f.area)
         .text("Aspect", |f| f.aspect.name())

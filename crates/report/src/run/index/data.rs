@@ -155,14 +155,14 @@ fn cells(grid: &Grid<'_>) -> (Vec<Cell>, HashMap<(Verdict, Tone), char>) {
 }
 
 /// All lists of facts, the list of every record by its position in the run, all texts, and all labels.
-type Facts = (
+type FactLists = (
     Interner<Vec<usize>>,
     Vec<usize>,
     Interner<String>,
     Interner<Label>,
 );
 
-fn facts_of_all(grid: &Grid<'_>) -> Facts {
+fn facts_of_all(grid: &Grid<'_>) -> FactLists {
     let records = &grid.run.records;
     let mut texts: Interner<String> = Interner::default();
     let mut labels = Interner::default();

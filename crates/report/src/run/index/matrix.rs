@@ -16,7 +16,7 @@ const FILE_CELLS: usize = 40_000;
 const LYING: usize = 8;
 
 /// Columns under one head.
-type Group<'a> = (&'a str, Vec<usize>);
+type ColumnGroup<'a> = (&'a str, Vec<usize>);
 
 /// The section: areas and their case files by API, then areas by driver.
 pub(crate) fn section(grid: &Grid<'_>) -> Markup {
@@ -52,7 +52,7 @@ pub(crate) fn section(grid: &Grid<'_>) -> Markup {
     }
 }
 
-fn table(grid: &Grid<'_>, groups: &[Group<'_>], caption: &str, files: bool) -> Markup {
+fn table(grid: &Grid<'_>, groups: &[ColumnGroup<'_>], caption: &str, files: bool) -> Markup {
     let columns: Vec<usize> = groups.iter().flat_map(|(_, c)| c).copied().collect();
     // The first column of each group has an edge.
     let edges: Vec<usize> = groups
