@@ -119,7 +119,7 @@ impl Backend for BrowserBackend {
         }
         let recorded = self.options.record.then(|| list.clone());
         let (places, contents) = take_contents(&mut list);
-        Ok(Box::new(PreparedScene {
+        Ok(Box::new(PageScene {
             backend: self,
             slot: step(&self.next_slot),
             list,
@@ -167,7 +167,7 @@ fn step(counter: &Cell<u64>) -> u64 {
 }
 
 /// A scene. The page has its list after the first frame.
-struct PreparedScene<'a> {
+struct PageScene<'a> {
     backend: &'a BrowserBackend,
     slot: u64,
     list: CallList,
@@ -181,7 +181,7 @@ struct PreparedScene<'a> {
     frame: Option<Vec<u8>>,
 }
 
-impl PreparedScene<'_> {
+impl PageScene<'_> {
     /// Draws frames, and reads the last one if `read` is true. A page that was opened again draws anew.
     fn ask(&mut self, frames: u32, read: bool) -> Result<(Vec<Times>, Vec<u8>), BackendError> {
         let backend = self.backend;
@@ -235,7 +235,7 @@ impl PreparedScene<'_> {
     }
 }
 
-impl Prepared for PreparedScene<'_> {
+impl Prepared for PageScene<'_> {
     fn submit(&mut self) -> Result<FrameTime, BackendError> {
         // The first frame is read in the same message, since most scenes are drawn once.
         let read = !self.submitted;
@@ -276,7 +276,7 @@ impl Prepared for PreparedScene<'_> {
     }
 }
 
-impl Drop for PreparedScene<'_> {
+impl Drop for PageScene<'_> {
     fn drop(&mut self) {
         if self.known {
             self.backend.dropped.borrow_mut().push(self.slot);

@@ -17,10 +17,10 @@ use std::sync::atomic::Ordering;
 use std::sync::{Mutex, PoisonError};
 
 /// One way to fail.
-pub(crate) type Group = etalon_diagnose::Group<Kept>;
+pub(crate) type Group = etalon_diagnose::Group<KeptScene>;
 
 /// The first scene of a group, reduced.
-pub(crate) struct Kept {
+pub(crate) struct KeptScene {
     pub(crate) adapter: String,
     /// The number of the scene.
     pub(crate) index: u64,
@@ -36,7 +36,7 @@ pub(crate) struct Kept {
 
 /// The failing scenes of one adapter.
 pub(crate) struct FailingScenes<'a> {
-    groups: Groups<Kept>,
+    groups: Groups<KeptScene>,
     out: &'a OutputFolder,
     reducer: Reducer<'a>,
 }
@@ -140,7 +140,7 @@ impl<'a> FailingScenes<'a> {
         let name = file_name(&id, "");
         let name = format!("{FOUND}/{}.json", name.trim_end_matches('.'));
         let file = write(self.out, &name, &described)?;
-        let kept = Kept {
+        let kept = KeptScene {
             adapter,
             index,
             sentence: reduced.sentence(),

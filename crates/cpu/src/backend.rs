@@ -12,7 +12,7 @@ use crate::prepared::PreparedScene;
 use crate::raster::SAMPLES;
 use crate::steps::Faithful;
 use crate::surface::depth_encoding;
-use crate::tiles::{Machine, Plan, TiledScene, lines};
+use crate::tiles::{KernelPlan, Machine, TiledScene, lines};
 use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared};
 use etalon_frame::{
     Api, ApiVersion, Feature, FormatSupport, Limits, PathValue, Property, ReadPath, TextureFormat,
@@ -102,7 +102,7 @@ pub fn kernels(scene: &Scene) -> Vec<String> {
 /// # Errors
 /// The reason why the span code draws the scene.
 pub fn in_tiles(scene: &Scene, machine: Machine) -> Result<impl Prepared + use<>, &'static str> {
-    let plan = Plan::new(scene, 0)?;
+    let plan = KernelPlan::new(scene, 0)?;
     Ok(TiledScene::new(scene.clone(), plan, machine))
 }
 
@@ -120,7 +120,7 @@ impl Backend for CpuBackend {
             return Err(BackendError::NotSupported(missing));
         }
         if let Some(machine) = self.tiles
-            && let Ok(plan) = Plan::new(scene, LEAST_TEXELS)
+            && let Ok(plan) = KernelPlan::new(scene, LEAST_TEXELS)
         {
             return Ok(Box::new(TiledScene::new(scene.clone(), plan, machine)));
         }

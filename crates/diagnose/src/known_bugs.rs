@@ -25,7 +25,7 @@ const STANDING: usize = 3;
 /// The driver that failed. It draws cases of findings, and reduces failures.
 pub trait Driver {
     /// A case that findings can name.
-    type NamedCase;
+    type Named;
     /// A case that was drawn.
     type Case;
     /// The reason why the driver can no longer be used.
@@ -206,7 +206,10 @@ impl<D: Driver> KnownBugs<D> {
         // The bug can also show in other parts.
         let parts: &[ComparedAttachments] = match part {
             ComparedAttachments::All => &[ComparedAttachments::All],
-            _ => &[ComparedAttachments::Color, ComparedAttachments::DepthStencil],
+            _ => &[
+                ComparedAttachments::Color,
+                ComparedAttachments::DepthStencil,
+            ],
         };
         for number in self.standing.clone() {
             for part in parts {
@@ -310,7 +313,11 @@ impl<D: Driver> KnownBugs<D> {
 
     /// Draws a case, and reduces it if it fails as the finding says and is useful for a failure with these
     /// traits.
-    fn reduced(&mut self, place: (usize, ComparedAttachments), traits: &Traits) -> Result<(), D::Error> {
+    fn reduced(
+        &mut self,
+        place: (usize, ComparedAttachments),
+        traits: &Traits,
+    ) -> Result<(), D::Error> {
         if self.driver.is_stopped() {
             return Ok(());
         }
@@ -342,7 +349,10 @@ impl<D: Driver> KnownBugs<D> {
     }
 
     /// Draws a part of a case. Returns it if it fails as a finding says.
-    fn drawn(&mut self, place: (usize, ComparedAttachments)) -> Result<Option<DrawnCase<D::Case>>, D::Error> {
+    fn drawn(
+        &mut self,
+        place: (usize, ComparedAttachments),
+    ) -> Result<Option<DrawnCase<D::Case>>, D::Error> {
         let (number, part) = place;
         let document = self.driver.document(&self.named[number].case);
         let Some(document) = document.and_then(|document| part.of_document(document)) else {

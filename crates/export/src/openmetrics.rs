@@ -18,7 +18,7 @@ pub(crate) const FRAME: &str = "etalon_frame_seconds";
 pub(crate) const RULER: &str = "etalon_ruler_seconds";
 
 /// Samples in ascending time: seconds since 1970, and a value.
-type Samples = Vec<(i64, f64)>;
+type MetricSamples = Vec<(i64, f64)>;
 
 /// The times whose medians are written.
 const TIMES: [Time; 4] = [Time::Wall, Time::Cpu, Time::Gpu, Time::ReadBack];
@@ -113,7 +113,7 @@ fn samples(
     key: &SeriesKey,
     runs: &HashSet<RunId>,
     metric: &str,
-) -> Result<Vec<(String, Samples)>, ExportError> {
+) -> Result<Vec<(String, MetricSamples)>, ExportError> {
     let case = history.case_name(key.case)?;
     let machine = machine(history, key.machine);
     let mut found = Vec::new();

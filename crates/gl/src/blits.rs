@@ -3,8 +3,8 @@
 //! The source is the framebuffer that was drawn to; its read buffer is the attachment. A colour attachment is
 //! copied to two draw buffers, and the second is read.
 
-use crate::pool::Target;
-use crate::read::{Reading, Source, bits, spoil};
+use crate::pool::PassTarget;
+use crate::read::{ReadObjects, ReadSource, bits, spoil};
 use crate::state;
 use crate::surface::{Surface, SurfaceKind};
 use etalon_backend::{BackendError, Blit, Blits};
@@ -13,13 +13,13 @@ use glow::HasContext;
 
 /// The destination of blits: a framebuffer and its surfaces. The last surface is read.
 struct Destination {
-    target: Target,
+    target: PassTarget,
     surfaces: Vec<Surface>,
 }
 
-impl Reading<'_> {
+impl ReadObjects<'_> {
     /// Returns the images of an attachment after blits that move its texels.
-    pub(crate) fn moved(&mut self, source: &Source<'_>) -> Result<Vec<Image>, BackendError> {
+    pub(crate) fn moved(&mut self, source: &ReadSource<'_>) -> Result<Vec<Image>, BackendError> {
         let Some(blits) = Blits::new(source.end, source.size) else {
             return self.images_of(source);
         };
@@ -41,7 +41,7 @@ impl Reading<'_> {
 
     /// Returns the images of a colour attachment after a blit with a linear filter. The filter averages each
     /// texel with a texel of zeros, and the result is doubled.
-    pub(crate) fn filtered(&mut self, source: &Source<'_>) -> Result<Vec<Image>, BackendError> {
+    pub(crate) fn filtered(&mut self, source: &ReadSource<'_>) -> Result<Vec<Image>, BackendError> {
         let [width, height] = source.size;
         let wide = self.destination(source, [2 * width, height], 1)?;
         let narrow = self.destination(source, source.size, 1)?;
@@ -83,7 +83,7 @@ impl Reading<'_> {
     /// Returns a destination with `count` surfaces of the source's format.
     fn destination(
         &mut self,
-        source: &Source<'_>,
+        source: &ReadSource<'_>,
         size: [u32; 2],
         count: usize,
     ) -> Result<Destination, BackendError> {
@@ -137,12 +137,12 @@ impl Reading<'_> {
     /// Reads the last surface of a destination, and returns it to the pool.
     fn read(
         &mut self,
-        source: &Source<'_>,
+        source: &ReadSource<'_>,
         destination: Destination,
         blits: Option<Blits>,
     ) -> Result<Vec<Image>, BackendError> {
         let images = match destination.surfaces.last() {
-            Some(surface) => self.images_of(&Source {
+            Some(surface) => self.images_of(&ReadSource {
                 surface,
                 end: PathEnd::Store,
                 blits,

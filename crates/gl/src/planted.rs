@@ -14,7 +14,7 @@ thread_local! {
     static PLANTED: RefCell<Option<Planted>> = const { RefCell::new(None) };
 }
 
-type Pointer = *const c_void;
+type PlantedPointer = *const c_void;
 
 /// The driver's functions, and the observed state of the calls.
 #[derive(Default)]
@@ -57,7 +57,7 @@ pub(crate) fn arm(fault: Option<Fault>) {
 }
 
 /// Returns the address that the backend finds for an entry point.
-pub(crate) fn address(name: &CStr, address: Pointer) -> Pointer {
+pub(crate) fn address(name: &CStr, address: PlantedPointer) -> PlantedPointer {
     PLANTED.with_borrow_mut(|planted| match planted {
         Some(planted) if !address.is_null() => replaced(planted, &name.to_string_lossy(), address),
         _ => address,
@@ -92,14 +92,14 @@ macro_rules! functions {
 
         /// Returns the address of the function that has the fault, or `address` if no function replaces this
         /// name.
-        fn replaced(planted: &mut Planted, name: &str, address: Pointer) -> Pointer {
+        fn replaced(planted: &mut Planted, name: &str, address: PlantedPointer) -> PlantedPointer {
             match name {
                 $(stringify!($name) $(| stringify!($alias))* => {
                     type Function = unsafe extern "system" fn($($kind),*);
                     // SAFETY: the specification gives this name this type, and the address is not null.
-                    let function = unsafe { std::mem::transmute::<Pointer, Function>(address) };
+                    let function = unsafe { std::mem::transmute::<PlantedPointer, Function>(address) };
                     planted.driver.$name = Some(function);
-                    faulty::$name as Pointer
+                    faulty::$name as PlantedPointer
                 })+
                 _ => address,
             }
@@ -209,9 +209,9 @@ functions! {
             format = planted.stored;
         }
     }
-    before glShaderSource(shader: u32, count: i32, strings: *const Pointer, lengths: *const i32) |planted| {
+    before glShaderSource(shader: u32, count: i32, strings: *const PlantedPointer, lengths: *const i32) |planted| {
         let text: String;
-        let (start, length): (Pointer, i32);
+        let (start, length): (PlantedPointer, i32);
         if planted.calls.has(CallFault::LayerUnwritten) && count == 1 && !lengths.is_null() {
             // SAFETY: the string has this length.
             let bytes = unsafe { slice::from_raw_parts((*strings).cast::<u8>(), *lengths as usize) };
@@ -223,7 +223,7 @@ functions! {
     before glReadBuffer(buffer: u32) |planted| {
         planted.read = buffer;
     }
-    before glReadPixels(x: i32, y: i32, w: i32, h: i32, format: u32, kind: u32, pixels: Pointer) |planted| {
+    before glReadPixels(x: i32, y: i32, w: i32, h: i32, format: u32, kind: u32, pixels: PlantedPointer) |planted| {
         if planted.calls.has(CallFault::ReadBufferFirst) && planted.read > glow::COLOR_ATTACHMENT0 {
             driver!(planted.driver, glReadBuffer(glow::COLOR_ATTACHMENT0));
         }
@@ -400,14 +400,14 @@ functions! {
         planted.blits = 0;
     }
     before glMultiDrawArraysIndirectCount | glMultiDrawArraysIndirectCountARB(
-        mode: u32, place: Pointer, count: isize, most: i32, stride: i32
+        mode: u32, place: PlantedPointer, count: isize, most: i32, stride: i32
     ) |planted| {
         if planted.calls.has(CallFault::IndirectFewer) {
             return;
         }
     }
     before glMultiDrawElementsIndirectCount | glMultiDrawElementsIndirectCountARB(
-        mode: u32, kind: u32, place: Pointer, count: isize, most: i32, stride: i32
+        mode: u32, kind: u32, place: PlantedPointer, count: isize, most: i32, stride: i32
     ) |planted| {
         if planted.calls.has(CallFault::IndirectFewer) {
             return;
@@ -429,23 +429,23 @@ functions! {
             driver!(driver, glDrawArraysInstancedBaseInstance(mode, first, numbers.count, instances, base));
         });
     }
-    instead glDrawElements(mode: u32, count: i32, kind: u32, start: Pointer) |planted| {
+    instead glDrawElements(mode: u32, count: i32, kind: u32, start: PlantedPointer) |planted| {
         planted.draw(elements(mode, count, kind, start), |driver, numbers| {
             driver!(driver, glDrawElements(mode, numbers.count, kind, place(numbers, kind)));
         });
     }
-    instead glDrawElementsBaseVertex(mode: u32, count: i32, kind: u32, at: Pointer, base_vertex: i32) |planted| {
+    instead glDrawElementsBaseVertex(mode: u32, count: i32, kind: u32, at: PlantedPointer, base_vertex: i32) |planted| {
         planted.draw(DrawNumbers { base_vertex, ..elements(mode, count, kind, at) }, |driver, numbers| {
             driver!(driver, glDrawElementsBaseVertex(mode, numbers.count, kind, place(numbers, kind), numbers.base_vertex));
         });
     }
-    instead glDrawElementsInstanced(mode: u32, count: i32, kind: u32, at: Pointer, instances: i32) |planted| {
+    instead glDrawElementsInstanced(mode: u32, count: i32, kind: u32, at: PlantedPointer, instances: i32) |planted| {
         planted.draw(DrawNumbers { instances, ..elements(mode, count, kind, at) }, |driver, numbers| {
             driver!(driver, glDrawElementsInstanced(mode, numbers.count, kind, place(numbers, kind), numbers.instances));
         });
     }
     instead glDrawElementsInstancedBaseVertex(
-        mode: u32, count: i32, kind: u32, at: Pointer, instances: i32, base_vertex: i32
+        mode: u32, count: i32, kind: u32, at: PlantedPointer, instances: i32, base_vertex: i32
     ) |planted| {
         planted.draw(DrawNumbers { instances, base_vertex, ..elements(mode, count, kind, at) }, |driver, numbers| {
             let (start, instances, base) = (place(numbers, kind), numbers.instances, numbers.base_vertex);
@@ -453,7 +453,7 @@ functions! {
         });
     }
     instead glDrawElementsInstancedBaseVertexBaseInstance(
-        mode: u32, count: i32, kind: u32, at: Pointer, instances: i32, base_vertex: i32, first_instance: u32
+        mode: u32, count: i32, kind: u32, at: PlantedPointer, instances: i32, base_vertex: i32, first_instance: u32
     ) |planted| {
         let numbers = elements(mode, count, kind, at);
         planted.draw(DrawNumbers { instances, base_vertex, first_instance, ..numbers }, |driver, numbers| {
@@ -479,7 +479,7 @@ fn arrays(mode: u32, count: i32) -> DrawNumbers {
 }
 
 /// Returns the numbers of a draw with indices of this type, which begin at this offset.
-fn elements(mode: u32, count: i32, kind: u32, place: Pointer) -> DrawNumbers {
+fn elements(mode: u32, count: i32, kind: u32, place: PlantedPointer) -> DrawNumbers {
     DrawNumbers {
         indexed: true,
         first: (place.addr() / index_bytes(kind)) as i32,
@@ -488,7 +488,7 @@ fn elements(mode: u32, count: i32, kind: u32, place: Pointer) -> DrawNumbers {
 }
 
 /// Returns the offset of the first index, as a pointer.
-fn place(numbers: &DrawNumbers, kind: u32) -> Pointer {
+fn place(numbers: &DrawNumbers, kind: u32) -> PlantedPointer {
     ptr::without_provenance(numbers.first as usize * index_bytes(kind))
 }
 

@@ -12,7 +12,7 @@ use crate::path::{self, Variant};
 use crate::pool::Pool;
 use crate::program::FragmentForm;
 use crate::query::Query;
-use crate::read::{Reading, Source};
+use crate::read::{ReadObjects, ReadSource};
 use crate::recording;
 use crate::state::{self, DrawState};
 use crate::surface::{Surface, SurfaceKind, upload};
@@ -457,7 +457,7 @@ impl<'a> PreparedScene<'a> {
 
     fn frame(&self) -> Result<Frame, BackendError> {
         let (context, objects) = (self.context, self.objects);
-        let mut reading = Reading {
+        let mut reading = ReadObjects {
             context,
             pool: &mut objects.pool.borrow_mut(),
             programs: &mut objects.programs.borrow_mut(),
@@ -476,7 +476,7 @@ impl<'a> PreparedScene<'a> {
                     index.to_string(),
                 ));
             };
-            frame.images.extend(reading.images(&Source {
+            frame.images.extend(reading.images(&ReadSource {
                 name: &attachment.name,
                 format: attachment.format,
                 plan: support.read,

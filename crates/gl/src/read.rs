@@ -15,7 +15,7 @@ use etalon_frame::{Aspect, ChannelEncoding, Image, PathEnd, ReadPath, TextureFor
 use glow::HasContext;
 
 /// The objects that reading needs in addition to the surface.
-pub(crate) struct Reading<'a> {
+pub(crate) struct ReadObjects<'a> {
     pub(crate) context: &'a Context,
     pub(crate) pool: &'a mut Pool,
     pub(crate) programs: &'a mut Programs,
@@ -27,7 +27,7 @@ pub(crate) struct Reading<'a> {
 type DepthStencil = (Option<Vec<u32>>, Option<Vec<u32>>);
 
 /// An attachment to read.
-pub(crate) struct Source<'a> {
+pub(crate) struct ReadSource<'a> {
     pub(crate) name: &'a str,
     pub(crate) format: TextureFormat,
     pub(crate) plan: ReadPlan,
@@ -43,7 +43,7 @@ pub(crate) struct Source<'a> {
     pub(crate) blits: Option<Blits>,
 }
 
-impl Source<'_> {
+impl ReadSource<'_> {
     /// Returns true if a shader fetches the texels. Multisampled attachments always are, since a copy would
     /// resolve them.
     fn is_fetched(&self) -> bool {
@@ -83,16 +83,16 @@ fn piece(place: [u32; 2], size: [u32; 2]) -> Piece {
     }
 }
 
-impl Reading<'_> {
+impl ReadObjects<'_> {
     /// Returns the images of all aspects of an attachment, depth before stencil.
-    pub(crate) fn images(&mut self, source: &Source<'_>) -> Result<Vec<Image>, BackendError> {
+    pub(crate) fn images(&mut self, source: &ReadSource<'_>) -> Result<Vec<Image>, BackendError> {
         let images = self.images_at(source)?;
         recording::images(&images);
         Ok(images)
     }
 
     /// Returns the images, read from a copy if the path has one.
-    fn images_at(&mut self, source: &Source<'_>) -> Result<Vec<Image>, BackendError> {
+    fn images_at(&mut self, source: &ReadSource<'_>) -> Result<Vec<Image>, BackendError> {
         match source.end {
             PathEnd::Copy | PathEnd::Blit => {}
             PathEnd::BlitMirrored | PathEnd::BlitScaled | PathEnd::BlitPart => {
@@ -113,7 +113,7 @@ impl Reading<'_> {
             PathEnd::Copy => copy_image(context, source.surface, &surface),
             _ => blit(context, source.format, source.surface, &surface),
         }
-        let images = self.images_of(&Source {
+        let images = self.images_of(&ReadSource {
             surface: &surface,
             end: PathEnd::Store,
             ..*source
@@ -122,7 +122,10 @@ impl Reading<'_> {
         images
     }
 
-    pub(crate) fn images_of(&mut self, source: &Source<'_>) -> Result<Vec<Image>, BackendError> {
+    pub(crate) fn images_of(
+        &mut self,
+        source: &ReadSource<'_>,
+    ) -> Result<Vec<Image>, BackendError> {
         let image = |aspect, channels, read, codes| Image {
             attachment: source.name.to_owned(),
             aspect,
@@ -157,21 +160,21 @@ impl Reading<'_> {
     }
 
     /// Returns the codes of a colour surface.
-    fn color(&mut self, source: &Source<'_>) -> Result<Vec<u32>, BackendError> {
+    fn color(&mut self, source: &ReadSource<'_>) -> Result<Vec<u32>, BackendError> {
         let mut codes = self.stored_color(source)?;
         self.plant(source, source.format.color_channels(), &mut codes);
         Ok(codes)
     }
 
     /// Applies the fault that a test plants.
-    fn plant(&self, source: &Source<'_>, channels: &[ChannelEncoding], codes: &mut [u32]) {
+    fn plant(&self, source: &ReadSource<'_>, channels: &[ChannelEncoding], codes: &mut [u32]) {
         if let Some(Fault::Read(fault)) = self.context.fault {
             fault.apply(codes, source.size, source.surface.samples(), channels);
         }
     }
 
     /// Returns the codes of a colour surface. Multisampled surfaces are always fetched.
-    fn stored_color(&mut self, source: &Source<'_>) -> Result<Vec<u32>, BackendError> {
+    fn stored_color(&mut self, source: &ReadSource<'_>) -> Result<Vec<u32>, BackendError> {
         let format = source.format;
         let channels = format.color_channels();
         if !source.is_fetched() && source.plan != ReadPlan::Fetched {
@@ -191,19 +194,19 @@ impl Reading<'_> {
     /// Returns the codes of depths that a shader fetches.
     fn fetched_depth(
         &mut self,
-        source: &Source<'_>,
+        source: &ReadSource<'_>,
         encoding: ChannelEncoding,
     ) -> Result<Vec<u32>, BackendError> {
         let wide = self.fetch(source, Reader::Floats, Aspect::Depth)?;
         Ok(narrowed(&wide, &[encoding]))
     }
 
-    fn fetched_stencil(&mut self, source: &Source<'_>) -> Result<Vec<u32>, BackendError> {
+    fn fetched_stencil(&mut self, source: &ReadSource<'_>) -> Result<Vec<u32>, BackendError> {
         let wide = self.fetch(source, Reader::Integers, Aspect::Stencil)?;
         Ok(wide.chunks_exact(4).map(|texel| texel[0]).collect())
     }
 
-    fn depth_stencil(&mut self, source: &Source<'_>) -> Result<DepthStencil, BackendError> {
+    fn depth_stencil(&mut self, source: &ReadSource<'_>) -> Result<DepthStencil, BackendError> {
         let format = source.format;
         let fetched = source.is_fetched();
         let (depth, stencil) = match source.plan {
@@ -243,7 +246,7 @@ impl Reading<'_> {
     /// texel in sequence.
     fn fetch(
         &mut self,
-        source: &Source<'_>,
+        source: &ReadSource<'_>,
         reader: Reader,
         aspect: Aspect,
     ) -> Result<Vec<u32>, BackendError> {
@@ -332,7 +335,11 @@ fn narrowed(wide: &[u32], channels: &[ChannelEncoding]) -> Vec<u32> {
 
 /// Reads a single-sample surface with `glReadPixels`: colour, depth, or else stencil, and the stencil if it
 /// is packed with depth.
-fn copy(context: &Context, source: &Source<'_>, plan: ReadPlan) -> (Vec<u32>, Option<Vec<u32>>) {
+fn copy(
+    context: &Context,
+    source: &ReadSource<'_>,
+    plan: ReadPlan,
+) -> (Vec<u32>, Option<Vec<u32>>) {
     let (surface, format) = (source.surface, source.format);
     let first = match (format.is_color(), plan) {
         (true, _) => Aspect::Color,

@@ -101,14 +101,14 @@ impl SurfaceKind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Storage {
     /// A part of a texture.
-    Texture(Part),
+    Texture(TexturePart),
     /// A renderbuffer.
     Renderbuffer(glow::Renderbuffer),
 }
 
 /// One image of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Part {
+pub(crate) struct TexturePart {
     pub(crate) texture: glow::Texture,
     /// The target that the texture is bound to.
     pub(crate) binding: u32,
@@ -117,7 +117,7 @@ pub(crate) struct Part {
     pub(crate) layer: i32,
 }
 
-impl Part {
+impl TexturePart {
     /// Returns the only image of a texture.
     fn whole(texture: glow::Texture, binding: u32) -> Self {
         Self {
@@ -196,7 +196,7 @@ impl Surface {
         let storage = match (kind, storage) {
             (SurfaceKind::Layered(_, layer, _), Storage::Texture(part)) => {
                 let layer = i32::from(layer);
-                Storage::Texture(Part { layer, ..part })
+                Storage::Texture(TexturePart { layer, ..part })
             }
             _ => storage,
         };
@@ -314,7 +314,7 @@ fn texture(
                 continue;
             }
             for layer in 0..shape.layers {
-                let image = Part { layer, ..part }.image();
+                let image = TexturePart { layer, ..part }.image();
                 gl.tex_image_2d(
                     image,
                     level,
@@ -366,8 +366,8 @@ struct TextureShape {
 
 impl TextureShape {
     /// Returns the part of a texture of this shape that is used.
-    fn part(self, texture: glow::Texture) -> Part {
-        Part {
+    fn part(self, texture: glow::Texture) -> TexturePart {
+        TexturePart {
             texture,
             binding: self.binding,
             level: self.level,
@@ -414,7 +414,11 @@ impl TextureShape {
 }
 
 /// Checks that the context supports textures of the size that the part needs.
-fn check_size(context: &Context, path: PathTarget, shape: TextureShape) -> Result<(), BackendError> {
+fn check_size(
+    context: &Context,
+    path: PathTarget,
+    shape: TextureShape,
+) -> Result<(), BackendError> {
     let name = match path {
         PathTarget::Plain | PathTarget::Renderbuffer => return Ok(()),
         PathTarget::MipLevel | PathTarget::ArrayLayer => glow::MAX_TEXTURE_SIZE,
@@ -456,7 +460,7 @@ fn multisample_texture(
             let internal = internal as i32;
             gl.tex_image_2d_multisample(target, samples, internal, width, height, true);
         }
-        Ok(Storage::Texture(Part::whole(texture, target)))
+        Ok(Storage::Texture(TexturePart::whole(texture, target)))
     }
 }
 
@@ -471,7 +475,7 @@ fn view(
     format: GlFormat,
     size: [u32; 2],
     stored: u32,
-) -> Result<(Part, glow::Texture), BackendError> {
+) -> Result<(TexturePart, glow::Texture), BackendError> {
     let gl = &context.gl;
     let samples = kind.samples();
     let mut shape = TextureShape::of(kind.target(), size);

@@ -2,7 +2,7 @@
 
 use crate::matching;
 use crate::parsing::{self, GlobError};
-use crate::step::Step;
+use crate::step::MatchStep;
 
 /// A parsed glob.
 #[derive(Clone, Debug)]
@@ -10,7 +10,7 @@ pub struct Glob {
     /// The text with which everything that matches begins.
     prefix: String,
     /// The steps between prefix and suffix.
-    steps: Vec<Step>,
+    steps: Vec<MatchStep>,
     /// The text with which everything that matches ends.
     suffix: String,
     /// True if a step is a jump.
@@ -24,8 +24,8 @@ impl Glob {
     /// If a bracket or a brace has no partner, a range is reversed, or a backslash ends the glob.
     pub fn new(glob: &str) -> Result<Self, GlobError> {
         let mut steps = parsing::steps(glob)?;
-        let plain = |step: &Step| match step {
-            Step::Char(c) => Some(*c),
+        let plain = |step: &MatchStep| match step {
+            MatchStep::Char(c) => Some(*c),
             _ => None,
         };
         let prefix: String = steps.iter().map_while(plain).collect();
@@ -34,7 +34,7 @@ impl Glob {
         // After the last target of a jump, every match takes the same steps.
         let mut joined = 0;
         for step in &mut steps {
-            if let Step::Jump(targets) = step {
+            if let MatchStep::Jump(targets) = step {
                 targets.iter_mut().for_each(|target| *target -= removed);
                 joined = targets
                     .iter()
@@ -46,7 +46,7 @@ impl Glob {
         steps.truncate(steps.len() - suffix.len());
         Ok(Self {
             prefix,
-            has_jumps: steps.iter().any(|step| matches!(step, Step::Jump(_))),
+            has_jumps: steps.iter().any(|step| matches!(step, MatchStep::Jump(_))),
             steps,
             suffix: suffix.into_iter().rev().collect(),
         })
@@ -89,13 +89,13 @@ impl Glob {
         // Steps before the last target of a jump can be left out.
         let mut joined = 0;
         for (number, step) in self.steps.iter().enumerate() {
-            if let Step::Jump(targets) = step {
+            if let MatchStep::Jump(targets) = step {
                 joined = targets
                     .iter()
                     .fold(joined, |last, target| last.max(*target));
             }
             match step {
-                Step::Char(c) if number >= joined => run.push(*c),
+                MatchStep::Char(c) if number >= joined => run.push(*c),
                 _ => literals.push(std::mem::take(&mut run)),
             }
         }

@@ -14,7 +14,7 @@ const LONGEST: usize = 4;
 pub struct GlobIndex {
     globs: Vec<(usize, Glob)>,
     /// The places in `globs` by the part under which they are filed.
-    parts: HashMap<Part, Vec<usize>>,
+    parts: HashMap<GlobPrefix, Vec<usize>>,
     /// The places of globs that can match texts without a common part.
     others: Vec<usize>,
     /// The numbers of globs that match exactly one text, by this text.
@@ -24,10 +24,10 @@ pub struct GlobIndex {
 }
 
 /// At most [`LONGEST`] bytes, after a 1 that marks their beginning.
-type Part = u64;
+type GlobPrefix = u64;
 
-fn part(bytes: &[u8]) -> Part {
-    let append = |part, byte: &u8| part << 8 | Part::from(*byte);
+fn part(bytes: &[u8]) -> GlobPrefix {
+    let append = |part, byte: &u8| part << 8 | GlobPrefix::from(*byte);
     bytes.iter().fold(1, append)
 }
 
@@ -62,7 +62,7 @@ impl GlobIndex {
         let lengths = (1..=LONGEST).filter(|length| self.lengths[*length]);
         let parts = lengths.flat_map(|length| text.as_bytes().windows(length).map(part));
         let filed = parts.filter_map(|part| Some((part, self.parts.get(&part)?)));
-        let mut filed: Vec<(Part, &Vec<usize>)> = filed.collect();
+        let mut filed: Vec<(GlobPrefix, &Vec<usize>)> = filed.collect();
         // A text can have a part twice.
         filed.sort_unstable_by_key(|(part, _)| *part);
         filed.dedup_by_key(|(part, _)| *part);

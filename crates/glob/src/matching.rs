@@ -1,9 +1,9 @@
 //! Matching: all steps that a text can have reached, character by character. Steps without a jump need only one of them.
 
-use crate::step::Step;
+use crate::step::MatchStep;
 
 /// Steps that can take the next character.
-struct Reached {
+struct ReachedSteps {
     steps: Vec<usize>,
     /// The number of characters before which each step was reached last, plus 1.
     marks: Vec<usize>,
@@ -12,14 +12,14 @@ struct Reached {
 }
 
 /// Returns true if the steps take the whole text. No step is a jump.
-pub(crate) fn is_match_without_jumps(steps: &[Step], text: &str) -> bool {
+pub(crate) fn is_match_without_jumps(steps: &[MatchStep], text: &str) -> bool {
     let (mut at, mut rest) = (0, text);
     // The step after the last star, and the text at which it was tried last. An earlier star never has to take more.
     let mut last: Option<(usize, &str)> = None;
     loop {
         let mut chars = rest.chars();
         match (steps.get(at), chars.next()) {
-            (Some(Step::Star), _) => {
+            (Some(MatchStep::Star), _) => {
                 at += 1;
                 last = Some((at, rest));
                 continue;
@@ -49,8 +49,8 @@ pub(crate) fn is_match_without_jumps(steps: &[Step], text: &str) -> bool {
 }
 
 /// Returns true if the steps take the whole text.
-pub(crate) fn is_match(steps: &[Step], text: &str) -> bool {
-    let mut reached = Reached {
+pub(crate) fn is_match(steps: &[MatchStep], text: &str) -> bool {
+    let mut reached = ReachedSteps {
         steps: Vec::new(),
         marks: vec![0; steps.len() + 1],
         open: Vec::new(),
@@ -64,7 +64,7 @@ pub(crate) fn is_match(steps: &[Step], text: &str) -> bool {
         std::mem::swap(&mut before, &mut reached.steps);
         for at in &before {
             let next = match steps.get(*at) {
-                Some(Step::Star) => Some(*at),
+                Some(MatchStep::Star) => Some(*at),
                 Some(step) => step.takes(c).then_some(at + 1),
                 None => None,
             };
@@ -79,17 +79,17 @@ pub(crate) fn is_match(steps: &[Step], text: &str) -> bool {
     reached.marks[steps.len()] == taken
 }
 
-impl Reached {
+impl ReachedSteps {
     /// Adds a step, and the ones that follow it without a character.
-    fn add(&mut self, steps: &[Step], first: usize, taken: usize) {
+    fn add(&mut self, steps: &[MatchStep], first: usize, taken: usize) {
         self.open.push(first);
         while let Some(at) = self.open.pop() {
             if std::mem::replace(&mut self.marks[at], taken) == taken {
                 continue;
             }
             match steps.get(at) {
-                Some(Step::Jump(targets)) => self.open.extend(targets),
-                Some(Step::Star) => {
+                Some(MatchStep::Jump(targets)) => self.open.extend(targets),
+                Some(MatchStep::Star) => {
                     self.steps.push(at);
                     self.open.push(at + 1);
                 }

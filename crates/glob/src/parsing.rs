@@ -1,6 +1,6 @@
 //! Parsing.
 
-use crate::step::Step;
+use crate::step::MatchStep;
 use std::iter::Peekable;
 use std::str::Chars;
 use thiserror::Error;
@@ -38,7 +38,7 @@ struct OpenBraces {
 }
 
 /// Returns the steps of a glob.
-pub(crate) fn steps(glob: &str) -> Result<Vec<Step>, GlobError> {
+pub(crate) fn steps(glob: &str) -> Result<Vec<MatchStep>, GlobError> {
     let mut steps = Vec::new();
     let mut lists: Vec<OpenBraces> = Vec::new();
     let mut chars = glob.chars().peekable();
@@ -55,15 +55,19 @@ pub(crate) fn steps(glob: &str) -> Result<Vec<Step>, GlobError> {
                 if began && stars == 2 && chars.next_if_eq(&'/').is_some() {
                     let fork = steps.len();
                     let targets = vec![fork + 1, fork + 3];
-                    steps.extend([Step::Jump(targets), Step::Star, Step::Char('/')]);
+                    steps.extend([
+                        MatchStep::Jump(targets),
+                        MatchStep::Star,
+                        MatchStep::Char('/'),
+                    ]);
                     begins = true;
                 } else {
-                    steps.push(Step::Star);
+                    steps.push(MatchStep::Star);
                 }
             }
-            '?' => steps.push(Step::Any),
+            '?' => steps.push(MatchStep::Any),
             '[' => steps.push(class(&mut chars)?),
-            '\\' => steps.push(Step::Char(chars.next().ok_or(GlobError::Backslash)?)),
+            '\\' => steps.push(MatchStep::Char(chars.next().ok_or(GlobError::Backslash)?)),
             '{' => {
                 lists.push(OpenBraces {
                     fork: steps.len(),
@@ -71,12 +75,12 @@ pub(crate) fn steps(glob: &str) -> Result<Vec<Step>, GlobError> {
                     ends: Vec::new(),
                     begins: began,
                 });
-                steps.push(Step::Jump(Vec::new()));
+                steps.push(MatchStep::Jump(Vec::new()));
                 begins = began;
             }
             ',' if let Some(list) = lists.last_mut() => {
                 list.ends.push(steps.len());
-                steps.push(Step::Jump(Vec::new()));
+                steps.push(MatchStep::Jump(Vec::new()));
                 list.starts.push(steps.len());
                 begins = list.begins;
             }
@@ -84,13 +88,13 @@ pub(crate) fn steps(glob: &str) -> Result<Vec<Step>, GlobError> {
                 let list = lists.pop().ok_or(GlobError::ClosedBrace)?;
                 let end = steps.len();
                 for jump in list.ends {
-                    steps[jump] = Step::Jump(vec![end]);
+                    steps[jump] = MatchStep::Jump(vec![end]);
                 }
-                steps[list.fork] = Step::Jump(list.starts);
+                steps[list.fork] = MatchStep::Jump(list.starts);
             }
             c => {
                 begins = c == '/';
-                steps.push(Step::Char(c));
+                steps.push(MatchStep::Char(c));
             }
         }
     }
@@ -102,13 +106,13 @@ pub(crate) fn steps(glob: &str) -> Result<Vec<Step>, GlobError> {
 }
 
 /// Parses a class after its `[`. A `]` that comes first, and a `-` at either end, are members of the class.
-fn class(chars: &mut Peekable<Chars<'_>>) -> Result<Step, GlobError> {
+fn class(chars: &mut Peekable<Chars<'_>>) -> Result<MatchStep, GlobError> {
     let negated = chars.next_if(|c| matches!(c, '!' | '^')).is_some();
     let mut ranges = Vec::new();
     loop {
         let first = chars.next().ok_or(GlobError::OpenClass)?;
         if first == ']' && !ranges.is_empty() {
-            return Ok(Step::Class { negated, ranges });
+            return Ok(MatchStep::Class { negated, ranges });
         }
         let mut last = first;
         let mut ahead = chars.clone();

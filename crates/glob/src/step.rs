@@ -2,7 +2,7 @@
 
 /// A step of a match. Without a jump, the next step follows.
 #[derive(Clone, Debug)]
-pub(crate) enum Step {
+pub(crate) enum MatchStep {
     /// Takes this character.
     Char(char),
     /// Takes any character.
@@ -18,7 +18,7 @@ pub(crate) enum Step {
     Jump(Vec<usize>),
 }
 
-impl Step {
+impl MatchStep {
     /// Returns true if a step for one character takes this one.
     pub(crate) fn takes(&self, c: char) -> bool {
         match self {

@@ -6,7 +6,7 @@
 //! no lock between queries: rows are never changed, so what a reader found at first stays true.
 
 use crate::error::HistoryError;
-use crate::schema::{self, Found, MIGRATIONS, SCHEMA};
+use crate::schema::{self, FoundSchema, MIGRATIONS, SCHEMA};
 use etalon_record::check_folder;
 use rusqlite::{Connection, OpenFlags};
 use std::fs::{self, File};
@@ -57,13 +57,13 @@ pub(crate) fn for_reading(path: &Path, patience: Duration) -> Result<Connection,
     let mut connection = open(path, OpenFlags::SQLITE_OPEN_READ_WRITE, patience)?;
     match schema::look(path, &connection)? {
         // Another process may be creating the file.
-        Found::Empty => {
+        FoundSchema::Empty => {
             return Err(HistoryError::None {
                 path: path.to_owned(),
             });
         }
-        Found::Schema(schema) if schema == SCHEMA => {}
-        Found::Schema(_) => schema::migrate(path, &mut connection, &MIGRATIONS)?,
+        FoundSchema::Schema(schema) if schema == SCHEMA => {}
+        FoundSchema::Schema(_) => schema::migrate(path, &mut connection, &MIGRATIONS)?,
     }
     let set = |name: &str, value: i64| {
         connection

@@ -18,7 +18,7 @@ pub const SCHEMA: u32 = MIGRATIONS.len() as u32;
 
 /// The state of a file that was opened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Found {
+pub(crate) enum FoundSchema {
     /// The file has no table.
     Empty,
     /// The file is a history with this schema.
@@ -26,7 +26,7 @@ pub(crate) enum Found {
 }
 
 /// Determines the state of a file.
-pub(crate) fn look(path: &Path, connection: &Connection) -> Result<Found, HistoryError> {
+pub(crate) fn look(path: &Path, connection: &Connection) -> Result<FoundSchema, HistoryError> {
     // A single statement reads one state of all three values: another process can create the tables between
     // two statements.
     let (application, schema, tables): (i32, i32, i64) = connection
@@ -38,10 +38,12 @@ pub(crate) fn look(path: &Path, connection: &Connection) -> Result<Found, Histor
         )
         .map_err(HistoryError::database(path))?;
     if application == APPLICATION {
-        return Ok(Found::Schema(u32::try_from(schema).unwrap_or(u32::MAX)));
+        return Ok(FoundSchema::Schema(
+            u32::try_from(schema).unwrap_or(u32::MAX),
+        ));
     }
     if application == 0 && schema == 0 && tables == 0 {
-        return Ok(Found::Empty);
+        return Ok(FoundSchema::Empty);
     }
     Err(HistoryError::Other {
         path: path.to_owned(),
@@ -59,8 +61,8 @@ pub(crate) fn migrate(
     loop {
         // Another process may migrate at the same time, so only what is read inside the transaction counts.
         let schema = match look(path, connection)? {
-            Found::Empty => 0,
-            Found::Schema(schema) => schema,
+            FoundSchema::Empty => 0,
+            FoundSchema::Schema(schema) => schema,
         };
         if schema > known {
             return Err(HistoryError::Newer {
@@ -74,8 +76,8 @@ pub(crate) fn migrate(
         }
         let step = Transaction::new(connection, TransactionBehavior::Immediate).map_err(&wrong)?;
         let now = match look(path, &step)? {
-            Found::Empty => 0,
-            Found::Schema(schema) => schema,
+            FoundSchema::Empty => 0,
+            FoundSchema::Schema(schema) => schema,
         };
         if now == schema
             && let Some(sql) = migrations.get(schema as usize)
@@ -108,7 +110,7 @@ mod tests {
             migrate(path, &mut connection, &MIGRATIONS[..from]).unwrap();
             migrate(path, &mut connection, &MIGRATIONS).unwrap();
             let found = look(path, &connection).unwrap();
-            assert_eq!(found, Found::Schema(SCHEMA));
+            assert_eq!(found, FoundSchema::Schema(SCHEMA));
             // Migrating again does nothing.
             migrate(path, &mut connection, &MIGRATIONS).unwrap();
         }
@@ -127,7 +129,7 @@ mod tests {
             let (mut maker, looker) = (open(), open());
             let path = path.as_path();
             thread::scope(|scope| {
-                scope.spawn(move || while look(path, &looker).unwrap() == Found::Empty {});
+                scope.spawn(move || while look(path, &looker).unwrap() == FoundSchema::Empty {});
                 migrate(path, &mut maker, &MIGRATIONS).unwrap();
             });
         }
@@ -144,7 +146,7 @@ mod tests {
             "ALTER TABLE a ADD COLUMN y; CREATE TABLE a (x)",
         ];
         migrate(path, &mut connection, &failing).unwrap_err();
-        assert_eq!(look(path, &connection).unwrap(), Found::Schema(1));
+        assert_eq!(look(path, &connection).unwrap(), FoundSchema::Schema(1));
         let steps = [
             "CREATE TABLE a (x)",
             "ALTER TABLE a ADD COLUMN y",
@@ -155,7 +157,7 @@ mod tests {
             .query_row("SELECT y FROM a", [], |row| row.get(0))
             .unwrap();
         assert_eq!(y, 8);
-        assert_eq!(look(path, &connection).unwrap(), Found::Schema(3));
+        assert_eq!(look(path, &connection).unwrap(), FoundSchema::Schema(3));
     }
 
     #[test]

@@ -26,7 +26,7 @@ pub(crate) fn judged_texels(case: &Case) -> Texels {
 }
 
 /// Everything but the rules that legal sets depend on.
-type Key = (SceneKey, Texels, Limits);
+type JudgementKey = (SceneKey, Texels, Limits);
 type CachedJudgements = Arc<Mutex<KnownSets>>;
 
 /// Legal sets by scene, limits and permissions.
@@ -40,9 +40,9 @@ pub(crate) struct JudgementCache {
 
 #[derive(Debug, Default)]
 struct CacheMap {
-    entries: HashMap<Key, CachedJudgements>,
+    entries: HashMap<JudgementKey, CachedJudgements>,
     /// The keys of all sets, oldest first, with the size of each set in bytes.
-    order: VecDeque<(Key, usize)>,
+    order: VecDeque<(JudgementKey, usize)>,
     bytes: usize,
 }
 
@@ -86,7 +86,7 @@ impl JudgementCache {
     /// every permission that its computation asked for.
     fn set(
         &self,
-        key: Key,
+        key: JudgementKey,
         rules: &Rules,
         compute: impl FnOnce(&Rules) -> LegalSet,
     ) -> Arc<LegalSet> {

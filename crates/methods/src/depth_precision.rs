@@ -184,7 +184,7 @@ fn decal(gap: f64) -> Vec<Quad> {
 }
 
 /// The depth buffer of a method.
-struct Buffer {
+struct DepthBuffer {
     format: TextureFormat,
     near: f64,
     /// The distance of the far plane, or infinity.
@@ -194,7 +194,7 @@ struct Buffer {
     bias: DepthBias,
 }
 
-impl Buffer {
+impl DepthBuffer {
     fn new(method: MethodName, near: f64) -> Self {
         let usual = Self {
             format: TextureFormat::Depth24Plus,
@@ -305,7 +305,7 @@ pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
         return Err(ParameterError::new("method", message));
     }
     let quads = quads(wire);
-    let buffer = Buffer::new(wire.method, wire.near);
+    let buffer = DepthBuffer::new(wire.method, wire.near);
     let mut stage = Stage::new();
     let background = [BACKGROUND[0], BACKGROUND[1], BACKGROUND[2], 1.0];
     let picture = stage.color("picture", TextureFormat::Rgba8Unorm, SIZE, background);

@@ -10,9 +10,9 @@ use std::cell::RefCell;
 use std::ops::Range;
 
 /// A bug in the data that one prepared scene stores.
-pub(super) struct Memory(RefCell<Box<MemoryBug>>);
+pub(super) struct Memory(RefCell<Box<StoredBug>>);
 
-type MemoryBug = dyn FnMut(Moment, &Scene, Stored<'_>);
+type StoredBug = dyn FnMut(Moment, &Scene, Stored<'_>);
 
 impl Memory {
     /// Creates a bug that is called at every moment.

@@ -34,15 +34,15 @@ fn around([x, y, w, h]: [u32; 4], size: [u32; 2]) -> Vec<[u32; 4]> {
 }
 
 /// Masks the writes of one kind of attachment.
-type Mask = fn(&mut Draw);
+type ScissorMask = fn(&mut Draw);
 
-const COLOR: Mask = |draw| draw.targets.iter_mut().for_each(|t| t.write_mask = 0);
-const DEPTH: Mask = |draw| draw.depth.iter_mut().for_each(|d| d.write = false);
-const STENCIL: Mask = |draw| FACES(draw).into_iter().for_each(|f| f.write_mask = 0);
+const COLOR: ScissorMask = |draw| draw.targets.iter_mut().for_each(|t| t.write_mask = 0);
+const DEPTH: ScissorMask = |draw| draw.depth.iter_mut().for_each(|d| d.write = false);
+const STENCIL: ScissorMask = |draw| FACES(draw).into_iter().for_each(|f| f.write_mask = 0);
 
 /// Skips the scissor test for one kind of attachment: the draw is repeated around the rectangle with the
 /// writes of the other two kinds masked.
-fn beyond(others: [Mask; 2]) -> Plant {
+fn beyond(others: [ScissorMask; 2]) -> Plant {
     passes(move |scene, number, pass| {
         let asked = &scene.passes[number];
         let size = scene.pass_size(asked);

@@ -13,11 +13,11 @@ pub(crate) enum Ask {
     Open(Box<Opening>),
     /// Reports the result of a round trip. The bytes are its record's line.
     Trip { number: usize },
-    /// Asks for the requests of a case. The answer is a [`Step`].
+    /// Asks for the requests of a case. The answer is a [`NextStep`].
     Draw { number: usize },
-    /// Reports what the device answered to the requests. The bytes are its answers. The answer is a [`Step`].
-    Judge(Drawn),
-    /// Asks for the record of a case that is judged, which took this many seconds. The answer is a [`Step`].
+    /// Reports what the device answered to the requests. The bytes are its answers. The answer is a [`NextStep`].
+    Judge(DeviceAnswers),
+    /// Asks for the record of a case that is judged, which took this many seconds. The answer is a [`NextStep`].
     Record { number: usize, seconds: f64 },
     /// Asks for a record as HTML, the answer's bytes. The bytes are its line, and its compressed frame if it has one.
     View { line: usize },
@@ -73,7 +73,7 @@ pub(crate) struct Opened {
 /// What comes next for a case.
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Step {
+pub(crate) enum NextStep {
     /// The device must answer the requests, which are the bytes.
     Requests {
         lengths: Vec<usize>,
@@ -91,7 +91,7 @@ pub(crate) enum Step {
 
 /// The answers of a device.
 #[derive(Debug, Deserialize)]
-pub(crate) struct Drawn {
+pub(crate) struct DeviceAnswers {
     pub(crate) number: usize,
     /// The time that drawing took.
     pub(crate) seconds: f64,

@@ -1,7 +1,7 @@
 //! A run on one device.
 
 use crate::case_draw::{CaseDraw, timed_request, times};
-use crate::message::{Drawn, Step, split};
+use crate::message::{DeviceAnswers, NextStep, split};
 use crate::verdict::{Observation, outcome};
 use etalon_backend::{BackendError, Fault};
 use etalon_case::{Case, CaseRef, Method};
@@ -46,11 +46,11 @@ struct Pending {
     case: Case,
     draw: CaseDraw,
     judge: Judge,
-    stage: Stage,
+    stage: SessionStage,
 }
 
 /// What the device answers next, or has answered.
-enum Stage {
+enum SessionStage {
     /// The frames of the case.
     Drawn,
     /// The frames once more, on a fresh device. The first observation was bad.
@@ -61,15 +61,15 @@ enum Stage {
     Judged(Observation),
 }
 
-fn judged(observed: Observation) -> (Stage, (Step, Vec<u8>)) {
+fn judged(observed: Observation) -> (SessionStage, (NextStep, Vec<u8>)) {
     let renew = observed.ends_device;
-    let step = (Step::Judged { renew }, Vec::new());
-    (Stage::Judged(observed), step)
+    let step = (NextStep::Judged { renew }, Vec::new());
+    (SessionStage::Judged(observed), step)
 }
 
-fn requested(requests: &[Vec<u8>], renew: bool) -> (Step, Vec<u8>) {
+fn requested(requests: &[Vec<u8>], renew: bool) -> (NextStep, Vec<u8>) {
     let lengths = requests.iter().map(Vec::len).collect();
-    (Step::Requests { lengths, renew }, requests.concat())
+    (NextStep::Requests { lengths, renew }, requests.concat())
 }
 
 impl Session {
@@ -115,7 +115,7 @@ impl Session {
     ///
     /// # Errors
     /// If there is no case of this number.
-    pub(crate) fn draw(&mut self, number: usize) -> Result<(Step, Vec<u8>), String> {
+    pub(crate) fn draw(&mut self, number: usize) -> Result<(NextStep, Vec<u8>), String> {
         let case = self.built(number)?;
         let record = undrawn(&case, &self.adapter, &self.expectations, Some(&self.trips));
         if let Some(record) = record {
@@ -128,7 +128,7 @@ impl Session {
                     case,
                     draw,
                     judge: Judge::default(),
-                    stage: Stage::Drawn,
+                    stage: SessionStage::Drawn,
                 };
                 self.pending.insert(number, pending);
                 Ok(step)
@@ -146,29 +146,35 @@ impl Session {
     ///
     /// # Errors
     /// If the case is not being drawn.
-    pub(crate) fn judge(&mut self, drawn: &Drawn, bytes: &[u8]) -> Result<(Step, Vec<u8>), String> {
+    pub(crate) fn judge(
+        &mut self,
+        drawn: &DeviceAnswers,
+        bytes: &[u8],
+    ) -> Result<(NextStep, Vec<u8>), String> {
         let number = drawn.number;
         let mut pending = self.taken(number)?;
         let answers = split(bytes, &drawn.answers)?;
-        let (next, step) = match std::mem::replace(&mut pending.stage, Stage::Drawn) {
-            Stage::Timed(timing, observed) => {
+        let (next, step) = match std::mem::replace(&mut pending.stage, SessionStage::Drawn) {
+            SessionStage::Timed(timing, observed) => {
                 self.take_times(&pending, timing, observed, drawn, &answers)
             }
-            Stage::Drawn => {
+            SessionStage::Drawn => {
                 let observed = self.observe(&pending, drawn, &answers);
                 if self.must_be_confirmed(&observed.record) {
                     let step = requested(&pending.draw.requests, true);
-                    (Stage::DrawnAgain(observed), step)
+                    (SessionStage::DrawnAgain(observed), step)
                 } else {
                     self.timed(&pending, observed)
                 }
             }
-            Stage::DrawnAgain(first) => {
+            SessionStage::DrawnAgain(first) => {
                 let observed = self.observe(&pending, drawn, &answers);
                 let confirmed = self.confirmed(first, observed);
                 self.timed(&pending, confirmed)
             }
-            judged @ Stage::Judged(_) => (judged, (Step::Judged { renew: false }, Vec::new())),
+            judged @ SessionStage::Judged(_) => {
+                (judged, (NextStep::Judged { renew: false }, Vec::new()))
+            }
         };
         pending.stage = next;
         self.pending.insert(number, pending);
@@ -183,9 +189,9 @@ impl Session {
         &mut self,
         number: usize,
         seconds: f64,
-    ) -> Result<(Step, Vec<u8>), String> {
+    ) -> Result<(NextStep, Vec<u8>), String> {
         let Pending { case, stage, .. } = self.taken(number)?;
-        let Stage::Judged(mut observed) = stage else {
+        let SessionStage::Judged(mut observed) = stage else {
             return Err(format!("case {number} is not judged"));
         };
         observed.record.seconds.judge = seconds;
@@ -198,7 +204,11 @@ impl Session {
         pending.ok_or_else(|| format!("case {number} is not being drawn"))
     }
 
-    fn recorded(&self, number: usize, observed: Observation) -> Result<(Step, Vec<u8>), String> {
+    fn recorded(
+        &self,
+        number: usize,
+        observed: Observation,
+    ) -> Result<(NextStep, Vec<u8>), String> {
         let Observation {
             record,
             frame,
@@ -207,7 +217,7 @@ impl Session {
         } = observed;
         let record = settled(record, &self.expectations, &self.adapter);
         let (outcome, bytes) = outcome(number, record, frame.as_ref(), pictures)?;
-        Ok((Step::Outcome(outcome), bytes))
+        Ok((NextStep::Outcome(outcome), bytes))
     }
 
     /// Returns the worse of two drawings, the second on a fresh device.
@@ -230,7 +240,11 @@ impl Session {
     }
 
     /// Returns the stage after a drawing: a method's frames are timed, unless the picture is wrong.
-    fn timed(&self, pending: &Pending, observed: Observation) -> (Stage, (Step, Vec<u8>)) {
+    fn timed(
+        &self,
+        pending: &Pending,
+        observed: Observation,
+    ) -> (SessionStage, (NextStep, Vec<u8>)) {
         if observed.record.measured.is_none() || observed.record.verdict.is_bad() {
             return judged(observed);
         }
@@ -242,9 +256,12 @@ impl Session {
         pending: &Pending,
         timing: Timing,
         observed: Observation,
-    ) -> (Stage, (Step, Vec<u8>)) {
+    ) -> (SessionStage, (NextStep, Vec<u8>)) {
         match timed_request(&pending.case, &self.device, self.fault, timing) {
-            Ok(request) => (Stage::Timed(timing, observed), requested(&[request], false)),
+            Ok(request) => (
+                SessionStage::Timed(timing, observed),
+                requested(&[request], false),
+            ),
             Err(_) => judged(observed),
         }
     }
@@ -254,9 +271,9 @@ impl Session {
         pending: &Pending,
         timing: Timing,
         mut observed: Observation,
-        drawn: &Drawn,
+        drawn: &DeviceAnswers,
         answers: &[&[u8]],
-    ) -> (Stage, (Step, Vec<u8>)) {
+    ) -> (SessionStage, (NextStep, Vec<u8>)) {
         let record = &mut observed.record;
         if drawn.timeout {
             record.verdict = Verdict::Timeout;
@@ -284,7 +301,7 @@ impl Session {
         }
     }
 
-    fn observe(&self, pending: &Pending, drawn: &Drawn, answers: &[&[u8]]) -> Observation {
+    fn observe(&self, pending: &Pending, drawn: &DeviceAnswers, answers: &[&[u8]]) -> Observation {
         let Pending {
             case, draw, judge, ..
         } = pending;

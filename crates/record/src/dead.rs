@@ -87,7 +87,7 @@ impl Expectations {
         sound: impl Fn(&Known) -> bool,
     ) -> DeadSearch {
         let used = run.header.adapters.iter().map(|a| &a.name);
-        let mut names = Names::new(used.chain(described));
+        let mut names = CaseNames::new(used.chain(described));
         let ids = LazyCell::new(|| Ids::new(&ids()));
         let left = Cell::new(MOST_COMPARISONS);
         let mut dead = Vec::new();
@@ -220,12 +220,12 @@ struct Excuses<'r> {
     /// By expectation: the run's adapters that it is about.
     adapters: Vec<Vec<usize>>,
     /// By expectation: what became of its cases.
-    outcomes: Vec<Outcome>,
+    outcomes: Vec<DrawnOutcome>,
 }
 
 /// What became of the cases of an expectation.
 #[derive(Clone, Copy, Default)]
-struct Outcome {
+struct DrawnOutcome {
     /// True if a run can show whether the expectation is needed.
     tells: bool,
     /// True if it excused a verdict.
@@ -252,9 +252,9 @@ impl<'r> Excuses<'r> {
             // A flaky case can pass every time, and a skipped case has no verdict.
             let tells = !expectations.expired(known)
                 && !matches!(known.verdict, Verdict::Flaky | Verdict::Skipped);
-            excuses.outcomes.push(Outcome {
+            excuses.outcomes.push(DrawnOutcome {
                 tells,
-                ..Outcome::default()
+                ..DrawnOutcome::default()
             });
         }
         for record in &run.records {
@@ -331,12 +331,12 @@ fn is_pattern(glob: &str) -> bool {
 }
 
 /// Names, and the names that each glob matched so far. Entries share most of their globs.
-struct Names {
+struct CaseNames {
     sorted: Vec<String>,
     matches: HashMap<String, Vec<usize>>,
 }
 
-impl Names {
+impl CaseNames {
     fn new<'a>(names: impl IntoIterator<Item = &'a String>) -> Self {
         let sorted: BTreeSet<&String> = names.into_iter().collect();
         Self {
@@ -402,7 +402,7 @@ const FEW: usize = 64;
 impl Ids {
     fn new(ids: &[String]) -> Self {
         Self {
-            sorted: Names::new(ids).sorted,
+            sorted: CaseNames::new(ids).sorted,
             parts: OnceCell::new(),
         }
     }

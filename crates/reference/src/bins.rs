@@ -4,7 +4,7 @@
 
 use crate::clip::Clip;
 use crate::context::PassContext;
-use crate::primitive::{Bounds, Shape, Side, SnappedPrimitive, misses};
+use crate::primitive::{Bounds, EdgeSide, Shape, SnappedPrimitive, misses};
 use crate::sample::Sample;
 use crate::setup::{self, Filter};
 use crate::sides::sides;
@@ -231,7 +231,7 @@ fn decides(
         let at = sample_of(context, [x, y], sample);
         let point = at.point(context.limits);
         let sides = sides(context.rules, triangle, at, point, units);
-        misses(triangle, sides) || !sides.contains(&Side::Unknown)
+        misses(triangle, sides) || !sides.contains(&EdgeSide::Unknown)
     };
     rows.all(|y| {
         let [mut outer, inner] = triangle.columns(y, columns.clone(), samples, units);

@@ -22,7 +22,7 @@ struct Count {
 }
 
 /// Sums of events, texel by texel.
-pub(crate) struct Tally<'a> {
+pub(crate) struct EventTally<'a> {
     scene: &'a Scene,
     rules: &'a Rules,
     counts: Vec<Count>,
@@ -30,7 +30,7 @@ pub(crate) struct Tally<'a> {
     least_runs: Vec<u32>,
 }
 
-impl<'a> Tally<'a> {
+impl<'a> EventTally<'a> {
     pub(crate) fn new(scene: &'a Scene, rules: &'a Rules) -> Self {
         let count = Count {
             low: 0,

@@ -1,9 +1,9 @@
 //! Coverage of a sample by primitives, world by world.
 
 use crate::notes::Notes;
-use crate::primitive::{Shape, Side, Times, Triangle, inside_of, is_outside};
+use crate::primitive::{CoverTimes, EdgeSide, Shape, Triangle, inside_of, is_outside};
 use crate::rules::SharedEdge;
-use crate::walk::{Forced, Place, Walk};
+use crate::walk::{Forced, FragmentPlace, Walk};
 use crate::world::{Decision, World, Worlds};
 use etalon_frame::{Coverage, Effect, Rejection, Step};
 use etalon_pipeline::{front_facing, is_top_left};
@@ -14,7 +14,7 @@ impl Walk<'_> {
     /// Carries worlds through one primitive.
     pub(crate) fn primitive(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         worlds: &[World],
         notes: &mut Notes<'_>,
     ) -> Worlds {
@@ -22,7 +22,7 @@ impl Walk<'_> {
         let count = worlds.len();
         let several = count > 1;
         for (w, world) in worlds.iter().enumerate() {
-            let numbered = Place {
+            let numbered = FragmentPlace {
                 world: (w + 1, count),
                 ..*place
             };
@@ -66,7 +66,7 @@ impl Walk<'_> {
     }
 
     /// Returns how often a point, a line or an outline can cover a sample under the rules for lines.
-    pub(crate) fn times(&self, place: &Place<'_>) -> Times {
+    pub(crate) fn times(&self, place: &FragmentPlace<'_>) -> CoverTimes {
         let (least, most) = place.primitive.times(place.point, self.units);
         let is_line = matches!(place.primitive.shape, Shape::Line(_) | Shape::Outline(_));
         let forced = Forced {
@@ -86,7 +86,7 @@ impl Walk<'_> {
     /// Repeats the fragment of a point, line or outline at the sample as often as the primitive can cover it.
     fn repeat(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         world: &World,
         positive_area: bool,
         result: &mut Worlds,
@@ -121,7 +121,7 @@ impl Walk<'_> {
 
     fn triangle(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         triangle: &Triangle,
         world: &World,
         result: &mut Worlds,
@@ -152,7 +152,7 @@ impl Walk<'_> {
     /// Splits a world by the edges that may or may not include the sample.
     fn covered(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         primitive: &Triangle,
         world: &World,
         positive_area: bool,
@@ -187,7 +187,7 @@ impl Walk<'_> {
             if side == inside {
                 continue;
             }
-            if side == Side::On && self.rules.shared_edge.value() == SharedEdge::TopLeft {
+            if side == EdgeSide::On && self.rules.shared_edge.value() == SharedEdge::TopLeft {
                 let inner = primitive.edge(i).is_some_and(|(p, q)| {
                     let (p, q) = if positive_area { (q, p) } else { (p, q) };
                     is_top_left(p, q)
@@ -210,7 +210,7 @@ impl Walk<'_> {
                 .then_some(place.primitive_index as u32),
             };
             // The side is relative to the edge's canonical direction.
-            let wanted = (inside == Side::Positive) == (a < b);
+            let wanted = (inside == EdgeSide::Positive) == (a < b);
             let mut inside_worlds = SmallVec::new();
             let edge = Edge { number: i, side };
             for world in pending {
@@ -238,7 +238,7 @@ impl Walk<'_> {
     }
 
     /// Notes the state of the world that a primitive is drawn in, if there are several worlds.
-    fn note_world(&self, notes: &mut Notes<'_>, place: &Place<'_>, world: &World) {
+    fn note_world(&self, notes: &mut Notes<'_>, place: &FragmentPlace<'_>, world: &World) {
         let pass = &self.scene.passes[place.pass];
         let targets = pass.color.iter().chain(&pass.depth_stencil);
         let contents = |i: &usize| self.all_contents(*i, &world.cells[*i]);
@@ -254,7 +254,7 @@ impl Walk<'_> {
     fn note_edge(
         &self,
         notes: &mut Notes<'_>,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         edge: Edge,
         covers: Option<bool>,
     ) {
@@ -264,13 +264,13 @@ impl Walk<'_> {
             None => Effect::MayReject(Rejection::Coverage),
         };
         let citation = match edge.side {
-            Side::On => self.rules.shared_edge.citation,
+            EdgeSide::On => self.rules.shared_edge.citation,
             _ => self.rules.snap.citation,
         };
         self.note_effect(notes, place, citation, None, || {
             let step = Step::Coverage(Coverage::Edge {
                 edge: edge.number,
-                exact: edge.side == Side::On,
+                exact: edge.side == EdgeSide::On,
                 covers,
             });
             (effect, step)
@@ -282,5 +282,5 @@ impl Walk<'_> {
 #[derive(Clone, Copy)]
 struct Edge {
     number: usize,
-    side: Side,
+    side: EdgeSide,
 }

@@ -9,7 +9,7 @@ use crate::primitive::Shape;
 use crate::range::Range;
 use crate::rules::{AlphaToCoverage, DepthOrder, DepthRange, EarlyUpdates, MaskOfOne, SameDepth};
 use crate::stencil_face::Face;
-use crate::walk::{Place, Walk};
+use crate::walk::{FragmentPlace, Walk};
 use crate::world::{Cell, Increment, World, Worlds};
 use etalon_frame::{
     Aspect, ChannelEncoding, CodeInterval, CounterKind, DepthTest, Effect, Rejection, Step,
@@ -37,7 +37,7 @@ impl Walk<'_> {
     /// Takes one fragment at this sample through culling, shading, tests, blending and stores.
     pub(crate) fn fragment(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         world: &World,
         positive_area: bool,
         result: &mut Worlds,
@@ -90,7 +90,7 @@ impl Walk<'_> {
     /// its shader reads; `drawn` is false if sample coverage removes the sample.
     fn shade(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         world: &World,
         (front, mask): (bool, InputBits),
         drawn: bool,
@@ -173,7 +173,7 @@ impl Walk<'_> {
     /// Performs the tests that precede a fragment's shader, and what follows them.
     fn test_early(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         world: &World,
         shaded: &Shaded<'_>,
         result: &mut Worlds,
@@ -237,7 +237,7 @@ impl Walk<'_> {
     /// Runs the fragment shader at the sample.
     fn shader(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         world: &World,
         (front, mask): (bool, InputBits),
         notes: &mut Notes<'_>,
@@ -320,7 +320,7 @@ impl Walk<'_> {
     }
 
     /// Returns true if a fragment that passes its tests changes an attachment.
-    fn contributes(&self, place: &Place<'_>) -> bool {
+    fn contributes(&self, place: &FragmentPlace<'_>) -> bool {
         let pass = &self.scene.passes[place.pass];
         let depth = pass.depth_stencil.is_some() && place.draw.depth.is_some_and(|d| d.write);
         let mut targets = pass.color.iter().zip(&place.draw.targets);
@@ -328,7 +328,7 @@ impl Walk<'_> {
     }
 
     /// Returns true if a draw counts the runs of its shader.
-    fn counts_runs(&self, place: &Place<'_>) -> bool {
+    fn counts_runs(&self, place: &FragmentPlace<'_>) -> bool {
         let kind = |counter: &usize| self.scene.counters[*counter].kind;
         let mut counters = place.draw.counters.iter();
         counters.any(|counter| kind(counter) == CounterKind::ShaderRuns)
@@ -336,7 +336,7 @@ impl Walk<'_> {
 
     /// Adds a run of the shader for a fragment; `certain` if the rules demand it. If a later fragment can
     /// make earlier fragments unnecessary, their runs are no longer certain.
-    fn run(&self, place: &Place<'_>, world: &mut World, certain: bool) {
+    fn run(&self, place: &FragmentPlace<'_>, world: &mut World, certain: bool) {
         if !self.counts_runs(place) {
             return;
         }
@@ -356,7 +356,7 @@ impl Walk<'_> {
     /// Returns whether the shader, the sample mask and alpha to coverage keep the sample.
     fn covered_after_shading(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         output: &FragmentOutput<Range>,
         notes: &mut Notes<'_>,
     ) -> Covered {
@@ -424,7 +424,7 @@ impl Walk<'_> {
     )]
     fn early_fragment(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         [before, tested]: [&World; 2],
         output: &FragmentOutput<Range>,
         incoming: Incoming,
@@ -482,7 +482,7 @@ impl Walk<'_> {
     /// Adds to the draw's counters of the given kinds.
     fn count(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         world: &mut World,
         certain: bool,
         kinds: impl Fn(CounterKind) -> bool,
@@ -502,7 +502,7 @@ impl Walk<'_> {
     /// fragment passes. The stencil value is updated; depth is not yet written.
     fn tests(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         world: &World,
         face: Option<Face>,
         incoming: Incoming,
@@ -571,7 +571,7 @@ impl Walk<'_> {
     /// Returns the depth that is tested and stored. It is clamped to the viewport's range if the draw clamps;
     /// otherwise the rules decide about a depth outside the range. A fixed-function depth is always inside if
     /// the primitive is clipped.
-    fn in_range(&self, place: &Place<'_>, depth: Range, source: DepthSource) -> Incoming {
+    fn in_range(&self, place: &FragmentPlace<'_>, depth: Range, source: DepthSource) -> Incoming {
         let [near, far] = place.draw.viewport.depth.map(f64::from);
         let (near, far) = (near.min(far), near.max(far));
         let held = depth.float.clamp(near, far);
@@ -618,7 +618,11 @@ impl Walk<'_> {
     }
 
     /// Returns whether the sample mask that the shader writes keeps the sample.
-    fn shader_mask_keeps(&self, place: &Place<'_>, output: &FragmentOutput<Range>) -> Possible {
+    fn shader_mask_keeps(
+        &self,
+        place: &FragmentPlace<'_>,
+        output: &FragmentOutput<Range>,
+    ) -> Possible {
         let Some(mask) = &output.mask else {
             return Possible::Always;
         };
@@ -642,12 +646,12 @@ impl Walk<'_> {
     }
 
     /// Returns true if the fragment has a shader, or if the rules let it pass unchanged without a shader.
-    fn goes_on(&self, place: &Place<'_>) -> bool {
+    fn goes_on(&self, place: &FragmentPlace<'_>) -> bool {
         place.draw.shader.has_fragment() || self.rules.goes_on_unshaded.value()
     }
 
     /// Returns whether mask and alpha to coverage keep the sample.
-    fn sample_passes(&self, place: &Place<'_>, alpha: Range) -> Possible {
+    fn sample_passes(&self, place: &FragmentPlace<'_>, alpha: Range) -> Possible {
         let state = place.draw.multisample;
         if state.mask & (1 << place.at.sample) == 0 {
             return Possible::Never;
@@ -666,7 +670,7 @@ impl Walk<'_> {
     /// Returns whether the stored depth is within the bounds (Vulkan, Depth Bounds Test).
     fn depth_bounds(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         world: &World,
         [low, high]: [f32; 2],
         index: usize,
@@ -702,7 +706,7 @@ impl Walk<'_> {
     /// Notes a stencil test and the update of the stencil value.
     fn note_stencil(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         face: &Face,
         [before, after]: [u8; 2],
         outcome: StencilOutcome,
@@ -748,7 +752,7 @@ impl Walk<'_> {
     /// Returns whether a depth test can pass, and whether it can fail.
     fn depth_test(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         function: CompareFunction,
         incoming: Incoming,
         stored: Cell,

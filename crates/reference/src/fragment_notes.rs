@@ -4,7 +4,7 @@ use crate::clause::clause;
 use crate::notes::{Note, Notes};
 use crate::range::Range;
 use crate::sample::Sample;
-use crate::walk::{Place, Walk};
+use crate::walk::{FragmentPlace, Walk};
 use crate::world::Cell;
 use etalon_frame::{
     Aspect, BlendedChannel, ChannelEncoding, CodeInterval, Codes, Contents, Effect, Event,
@@ -18,7 +18,7 @@ impl Walk<'_> {
     pub(crate) fn note_effect(
         &self,
         notes: &mut Notes<'_>,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         citation: &str,
         stored: Option<Cell>,
         operation: impl FnOnce() -> (Effect, Step),
@@ -42,7 +42,7 @@ impl Walk<'_> {
     pub(crate) fn note_rejection(
         &self,
         notes: &mut Notes<'_>,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         rejection: Rejection,
         certain: bool,
         step: impl FnOnce() -> Step,
@@ -71,7 +71,7 @@ impl Walk<'_> {
     /// Notes the operands and the result of a blend.
     pub(crate) fn note_blend(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         state: &BlendState,
         input: &BlendInput<Range>,
         value: [Range; 4],
@@ -99,7 +99,7 @@ impl Walk<'_> {
     /// write mask keeps.
     pub(crate) fn note_store(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         attachment: usize,
         write_mask: u8,
         cell: Cell,

@@ -6,7 +6,7 @@ use crate::primitive::{Shape, inside_of};
 use crate::range::Range;
 use crate::rules::InputMask;
 use crate::sample::Sample;
-use crate::walk::{Place, Walk};
+use crate::walk::{FragmentPlace, Walk};
 use etalon_scene::{Draw, EarlyTests};
 use smallvec::{SmallVec, smallvec};
 
@@ -44,7 +44,7 @@ impl InputBits {
 impl Walk<'_> {
     /// Returns the masks that the run that shades a covered sample can read; a single mask if its shader
     /// reads none.
-    pub(crate) fn input_masks(&self, place: &Place<'_>) -> SmallVec<[InputBits; 2]> {
+    pub(crate) fn input_masks(&self, place: &FragmentPlace<'_>) -> SmallVec<[InputBits; 2]> {
         let (draw, samples) = (place.draw, place.at.samples);
         if !draw.shader.reads_mask() {
             return smallvec![InputBits::default()];
@@ -72,7 +72,7 @@ impl Walk<'_> {
     }
 
     /// Returns the samples of a fragment's texel that its primitive covers, including its own.
-    fn covered_samples(&self, place: &Place<'_>) -> InputBits {
+    fn covered_samples(&self, place: &FragmentPlace<'_>) -> InputBits {
         let pass = &self.scene.passes[place.pass];
         // Without post-depth coverage, it is open whether early tests clear bits.
         let forced = place.draw.early_tests == EarlyTests::Forced && pass.depth_stencil.is_some();
@@ -103,7 +103,7 @@ impl Walk<'_> {
 
     /// Returns whether a fragment's primitive covers a sample of its texel. Clipping can split a primitive,
     /// and points and lines can be split too; each part then has a fragment of its own.
-    fn covers(&self, place: &Place<'_>, sample: u32) -> Possible {
+    fn covers(&self, place: &FragmentPlace<'_>, sample: u32) -> Possible {
         let at = Sample { sample, ..place.at };
         let point = self.sample_point(at);
         let sides = self.sides_of(place.primitive, at, point);
@@ -123,7 +123,7 @@ impl Walk<'_> {
     }
 
     /// Returns true if nothing clips a fragment's primitive.
-    fn is_whole(&self, place: &Place<'_>) -> bool {
+    fn is_whole(&self, place: &FragmentPlace<'_>) -> bool {
         let primitive = place.primitive;
         let clip = self.setups[place.pass].clip(place.draw_index);
         clip.holds_all_of(primitive)

@@ -15,7 +15,7 @@ use etalon_scene::LogicOperation;
 
 /// The values to which a blend rounds its results if it does not compute in floating-point.
 #[derive(Clone, Copy)]
-enum Grid {
+enum JudgingGrid {
     /// The destination's codes.
     Codes,
     /// Binary fractions with as many bits as the destination's codes.
@@ -213,13 +213,13 @@ impl<'r> Judging<'r> {
     /// Rounds the results that are not computed in floating-point.
     #[inline]
     fn on_grids(&self, encoding: ChannelEncoding, value: Range) -> Range {
-        let codes = self.round_outward(encoding, Grid::Codes, value.codes);
+        let codes = self.round_outward(encoding, JudgingGrid::Codes, value.codes);
         let has_fractions = matches!(
             encoding,
             ChannelEncoding::Unorm(_) | ChannelEncoding::Snorm(_)
         );
         let fixed = if has_fractions || value.fixed != value.codes {
-            self.round_outward(encoding, Grid::Fixed, value.fixed)
+            self.round_outward(encoding, JudgingGrid::Fixed, value.fixed)
         } else {
             codes
         };
@@ -287,15 +287,20 @@ impl<'r> Judging<'r> {
 
     /// Widens to the grid's values on either side, if blending may round to them.
     #[inline]
-    fn round_outward(&self, encoding: ChannelEncoding, grid: Grid, value: Interval) -> Interval {
+    fn round_outward(
+        &self,
+        encoding: ChannelEncoding,
+        grid: JudgingGrid,
+        value: Interval,
+    ) -> Interval {
         if !self.is_coarse() {
             return value;
         }
         match encoding {
             ChannelEncoding::Float16 | ChannelEncoding::Float32 if self.advanced => to_half(value),
             ChannelEncoding::Unorm(_) | ChannelEncoding::Snorm(_) => match grid {
-                Grid::Codes => to_codes(encoding, value),
-                Grid::Fixed => to_steps(self.steps(encoding), value),
+                JudgingGrid::Codes => to_codes(encoding, value),
+                JudgingGrid::Fixed => to_steps(self.steps(encoding), value),
             },
             // The codes of sRGB are evenly spaced in the encoded value.
             ChannelEncoding::Srgb8 => {

@@ -1,6 +1,6 @@
 //! Legal sets and stories: both bands of whole pictures, or one sample.
 
-use crate::counting::Tally;
+use crate::counting::EventTally;
 use crate::geometry::Geometries;
 use crate::known_sets::KnownSets;
 use crate::notes::{Note, Notes};
@@ -10,7 +10,7 @@ use crate::rules::Rules;
 use crate::ruling::ruling;
 use crate::sample::{Sample, Shape};
 use crate::snap::basis_bits;
-use crate::states::{OPEN, State};
+use crate::states::{OPEN, StateNumber};
 use crate::texels::Texels;
 use crate::walk::Walk;
 use etalon_frame::{
@@ -203,10 +203,10 @@ pub fn legal_set_of_texels(
             start += same;
         }
     }
-    let mut tally = Tally::new(scene, rules);
+    let mut tally = EventTally::new(scene, rules);
     if texels.is_all() && !scene.counters.is_empty() {
         for shape in counted(scene) {
-            let mut texels: FxHashMap<&[State], u64> = FxHashMap::default();
+            let mut texels: FxHashMap<&[StateNumber], u64> = FxHashMap::default();
             for texel in pictures.of_shape(shape).chunks_exact(shape.1 as usize) {
                 *texels.entry(texel).or_default() += 1;
             }

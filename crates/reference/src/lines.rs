@@ -3,7 +3,7 @@
 //! column counts as having a fragment if any of its texels can contain what the line writes there.
 
 use crate::notes::Notes;
-use crate::primitive::{Edge, Shape, Side, SnappedPrimitive, line_times};
+use crate::primitive::{Edge, EdgeSide, Shape, SnappedPrimitive, line_times};
 use crate::rules::Rules;
 use crate::sample::Sample;
 use crate::snap::SnapBox;
@@ -33,7 +33,7 @@ pub struct LineGap {
 
 /// A line of a draw.
 #[derive(Clone, Copy)]
-struct Line<'a> {
+struct DrawnLine<'a> {
     pass: usize,
     draw: usize,
     primitive: &'a SnappedPrimitive,
@@ -85,7 +85,7 @@ pub fn line_gap(
                 if columns > MOST_COLUMNS {
                     return None;
                 }
-                let line = Line {
+                let line = DrawnLine {
                     pass,
                     draw,
                     primitive,
@@ -165,7 +165,7 @@ impl Walk<'_> {
     /// columns, or if a part of the line may be clipped.
     fn lacking(
         &self,
-        line: Line<'_>,
+        line: DrawnLine<'_>,
         (axis, required): (usize, Range<i64>),
         least: usize,
         (frame, legal): (&Frame, &LegalSet),
@@ -196,7 +196,7 @@ impl Walk<'_> {
                 if line_times(line.ends, center, self.units).1 == 0 {
                     continue;
                 }
-                let sides = [Side::Unknown; 3];
+                let sides = [EdgeSide::Unknown; 3];
                 let hit = self.hit((line.pass, line.draw), line.primitive, sides, center);
                 hit.ok().filter(|hit| hit.is_certain())?;
                 rows.push(row);
@@ -232,7 +232,7 @@ impl Walk<'_> {
 
     /// Returns a texel with its legal values if a line covers it; `None` if no fragment would be visible
     /// there.
-    fn covered_by(&self, line: Line<'_>, texel: [i64; 2]) -> Option<(Sample, TexelSet)> {
+    fn covered_by(&self, line: DrawnLine<'_>, texel: [i64; 2]) -> Option<(Sample, TexelSet)> {
         let pass = &self.scene.passes[line.pass];
         let size = self.scene.pass_size(pass);
         let [x, y] = texel.map(|v| u32::try_from(v).ok());

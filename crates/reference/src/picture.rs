@@ -6,7 +6,7 @@
 use crate::notes::Notes;
 use crate::sample::{Sample, Shape};
 use crate::signature::SampleKey;
-use crate::states::{OPEN, State, States};
+use crate::states::{OPEN, StateNumber, States};
 use crate::strokes::{PassStrokes, Strokes, Tracer, runs};
 use crate::texels::Lattice;
 use crate::walk::{Hit, Walk, in_scissor, resolved};
@@ -19,7 +19,7 @@ use std::collections::BTreeSet;
 /// Outcomes of single draws, by state, draw and signature.
 #[derive(Debug, Default)]
 struct DrawOutcomes {
-    by_words: FxHashMap<SmallVec<[u64; 6]>, State>,
+    by_words: FxHashMap<SmallVec<[u64; 6]>, StateNumber>,
     key: SmallVec<[u64; 6]>,
     /// For each draw, the number of outcomes that were looked up and the number found.
     asked: Vec<[u32; 2]>,
@@ -64,7 +64,7 @@ impl Walk<'_> {
     }
 
     /// Returns the states before the first pass.
-    fn first_states(&self, (size, samples): Shape, states: &mut States) -> Vec<State> {
+    fn first_states(&self, (size, samples): Shape, states: &mut States) -> Vec<StateNumber> {
         let count = size[0] as usize * size[1] as usize * samples as usize;
         let lattice = self.texels.lattice(size);
         let attachments = || self.scene.attachments.iter().enumerate();
@@ -110,7 +110,7 @@ impl Walk<'_> {
             return picture;
         }
         let mut picture = vec![OPEN; count];
-        let mut known: FxHashMap<SmallVec<[u32; 8]>, State> = FxHashMap::default();
+        let mut known: FxHashMap<SmallVec<[u32; 8]>, StateNumber> = FxHashMap::default();
         let mut key: SmallVec<[u32; 8]> = SmallVec::new();
         for_each_judged(lattice, size, |x, y| {
             key.clear();
@@ -182,7 +182,7 @@ impl Walk<'_> {
 
     /// Makes the samples of draws with unknown vertices open. Such draws can cover any texel, even one that
     /// no known primitive touches.
-    fn paint_open_draws(&self, p: usize, (size, samples): Shape, picture: &mut [State]) {
+    fn paint_open_draws(&self, p: usize, (size, samples): Shape, picture: &mut [StateNumber]) {
         let draws = self.scene.passes[p].draws.iter();
         for (draw, texts) in draws.zip(&self.open_texts[p]) {
             if !texts.vertices || draw.rasterizer_discard {
@@ -208,7 +208,7 @@ impl Walk<'_> {
         &self,
         (p, draw): (usize, usize),
         (size, samples): Shape,
-        picture: &mut [State],
+        picture: &mut [StateNumber],
     ) {
         let clears = self.scene.passes[p].clears_before(draw);
         if clears.is_empty() {
@@ -233,7 +233,8 @@ impl Walk<'_> {
         let sides = sides.flat_map(|[left, _, width, _]| [left, left.saturating_add(width)]);
         let columns: BTreeSet<u32> = sides.chain([0, u32::MAX]).map(|x| x.min(size[0])).collect();
         let columns = Vec::from_iter(columns);
-        let mut known: FxHashMap<(State, SmallVec<[bool; 8]>), State> = FxHashMap::default();
+        let mut known: FxHashMap<(StateNumber, SmallVec<[bool; 8]>), StateNumber> =
+            FxHashMap::default();
         for y in 0..size[1] {
             for part in columns.windows(2) {
                 let [at, end] = [part[0], part[1]].map(|x| Sample {
@@ -264,8 +265,8 @@ impl Walk<'_> {
     }
 
     /// Changes the worlds of all samples in the same way.
-    fn each_state(&self, picture: &mut [State], change: impl Fn(&mut Worlds)) {
-        let mut known: FxHashMap<State, State> = FxHashMap::default();
+    fn each_state(&self, picture: &mut [StateNumber], change: impl Fn(&mut Worlds)) {
+        let mut known: FxHashMap<StateNumber, StateNumber> = FxHashMap::default();
         for run in picture.chunk_by_mut(|a, b| a == b) {
             let before = run[0];
             let after = known.entry(before);
@@ -274,7 +275,7 @@ impl Walk<'_> {
     }
 
     /// Returns a state after a change of its worlds.
-    fn changed(&self, state: State, change: impl Fn(&mut Worlds)) -> State {
+    fn changed(&self, state: StateNumber, change: impl Fn(&mut Worlds)) -> StateNumber {
         let worlds = self.pictures.borrow().states.worlds(state).cloned();
         let changed = worlds.map(|worlds| {
             let mut worlds = Worlds::clone(&worlds);
@@ -304,7 +305,7 @@ impl Walk<'_> {
         let pass = &self.scene.passes[p];
         let source_samples = self.scene.pass_samples(pass);
         let mut picture = self.pictures.borrow().of_shape((size, samples)).to_vec();
-        let mut known: FxHashMap<SmallVec<[State; 9]>, State> = FxHashMap::default();
+        let mut known: FxHashMap<SmallVec<[StateNumber; 9]>, StateNumber> = FxHashMap::default();
         for_each_judged(self.texels.lattice(size), size, |x, y| {
             let at = Sample {
                 size,
@@ -322,7 +323,7 @@ impl Walk<'_> {
                 sample,
                 ..at
             });
-            let mut key: SmallVec<[State; 9]> = SmallVec::new();
+            let mut key: SmallVec<[StateNumber; 9]> = SmallVec::new();
             key.push(picture[place]);
             key.extend(sources.map(|source| self.pictures.borrow().state(source)));
             picture[place] = match known.get(&key) {
@@ -405,7 +406,7 @@ fn for_each_judged(lattice: Lattice, [width, height]: [u32; 2], mut found: impl 
 struct Brush<'b, 'a> {
     walk: &'b Walk<'a>,
     pass: usize,
-    picture: &'b mut [State],
+    picture: &'b mut [StateNumber],
     known: DrawOutcomes,
 }
 
@@ -476,7 +477,7 @@ impl Brush<'_, '_> {
     }
 
     /// Returns the state of a sample after one draw, with the primitives of the draw that cover the sample.
-    fn draw(&self, at: Sample, before: State, draw: u32, hits: &[(u32, Hit)]) -> State {
+    fn draw(&self, at: Sample, before: StateNumber, draw: u32, hits: &[(u32, Hit)]) -> StateNumber {
         let primitives = self.walk.setups[self.pass].primitives_of(draw as usize);
         let hits = hits
             .iter()

@@ -97,7 +97,7 @@ pub(crate) struct SnappedPrimitive {
 
 /// The side of an edge on which a sample is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Side {
+pub(crate) enum EdgeSide {
     /// The edge function is positive under every legal snapping.
     Positive,
     /// The edge function is negative under every legal snapping.
@@ -177,42 +177,42 @@ impl Triangle {
 
     /// Returns the side of the edge from vertex `i` to the next one on which a point is.
     #[inline]
-    pub(crate) fn side(&self, i: usize, at: Point) -> Side {
+    pub(crate) fn side(&self, i: usize, at: Point) -> EdgeSide {
         // One corner decides most samples.
         if let Edges::Between(vertices) = &self.edges {
             let value = edge_value(vertices[i].low(), vertices[(i + 1) % 3].low(), at);
             if value > self.moved {
-                return Side::Positive;
+                return EdgeSide::Positive;
             } else if value < -self.moved {
-                return Side::Negative;
+                return EdgeSide::Negative;
             }
         }
         Self::side_of_edge(self.edge_from(i), at)
     }
 
-    fn side_of_edge(edge: Edge, at: Point) -> Side {
+    fn side_of_edge(edge: Edge, at: Point) -> EdgeSide {
         let (p, q) = match edge {
             Edge::Between([p, q]) => (p, q),
             Edge::Cut { line, off } => {
                 let value = line.at(at);
                 return if value > off {
-                    Side::Positive
+                    EdgeSide::Positive
                 } else if value < -off {
-                    Side::Negative
+                    EdgeSide::Negative
                 } else {
-                    Side::Unknown
+                    EdgeSide::Unknown
                 };
             }
         };
         let (least, most) = edge_values(p, q, at);
         if least > 0 {
-            Side::Positive
+            EdgeSide::Positive
         } else if most < 0 {
-            Side::Negative
+            EdgeSide::Negative
         } else if p.is_exact() && q.is_exact() {
-            Side::On
+            EdgeSide::On
         } else {
-            Side::Unknown
+            EdgeSide::Unknown
         }
     }
 
@@ -301,7 +301,7 @@ fn keep_below(columns: &mut Range<i64>, start: i64, growth: i64, most: i64) {
 pub(crate) type Bounds = [i64; 4];
 
 /// The least and the largest number of times that one primitive covers a sample.
-pub(crate) type Times = (u32, u32);
+pub(crate) type CoverTimes = (u32, u32);
 
 impl Shape {
     /// Returns the hull of all snapped vertices, or of the visible part.
@@ -333,7 +333,7 @@ impl Shape {
 impl SnappedPrimitive {
     /// Returns how often a point, a line or an outline covers a sample. Triangles are walked edge by edge
     /// instead.
-    pub(crate) fn times(&self, at: Point, units: i64) -> Times {
+    pub(crate) fn times(&self, at: Point, units: i64) -> CoverTimes {
         match &self.shape {
             Shape::Point(center) => point_times(*center, at, units),
             Shape::Line(ends) => line_times(*ends, at, units),
@@ -471,7 +471,7 @@ fn seen(value: &Varying, at: Point, units: i64, samples: u32) -> Interval {
     }
 }
 
-fn point_times(center: SnapBox, at: Point, units: i64) -> Times {
+fn point_times(center: SnapBox, at: Point, units: i64) -> CoverTimes {
     let half = units / 2;
     let axis = |low: i64, high: i64, position: i64| {
         let must = high - half < position && position < low + half;
@@ -486,7 +486,7 @@ fn point_times(center: SnapBox, at: Point, units: i64) -> Times {
 /// Returns how often a line covers a sample. A line along an axis covers the texels it runs through, except
 /// near its ends. Near the ends and at slanted lines, the rules (diamond exit, rectangle) differ, so anything
 /// is legal there.
-pub(crate) fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> Times {
+pub(crate) fn line_times(ends: [SnapBox; 2], at: Point, units: i64) -> CoverTimes {
     let [a, b] = ends;
     let bounds = a.hull(b);
     let unit = units as f64;
@@ -561,24 +561,24 @@ fn touches(low: i64, high: i64, position: i64, units: i64) -> bool {
 
 /// Returns the inner side of a triangle's edges. With y down, edge functions are negative inside a triangle
 /// of positive area (y up).
-pub(crate) fn inside_of(positive_area: bool) -> Side {
+pub(crate) fn inside_of(positive_area: bool) -> EdgeSide {
     if positive_area {
-        Side::Negative
+        EdgeSide::Negative
     } else {
-        Side::Positive
+        EdgeSide::Positive
     }
 }
 
 /// Returns true if a sample is outside a triangle of either orientation, and so uncovered in every world.
-pub(crate) fn misses(triangle: &Triangle, sides: [Side; 3]) -> bool {
+pub(crate) fn misses(triangle: &Triangle, sides: [EdgeSide; 3]) -> bool {
     let (least, most) = triangle.area;
     let outside = |positive: bool| sides.into_iter().any(|side| is_outside(side, positive));
     least != 0 && most != 0 && (most < 0 || outside(true)) && (least > 0 || outside(false))
 }
 
 /// Returns true if a side of an edge is certainly outside a triangle.
-pub(crate) fn is_outside(side: Side, positive_area: bool) -> bool {
-    matches!(side, Side::Positive | Side::Negative) && side != inside_of(positive_area)
+pub(crate) fn is_outside(side: EdgeSide, positive_area: bool) -> bool {
+    matches!(side, EdgeSide::Positive | EdgeSide::Negative) && side != inside_of(positive_area)
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 
 use crate::clause::clause;
 use crate::notes::{Note, Notes, Skipped};
-use crate::walk::{Hit, Place, Walk};
+use crate::walk::{FragmentPlace, Hit, Walk};
 use etalon_frame::{Effect, Event, Origin, Rejection, Step};
 use etalon_scene::Draw;
 
@@ -75,7 +75,7 @@ impl Walk<'_> {
     }
 
     /// Notes a primitive that the sides of the view volume, or otherwise its near and far planes, can clip.
-    pub(crate) fn note_clipping(&self, notes: &mut Notes<'_>, place: &Place<'_>, hit: Hit) {
+    pub(crate) fn note_clipping(&self, notes: &mut Notes<'_>, place: &FragmentPlace<'_>, hit: Hit) {
         let rejection = match (hit.in_viewport, hit.in_depth) {
             (false, _) => Rejection::Viewport,
             (true, false) => Rejection::NearFar,

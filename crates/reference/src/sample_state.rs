@@ -7,7 +7,7 @@ use crate::primitive::Shape;
 use crate::range::Range;
 use crate::rules::{AlphaToCoverage, FragCoord, Rules};
 use crate::sample::Sample;
-use crate::walk::{Place, Walk};
+use crate::walk::{FragmentPlace, Walk};
 use crate::world::{Decision, World};
 use etalon_frame::{Rejection, Step};
 use etalon_pipeline::Point;
@@ -49,7 +49,7 @@ fn inputs_at(rules: &Rules, state: &Multisample) -> ShadedAt {
 
 impl Walk<'_> {
     /// Returns the fragment coordinates that a shader reads, in texels.
-    pub(crate) fn frag_coord(&self, place: &Place<'_>) -> [Range; 2] {
+    pub(crate) fn frag_coord(&self, place: &FragmentPlace<'_>) -> [Range; 2] {
         let Sample { x, y, samples, .. } = place.at;
         let units = self.units as f64;
         let point = |p: Point| [p.x, p.y].map(|v| Interval::exact(v as f64 / units));
@@ -70,7 +70,7 @@ impl Walk<'_> {
     }
 
     /// Returns 1 over the clip-space w that a shader reads; 0 if it reads none.
-    pub(crate) fn reciprocal_w(&self, place: &Place<'_>) -> Range {
+    pub(crate) fn reciprocal_w(&self, place: &FragmentPlace<'_>) -> Range {
         let samples = self.samples_shaded(place);
         let w = place.primitive.w_seen(place.point, self.units, samples);
         w.map_or(Range::exact(0.0), Range::same)
@@ -78,7 +78,7 @@ impl Walk<'_> {
 
     /// Returns the number of samples at whose points inputs may be interpolated; 1 if only the sample's own
     /// point is possible.
-    pub(crate) fn samples_shaded(&self, place: &Place<'_>) -> u32 {
+    pub(crate) fn samples_shaded(&self, place: &FragmentPlace<'_>) -> u32 {
         let at_sample = inputs_at(self.rules, &place.draw.multisample) == ShadedAt::Sample;
         match place.primitive.shape {
             Shape::Triangle(_) if at_sample => 1,
@@ -89,7 +89,7 @@ impl Walk<'_> {
     /// Splits a world by sample coverage. Each result has `true` if the sample is drawn.
     pub(crate) fn by_sample_coverage(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         world: World,
         notes: &mut Notes<'_>,
     ) -> SmallVec<[(World, bool); 2]> {

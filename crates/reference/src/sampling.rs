@@ -5,7 +5,7 @@ use crate::judging::Judging;
 use crate::range::Range;
 use crate::rounding::to_codes;
 use crate::sample::Sample;
-use crate::walk::{Place, Walk};
+use crate::walk::{FragmentPlace, Walk};
 use crate::world::World;
 use etalon_frame::{ChannelEncoding, CodeInterval};
 use etalon_pipeline::{Arithmetic, texel_position};
@@ -30,7 +30,7 @@ const MOST_DRAWN_TEXELS: usize = 9;
 
 impl Walk<'_> {
     /// Returns the value that the shader reads from a texture at the sample, in a world.
-    pub(crate) fn texel(&self, place: &Place<'_>, world: &World, t: usize) -> [Range; 4] {
+    pub(crate) fn texel(&self, place: &FragmentPlace<'_>, world: &World, t: usize) -> [Range; 4] {
         let Some(index) = place.draw.textures.get(t).copied() else {
             return [Range::exact(0.0); 4];
         };
@@ -55,12 +55,12 @@ impl Walk<'_> {
     }
 
     /// Returns the texture coordinates that the shader reads.
-    pub(crate) fn uv(&self, place: &Place<'_>) -> [Range; 2] {
+    pub(crate) fn uv(&self, place: &FragmentPlace<'_>) -> [Range; 2] {
         self.coordinates(place)
             .map_or([Range::exact(0.0); 2], |uv| uv.map(Range::same))
     }
 
-    fn coordinates(&self, place: &Place<'_>) -> Option<[Interval; 2]> {
+    fn coordinates(&self, place: &FragmentPlace<'_>) -> Option<[Interval; 2]> {
         let samples = self.samples_shaded(place);
         let sampling = place.draw.shader.interpolation_sampling();
         place
@@ -95,7 +95,7 @@ impl Walk<'_> {
 
     /// Returns the texel under the sample after earlier passes: this world's contents if the shapes agree,
     /// otherwise everything that it can contain.
-    fn left_before(&self, place: &Place<'_>, world: &World, index: usize) -> [Range; 4] {
+    fn left_before(&self, place: &FragmentPlace<'_>, world: &World, index: usize) -> [Range; 4] {
         let attachment = &self.scene.attachments[index];
         let at = place.at;
         if attachment.size != at.size {
@@ -141,7 +141,12 @@ impl Walk<'_> {
     /// Returns all results of legal filtering at a coordinate: the hull over all coordinates that rounding
     /// can lead to; `None` if a texel among them can contain anything. A linear filter is linear in each
     /// coordinate between two texel centres, so its extremes are at ends and centres.
-    fn sampled(&self, texture: SampledTexture, sampler: Sampler, uv: [Interval; 2]) -> Option<[Range; 4]> {
+    fn sampled(
+        &self,
+        texture: SampledTexture,
+        sampler: Sampler,
+        uv: [Interval; 2],
+    ) -> Option<[Range; 4]> {
         if uv
             .iter()
             .any(|v| !(v.low.is_finite() && v.high.is_finite()))

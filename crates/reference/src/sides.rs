@@ -1,6 +1,6 @@
 //! The sides of a triangle's edges on which a sample is.
 
-use crate::primitive::{Side, Triangle};
+use crate::primitive::{EdgeSide, Triangle};
 use crate::rules::Rules;
 use crate::sample::Sample;
 use etalon_pipeline::Point;
@@ -12,7 +12,7 @@ pub(crate) fn sides(
     at: Sample,
     point: Point,
     units: i64,
-) -> [Side; 3] {
+) -> [EdgeSide; 3] {
     if at.samples == 1 || rules.covers_at_positions.value() {
         return [0, 1, 2].map(|i| triangle.side(i, point));
     }
@@ -25,8 +25,8 @@ pub(crate) fn sides(
     [0, 1, 2].map(|i| {
         let [first, others @ ..] = corners.map(|corner| triangle.side(i, corner));
         match first {
-            Side::Positive | Side::Negative if others.iter().all(|o| *o == first) => first,
-            _ => Side::Unknown,
+            EdgeSide::Positive | EdgeSide::Negative if others.iter().all(|o| *o == first) => first,
+            _ => EdgeSide::Unknown,
         }
     })
 }

@@ -3,10 +3,10 @@
 //! them is judged.
 
 use crate::interval::Interval;
-use crate::primitive::{Shape, Side, SnappedPrimitive};
+use crate::primitive::{EdgeSide, Shape, SnappedPrimitive};
 use crate::range::Range;
 use crate::sample::Sample;
-use crate::walk::{Hit, Place, Walk};
+use crate::walk::{FragmentPlace, Hit, Walk};
 use crate::world::World;
 use etalon_frame::Rejection;
 use etalon_scene::{Contents, Draw, EarlyTests, InterpolationSampling, Multisample};
@@ -16,7 +16,7 @@ use std::num::NonZeroU64;
 
 /// The inputs of a draw's fragments that its signatures must distinguish.
 #[derive(Clone, Debug)]
-pub(crate) struct Inputs {
+pub(crate) struct SignatureInputs {
     /// True if the fragment's own depth is tested, stored or both.
     depth: bool,
     /// True if the shader reads the fragment's depth.
@@ -46,7 +46,7 @@ enum TextureEffect {
 
 /// A draw's part of a signature: the words and hits from the first ones on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Part {
+pub(crate) struct SignaturePart {
     pub(crate) draw: u32,
     first_word: u32,
     first_hit: u32,
@@ -57,11 +57,11 @@ pub(crate) struct Part {
 pub(crate) struct SampleKey {
     pub(crate) words: Vec<u64>,
     /// The draws that touch the sample, in order.
-    pub(crate) parts: Vec<Part>,
+    pub(crate) parts: Vec<SignaturePart>,
     /// The primitives that cover the sample, by their indices in the draws' setups.
     hits: Vec<(u32, Hit)>,
     /// The sides for all primitives, even if they miss the sample.
-    sides: Vec<[Side; 3]>,
+    sides: Vec<[EdgeSide; 3]>,
     /// True if all samples in the row between this sample and another with equal signature and sides also
     /// have that signature.
     constant: bool,
@@ -117,7 +117,7 @@ fn range_bits(value: Range) -> [[u64; 2]; 3] {
 
 impl Walk<'_> {
     /// Returns the inputs of a draw.
-    pub(crate) fn inputs(&self, pass: usize, index: usize) -> Inputs {
+    pub(crate) fn inputs(&self, pass: usize, index: usize) -> SignatureInputs {
         let draw = &self.scene.passes[pass].draws[index];
         let tests_depth = self.scene.passes[pass].depth_stencil.is_some() && draw.depth.is_some();
         let forced = draw.early_tests == EarlyTests::Forced;
@@ -129,7 +129,7 @@ impl Walk<'_> {
             ..Multisample::default()
         };
         let masked = u64::from(state.mask) & full_mask != full_mask;
-        let mut inputs = Inputs {
+        let mut inputs = SignatureInputs {
             depth: tests_depth && (forced || !draw.shader.writes_depth()),
             depth_seen: draw.shader.reads_depth(),
             coordinates: draw.shader.reads_coordinates(),
@@ -191,7 +191,7 @@ impl Walk<'_> {
     pub(crate) fn sign(
         &self,
         pass: usize,
-        inputs: &[Inputs],
+        inputs: &[SignatureInputs],
         at: Sample,
         members: impl Iterator<Item = (u32, u32)>,
         names_inputs: impl Fn(u32) -> bool,
@@ -222,7 +222,7 @@ impl Walk<'_> {
                 }
             };
             if signature.parts.last().is_none_or(|part| part.draw != d) {
-                signature.parts.push(Part {
+                signature.parts.push(SignaturePart {
                     draw: d,
                     first_word: signature.words.len() as u32,
                     first_hit: signature.hits.len() as u32,
@@ -230,7 +230,7 @@ impl Walk<'_> {
                 self.sign_draw(inputs, at, signature);
             }
             signature.hits.push((i, hit));
-            let place = Place {
+            let place = FragmentPlace {
                 at,
                 point,
                 sides: hit.sides,
@@ -255,7 +255,7 @@ impl Walk<'_> {
     }
 
     /// Adds the words that all primitives of a draw share.
-    fn sign_draw(&self, inputs: &Inputs, at: Sample, signature: &mut SampleKey) {
+    fn sign_draw(&self, inputs: &SignatureInputs, at: Sample, signature: &mut SampleKey) {
         if inputs.sample {
             signature.words.push(u64::from(at.sample));
         }
@@ -279,10 +279,10 @@ impl Walk<'_> {
 
     fn sign_primitive(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         hit: Hit,
         kind: u32,
-        inputs: &Inputs,
+        inputs: &SignatureInputs,
         signature: &mut SampleKey,
     ) {
         let primitive = place.primitive;
@@ -297,7 +297,7 @@ impl Walk<'_> {
                 word |= (side as u64) << (35 + 2 * i);
             }
             let (least, most) = triangle.area;
-            let certain = |side: Side| matches!(side, Side::Positive | Side::Negative);
+            let certain = |side: EdgeSide| matches!(side, EdgeSide::Positive | EdgeSide::Negative);
             let certain = (least > 0 || most < 0) && hit.sides.into_iter().all(certain);
             names_itself |= !certain;
             signature.constant &= certain;
@@ -313,7 +313,12 @@ impl Walk<'_> {
     }
 
     /// Adds the values of inputs that vary over a primitive.
-    fn sign_inputs(&self, place: &Place<'_>, inputs: &Inputs, signature: &mut SampleKey) {
+    fn sign_inputs(
+        &self,
+        place: &FragmentPlace<'_>,
+        inputs: &SignatureInputs,
+        signature: &mut SampleKey,
+    ) {
         let primitive = place.primitive;
         if inputs.depth && !primitive.window_depth.is_flat() {
             let depth = primitive.depth_at(place.point);
@@ -354,7 +359,7 @@ impl Walk<'_> {
     }
 }
 
-impl Inputs {
+impl SignatureInputs {
     /// Returns true if signatures have values that earlier passes drew.
     pub(crate) fn reads_earlier_passes(&self) -> bool {
         let drawn = |texture: &TextureEffect| matches!(texture, TextureEffect::Value(_));

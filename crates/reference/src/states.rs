@@ -7,22 +7,22 @@ use std::hash::{Hash, Hasher};
 use std::rc::Rc;
 
 /// The number of a state; [`OPEN`] if the sample is open.
-pub(crate) type State = u32;
+pub(crate) type StateNumber = u32;
 
 /// The state of samples about which nothing is asserted.
-pub(crate) const OPEN: State = u32::MAX;
+pub(crate) const OPEN: StateNumber = u32::MAX;
 
 /// All states, each stored once.
 #[derive(Debug, Default)]
 pub(crate) struct States {
     /// Each state's worlds, and the latest earlier state with the same hash; [`OPEN`] if no earlier state has it.
-    all: Vec<(Rc<Worlds>, State)>,
+    all: Vec<(Rc<Worlds>, StateNumber)>,
     /// For each hash, the last state that has it.
-    last: FxHashMap<u64, State>,
+    last: FxHashMap<u64, StateNumber>,
 }
 
 impl States {
-    pub(crate) fn number(&mut self, worlds: Option<Worlds>) -> State {
+    pub(crate) fn number(&mut self, worlds: Option<Worlds>) -> StateNumber {
         let Some(worlds) = worlds else { return OPEN };
         let mut hasher = FxHasher::default();
         worlds.hash(&mut hasher);
@@ -35,12 +35,12 @@ impl States {
             state = *earlier;
         }
         self.all.push((Rc::new(worlds), *last));
-        *last = self.all.len() as State - 1;
+        *last = self.all.len() as StateNumber - 1;
         *last
     }
 
     /// Returns the worlds of a state; `None` if the sample is open.
-    pub(crate) fn worlds(&self, state: State) -> Option<&Rc<Worlds>> {
+    pub(crate) fn worlds(&self, state: StateNumber) -> Option<&Rc<Worlds>> {
         self.all.get(state as usize).map(|(worlds, _)| worlds)
     }
 }
@@ -50,7 +50,7 @@ impl States {
 pub(crate) struct Pictures {
     pub(crate) shapes: Vec<Shape>,
     /// For each shape, the states of its samples.
-    pub(crate) samples: Vec<Vec<State>>,
+    pub(crate) samples: Vec<Vec<StateNumber>>,
     pub(crate) states: States,
 }
 
@@ -65,13 +65,13 @@ impl Pictures {
     }
 
     /// Returns the state of a sample.
-    pub(crate) fn state(&self, at: Sample) -> State {
+    pub(crate) fn state(&self, at: Sample) -> StateNumber {
         let shape = self.shape((at.size, at.samples));
         shape.map_or(OPEN, |s| self.samples[s][at.place()])
     }
 
     /// Returns the states of a shape's samples.
-    pub(crate) fn of_shape(&self, shape: Shape) -> &[State] {
+    pub(crate) fn of_shape(&self, shape: Shape) -> &[StateNumber] {
         self.shape(shape).map_or(&[], |s| &self.samples[s])
     }
 }

@@ -5,7 +5,7 @@
 
 use crate::notes::Notes;
 use crate::range::Range;
-use crate::walk::{Place, Walk};
+use crate::walk::{FragmentPlace, Walk};
 use etalon_frame::{Api, Step};
 use etalon_pipeline::exported_reference;
 use etalon_pipeline::shader::FragmentOutput;
@@ -37,7 +37,7 @@ impl Walk<'_> {
     /// reference that the shader writes is not known exactly.
     pub(crate) fn faces(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         front: bool,
         output: &FragmentOutput<Range>,
         notes: &mut Notes<'_>,
@@ -75,7 +75,7 @@ impl Walk<'_> {
     /// Notes that the reference that a shader writes comes too late.
     pub(crate) fn note_late_reference(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         front: bool,
         notes: &mut Notes<'_>,
     ) {

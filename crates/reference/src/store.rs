@@ -6,7 +6,7 @@ use crate::judging::Judging;
 use crate::notes::Notes;
 use crate::range::Range;
 use crate::rules::{ConstantClamp, NegativeAlpha, SignedClamp, SrgbLogic};
-use crate::walk::{Place, Walk};
+use crate::walk::{FragmentPlace, Walk};
 use crate::world::{Contested, Decision, World};
 use etalon_frame::{
     Aspect, ChannelEncoding, CodeInterval, Codes, Effect, Step, TextureFormat, ValueRange,
@@ -19,7 +19,7 @@ impl Walk<'_> {
     /// Stores the depth of a fragment that passed all tests.
     pub(crate) fn write_depth(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         world: &mut World,
         incoming: Incoming,
         notes: &mut Notes<'_>,
@@ -80,7 +80,7 @@ impl Walk<'_> {
     /// Returns the blend constant of a draw.
     fn blend_constant(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         world: &World,
         judging: &mut Judging<'_>,
     ) -> [Range; 4] {
@@ -97,7 +97,7 @@ impl Walk<'_> {
     /// Returns the colour of an advanced blend of source and destination.
     fn advanced(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         mode: AdvancedBlend,
         encodings: [ChannelEncoding; 4],
         [src, dst]: [[Range; 4]; 2],
@@ -131,7 +131,7 @@ impl Walk<'_> {
     /// Stores the colours of a fragment that passed all tests.
     pub(crate) fn write_colors(
         &self,
-        place: &Place<'_>,
+        place: &FragmentPlace<'_>,
         world: &mut World,
         output: &FragmentOutput<Range>,
         notes: &mut Notes<'_>,

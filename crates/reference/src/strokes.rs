@@ -2,7 +2,7 @@
 
 use crate::bins::Segments;
 use crate::sample::{Sample, Shape};
-use crate::signature::{Inputs, SampleKey};
+use crate::signature::{SampleKey, SignatureInputs};
 use crate::texels::Lattice;
 use crate::walk::Walk;
 use etalon_scene::Pass;
@@ -93,7 +93,10 @@ impl Walk<'_> {
                 kept.numbers = FxHashMap::default();
                 (!kept.is_full()).then_some(kept)
             };
-            let depends = tracer.inputs.iter().any(Inputs::reads_earlier_passes);
+            let depends = tracer
+                .inputs
+                .iter()
+                .any(SignatureInputs::reads_earlier_passes);
             if depends {
                 return None;
             }
@@ -107,7 +110,7 @@ impl Walk<'_> {
 pub(crate) struct Tracer<'t, 'a> {
     walk: &'t Walk<'a>,
     pass: usize,
-    inputs: Vec<Inputs>,
+    inputs: Vec<SignatureInputs>,
     shape: Shape,
 }
 

@@ -4,7 +4,7 @@
 use crate::bins::PassSetup;
 use crate::notes::{Note, Notes, Skipped};
 use crate::possible::Possible;
-use crate::primitive::{Shape, Side, SnappedPrimitive, misses};
+use crate::primitive::{EdgeSide, Shape, SnappedPrimitive, misses};
 use crate::read_back::{converted, depth_encoding, read_path};
 use crate::readings::OpenTexts;
 use crate::rounding::all_codes;
@@ -77,7 +77,7 @@ pub(crate) struct Forced {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Hit {
     /// The sides of a triangle's edges on which the sample is.
-    pub(crate) sides: [Side; 3],
+    pub(crate) sides: [EdgeSide; 3],
     /// True if the sample is certainly inside the viewport.
     pub(crate) in_viewport: bool,
     /// True if the near and far planes certainly do not clip the sample.
@@ -95,12 +95,12 @@ impl Hit {
 
 /// The place of a fragment: its sample, pass, draw and primitive.
 #[derive(Clone, Copy)]
-pub(crate) struct Place<'a> {
+pub(crate) struct FragmentPlace<'a> {
     pub(crate) at: Sample,
     /// The sample's position in sub-texel units.
     pub(crate) point: Point,
     /// The sides of a triangle's edges on which the sample is.
-    pub(crate) sides: [Side; 3],
+    pub(crate) sides: [EdgeSide; 3],
     pub(crate) pass: usize,
     pub(crate) draw_index: usize,
     pub(crate) draw: &'a Draw,
@@ -112,7 +112,7 @@ pub(crate) struct Place<'a> {
     pub(crate) world: (usize, usize),
 }
 
-impl Place<'_> {
+impl FragmentPlace<'_> {
     /// Returns the origin of the fragment's events.
     pub(crate) fn origin(&self) -> Origin {
         let (world, worlds) = self.world;
@@ -310,7 +310,7 @@ impl<'a> Walk<'a> {
                     continue;
                 }
             };
-            let place = Place {
+            let place = FragmentPlace {
                 at,
                 point,
                 sides: hit.sides,
@@ -358,7 +358,7 @@ impl<'a> Walk<'a> {
         &self,
         (p, d): (usize, usize),
         primitive: &SnappedPrimitive,
-        sides: [Side; 3],
+        sides: [EdgeSide; 3],
         point: Point,
     ) -> Result<Hit, Rejection> {
         let draw = &self.scene.passes[p].draws[d];
@@ -429,10 +429,10 @@ impl<'a> Walk<'a> {
         primitive: &SnappedPrimitive,
         at: Sample,
         point: Point,
-    ) -> [Side; 3] {
+    ) -> [EdgeSide; 3] {
         match &primitive.shape {
             Shape::Triangle(triangle) => sides(self.rules, triangle, at, point, self.units),
-            _ => [Side::Unknown; 3],
+            _ => [EdgeSide::Unknown; 3],
         }
     }
 

@@ -47,7 +47,7 @@ pub struct Catalogue {
 
 /// The file of one area. Each text, picture and list is in it once; the cases refer to them by index.
 #[derive(Serialize, Default)]
-struct Area<'a> {
+struct CatalogueArea<'a> {
     files: BTreeMap<&'a str, &'a Value>,
     shaders: BTreeMap<&'a str, &'a str>,
     lines: Interner<&'a str>,
@@ -93,8 +93,8 @@ pub(crate) fn write_scripts(
     areas.into_iter().map(write).collect()
 }
 
-fn area<'a>(catalogue: &'a Catalogue, cases: &[&'a CatalogueCase]) -> Area<'a> {
-    let mut area = Area::default();
+fn area<'a>(catalogue: &'a Catalogue, cases: &[&'a CatalogueCase]) -> CatalogueArea<'a> {
+    let mut area = CatalogueArea::default();
     let mut bytes = 0;
     for case in cases {
         let scene = case.lines.iter().map(|line| area.lines.place(line));

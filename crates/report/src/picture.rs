@@ -63,7 +63,7 @@ impl Render for Strip {
 
 /// The part of an image that is shown.
 #[derive(Clone, Copy)]
-struct Window {
+struct TexelWindow {
     x: u32,
     y: u32,
     width: u32,
@@ -72,7 +72,7 @@ struct Window {
 
 struct PictureView<'a> {
     image: &'a FrameImage,
-    window: Window,
+    window: TexelWindow,
     /// Page pixels per texel.
     scale: u32,
     /// Darkest and lightest value of grey pictures.
@@ -170,7 +170,14 @@ pub(crate) fn named(
         pictures.push(view.plain(format!("{actual}{channels}"), &image.actual, look));
     };
     let color = image.aspect == Aspect::Color;
-    add("", if color { ShownChannels::Rgb } else { ShownChannels::Grey(0) });
+    add(
+        "",
+        if color {
+            ShownChannels::Rgb
+        } else {
+            ShownChannels::Grey(0)
+        },
+    );
     let alpha = alpha(image);
     if alpha == Alpha::Varies {
         add(" alpha", ShownChannels::Grey(3));
@@ -199,7 +206,7 @@ fn title(image: &FrameImage) -> String {
     format!("{name}: {width}×{height}{samples}, {}", image.channels[0])
 }
 
-fn window(image: &FrameImage) -> Window {
+fn window(image: &FrameImage) -> TexelWindow {
     let [width, height] = image.size;
     let first = image.wrong.iter().position(|w| *w != FrameImage::FINE);
     let texel = (first.unwrap_or(0) as u64 / u64::from(image.samples.max(1))) as u32;
@@ -209,7 +216,7 @@ fn window(image: &FrameImage) -> Window {
             .saturating_sub(WINDOW / 2)
             .min(size.saturating_sub(WINDOW))
     };
-    Window {
+    TexelWindow {
         x: start(x, width),
         y: start(y, height),
         width: width.min(WINDOW),
@@ -458,7 +465,7 @@ impl<'a> PictureView<'a> {
         }
         let [width, height] = image.size;
         if (self.window.width, self.window.height) != (width, height) {
-            let Window { x, y, .. } = self.window;
+            let TexelWindow { x, y, .. } = self.window;
             text += &format!(" Only the part from texel ({x}, {y}) is shown.");
         }
         text

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// A kind of folder of pages.
-pub(crate) struct Kind {
+pub(crate) struct PagesKind {
     /// The file that marks such a folder. It lists the files of the folder.
     pub(crate) mark: &'static str,
     /// The name, and the name with its kind.
@@ -33,7 +33,7 @@ pub struct WrittenFolder {
 
 /// Checks that a path is free, or that it has only files of an earlier folder of this kind and may be
 /// replaced.
-fn check(to: &Path, kind: &Kind, replace: bool) -> Result<(), ReportError> {
+fn check(to: &Path, kind: &PagesKind, replace: bool) -> Result<(), ReportError> {
     let path = to.to_owned();
     let unread = ReportError::unread(to);
     match fs::read_dir(to).map(|mut entries| entries.next().is_none()) {
@@ -68,7 +68,7 @@ fn check(to: &Path, kind: &Kind, replace: bool) -> Result<(), ReportError> {
 
 /// Returns the files that the marking file of a folder lists. Earlier versions listed none, so any of the folder's can
 /// be somebody else's.
-fn listed(folder: &Path, kind: &Kind) -> io::Result<HashSet<String>> {
+fn listed(folder: &Path, kind: &PagesKind) -> io::Result<HashSet<String>> {
     let text = fs::read(folder.join(kind.mark))?;
     let value: Value = serde_json::from_slice(&text).unwrap_or_default();
     let names = value["files"].as_array().into_iter().flatten();
@@ -77,7 +77,7 @@ fn listed(folder: &Path, kind: &Kind) -> io::Result<HashSet<String>> {
 
 /// Removes a folder with the files that it lists; other files stay, with their folders. The marking file is removed
 /// last, so that the next process can go on if this one is killed.
-fn remove(folder: &Path, kind: &Kind) -> io::Result<()> {
+fn remove(folder: &Path, kind: &PagesKind) -> io::Result<()> {
     if !is_marked(folder, kind.mark) {
         return fs::remove_dir(folder);
     }
@@ -119,7 +119,7 @@ fn beside(to: &Path, ending: &str) -> PathBuf {
 const OLD: &str = "old";
 
 /// Ends what a killed process began: puts an earlier folder back, or removes what is left of it.
-fn recover(to: &Path, kind: &Kind) -> Result<(), ReportError> {
+fn recover(to: &Path, kind: &PagesKind) -> Result<(), ReportError> {
     let name = to.file_name().unwrap_or_default().to_string_lossy();
     let old = to.with_file_name(format!(".{name}.{OLD}"));
     if !is_marked(&old, kind.mark) {
@@ -153,17 +153,17 @@ fn files(folder: &Path, below: &Path, paths: &mut Vec<PathBuf>) -> io::Result<()
 
 /// A folder that is being written.
 pub(crate) struct Staged {
-    kind: &'static Kind,
+    kind: &'static PagesKind,
     /// True to replace an earlier folder.
     replace: bool,
     to: PathBuf,
     beside: PathBuf,
-    written: Mutex<Written>,
+    written: Mutex<WrittenFiles>,
 }
 
 /// The files that were written.
 #[derive(Debug, Default)]
-struct Written {
+struct WrittenFiles {
     names: Vec<String>,
     bytes: u64,
 }
@@ -199,7 +199,7 @@ impl Staged {
     /// Returns an error if the path has no name, cannot be read, or has other files.
     pub(crate) fn begin(
         to: &Path,
-        kind: &'static Kind,
+        kind: &'static PagesKind,
         replace: bool,
     ) -> Result<Self, ReportError> {
         check_folder(to)?;
@@ -249,7 +249,7 @@ impl Staged {
         }
     }
 
-    fn written(&self) -> MutexGuard<'_, Written> {
+    fn written(&self) -> MutexGuard<'_, WrittenFiles> {
         self.written.lock().unwrap_or_else(PoisonError::into_inner)
     }
 

@@ -270,7 +270,8 @@ impl<'a, R> Table<'a, R> {
         options: TableOptions,
         optional: &[&'static str],
     ) -> (String, Vec<&'static str>) {
-        let columns: Vec<&TableColumn<'a, R>> = self.columns.iter().filter(|c| c.on_terminal).collect();
+        let columns: Vec<&TableColumn<'a, R>> =
+            self.columns.iter().filter(|c| c.on_terminal).collect();
         let names: Vec<String> = columns.iter().map(|c| c.name.on_terminal()).collect();
         let cells = |row| columns.iter().map(|c| (c.cell)(&row)).collect();
         let rows: Vec<Vec<Cell>> = rows.into_iter().map(cells).collect();

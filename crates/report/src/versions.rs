@@ -11,7 +11,7 @@ use crate::table::{Cell, Table, as_is};
 use crate::terminal::TableOptions;
 use crate::words::plain;
 use etalon_record::{CaseVersions, OutputFolder, ReleaseRecord, Standing, Verdict, Versions};
-use groups::{Course, Group, groups};
+use groups::{CaseGroup, ResultCourse, groups};
 use maud::{Markup, html};
 use std::path::{Path, PathBuf};
 
@@ -77,9 +77,9 @@ fn html(versions: &Versions) -> String {
 }
 
 /// Returns a table with a row per group, which links to the group by its number on the page.
-fn findings<'a>() -> Table<'a, (usize, &'a Group<'a>)> {
+fn findings<'a>() -> Table<'a, (usize, &'a CaseGroup<'a>)> {
     Table::new("figures")
-        .head("finding", |(number, group): &(usize, &'a Group<'a>)| {
+        .head("finding", |(number, group): &(usize, &'a CaseGroup<'a>)| {
             let first = &group.cases[0].case;
             let none = || format!("none: {}", plain(first, 120));
             let shown = html! {
@@ -98,12 +98,12 @@ fn findings<'a>() -> Table<'a, (usize, &'a Group<'a>)> {
 }
 
 /// Returns true if a group has rows in the table.
-fn shown((_, group): &(usize, &Group<'_>)) -> bool {
-    matches!(group.course, Course::Bad | Course::Flaky)
+fn shown((_, group): &(usize, &CaseGroup<'_>)) -> bool {
+    matches!(group.course, ResultCourse::Bad | ResultCourse::Flaky)
 }
 
 /// Returns the number of cases by how they changed over the releases.
-fn totals(groups: &[Group<'_>]) -> [u64; 4] {
+fn totals(groups: &[CaseGroup<'_>]) -> [u64; 4] {
     let mut totals = [0; 4];
     for group in groups {
         totals[group.course as usize] += group.cases.len() as u64;
@@ -111,7 +111,7 @@ fn totals(groups: &[Group<'_>]) -> [u64; 4] {
     totals
 }
 
-fn head(versions: &Versions, groups: &[Group<'_>]) -> Markup {
+fn head(versions: &Versions, groups: &[CaseGroup<'_>]) -> Markup {
     let header = &versions.header;
     let [bad, flaky, good, unknown] = totals(groups);
     let totals = [
@@ -156,7 +156,7 @@ fn key(class: &str, symbol: &str, words: &str) -> Markup {
     html! { span class={ "key " (class) } { i { (symbol) } " " (words) } }
 }
 
-fn overview(versions: &Versions, groups: &[Group<'_>]) -> Markup {
+fn overview(versions: &Versions, groups: &[CaseGroup<'_>]) -> Markup {
     html! {
         section {
             h2 { "By finding" }
@@ -177,11 +177,11 @@ fn overview(versions: &Versions, groups: &[Group<'_>]) -> Markup {
     }
 }
 
-fn title<'a>(group: &Group<'a>) -> &'a str {
+fn title<'a>(group: &CaseGroup<'a>) -> &'a str {
     group.finding.unwrap_or("no finding")
 }
 
-fn section(versions: &Versions, number: usize, group: &Group<'_>) -> Markup {
+fn section(versions: &Versions, number: usize, group: &CaseGroup<'_>) -> Markup {
     let rows = group.cases.iter().map(|case| (*case, case.standings()));
     let mut table = Table::<(&CaseVersions, Vec<Option<Standing>>)>::new("cases")
         .head("Case", |(case, _)| &*case.case);

@@ -61,7 +61,7 @@ const MALLOC: (&str, &str) = (
 );
 
 /// An answer, or the end of all answers, with the time of its arrival.
-type Answer = (Instant, Result<Response, Loss>);
+type WorkerAnswer = (Instant, Result<Response, Loss>);
 
 /// A worker's process and its pipes.
 pub(crate) struct WorkerProcess {
@@ -74,9 +74,9 @@ pub(crate) struct WorkerProcess {
     greeted: Arc<AtomicBool>,
     /// Sends requests to the thread that writes them.
     requests: Option<Sender<Vec<u8>>>,
-    responses: Receiver<Vec<Answer>>,
+    responses: Receiver<Vec<WorkerAnswer>>,
     /// Answers that have arrived but that no caller has taken yet.
-    came: VecDeque<Answer>,
+    came: VecDeque<WorkerAnswer>,
     stderr: StderrTail,
     memory: Option<MemoryLimit>,
     /// The time of the last answer, or of the start.

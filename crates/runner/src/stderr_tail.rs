@@ -12,17 +12,17 @@ const CAPACITY: usize = 4096;
 
 /// The last part of a stream. A separate thread reads the stream, so that the writer never blocks.
 #[derive(Debug)]
-pub(crate) struct StderrTail(Arc<Shared>);
+pub(crate) struct StderrTail(Arc<SharedTail>);
 
 #[derive(Debug, Default)]
-struct Shared {
-    kept: Mutex<Kept>,
+struct SharedTail {
+    kept: Mutex<KeptBytes>,
     /// Signals the stream's end.
     end: Condvar,
 }
 
 #[derive(Debug, Default)]
-struct Kept {
+struct KeptBytes {
     bytes: VecDeque<u8>,
     ended: bool,
 }

@@ -69,7 +69,7 @@ fn drawn(draw: &Draw, size: [u32; 2]) -> (u64, u64) {
     if !filled.contains(&draw.topology) {
         return (0, 0);
     }
-    let window = Window::new(draw, size);
+    let window = WorkWindow::new(draw, size);
     let (mut triangles, mut texels) = (0, 0);
     for primitive in draw.primitives() {
         let PrimitiveVertices::Triangle(corners) = primitive else {
@@ -107,14 +107,14 @@ fn is_seen(draw: &Draw, corners: [[f64; 4]; 3]) -> bool {
 }
 
 /// The part of the attachments that a draw can reach.
-struct Window {
+struct WorkWindow {
     /// Left, top, width and height of the viewport; the height can be negative.
     rect: [f64; 4],
     /// Left, top, right and bottom of the intersection of viewport, scissor rectangle and attachments.
     bounds: [f64; 4],
 }
 
-impl Window {
+impl WorkWindow {
     fn new(draw: &Draw, size: [u32; 2]) -> Self {
         let [x, y, w, h] = draw.viewport.area().map(f64::from);
         let mut bounds = [x, y, x + w, y + h];

@@ -127,13 +127,18 @@ pub fn compare(before: &Samples, after: &Samples) -> Comparison {
         _ if before.rounds().min(after.rounds()) < MIN_ROUNDS => {
             Conclusion::CannotTell(Why::TooFewRounds)
         }
-        (IntervalSide::Slower, IntervalSide::Slower) | (IntervalSide::Faster, IntervalSide::Faster) if drifted => {
+        (IntervalSide::Slower, IntervalSide::Slower)
+        | (IntervalSide::Faster, IntervalSide::Faster)
+            if drifted =>
+        {
             Conclusion::CannotTell(Why::Drift)
         }
         (IntervalSide::Slower, IntervalSide::Slower) => Conclusion::Slower,
         (IntervalSide::Faster, IntervalSide::Faster) => Conclusion::Faster,
         (IntervalSide::Small, IntervalSide::Small) => Conclusion::CannotTell(Why::Small),
-        (IntervalSide::Slower | IntervalSide::Faster, _) => Conclusion::CannotTell(moved(before, after)),
+        (IntervalSide::Slower | IntervalSide::Faster, _) => {
+            Conclusion::CannotTell(moved(before, after))
+        }
         _ => Conclusion::CannotTell(Why::Noise),
     };
     Comparison {

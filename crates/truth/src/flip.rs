@@ -44,7 +44,9 @@ pub(super) fn mean_flip(size: [u32; 2], truth: &[u8], picture: &[u8]) -> f64 {
         } else {
             below + (color - knee) / (largest - knee) * (1.0 - below)
         };
-        let differ = |of: fn(&PerceivedPicture) -> &PixelPlane| (of(&truth)[texel] - of(&picture)[texel]).abs();
+        let differ = |of: fn(&PerceivedPicture) -> &PixelPlane| {
+            (of(&truth)[texel] - of(&picture)[texel]).abs()
+        };
         let feature = differ(|seen| &seen.edges).max(differ(|seen| &seen.points));
         sum += color.powf(1.0 - (FRAC_1_SQRT_2 * feature).sqrt()).min(1.0);
     }
@@ -69,7 +71,12 @@ impl PerceivedPicture {
                 opponent(relative(linear))
             })
             .collect();
-        let planes = [0, 1, 2].map(|c| opponents.iter().map(|color| color[c]).collect::<PixelPlane>());
+        let planes = [0, 1, 2].map(|c| {
+            opponents
+                .iter()
+                .map(|color| color[c])
+                .collect::<PixelPlane>()
+        });
         let luminance: PixelPlane = planes[0].iter().map(|l| (l + 16.0) / 116.0).collect();
         let [edges, points] = features(size, &luminance);
         let filtered = [0, 1, 2].map(|c| blurred(size, &planes[c], SENSITIVITY[c]));
@@ -174,7 +181,12 @@ fn kernel(radius: i32, function: impl Fn(f64) -> f64) -> Vec<f64> {
 }
 
 /// Convolves a plane with one kernel along rows and another along columns. The texels at the border repeat.
-fn convolve([width, height]: [usize; 2], plane: &[f64], across: &[f64], down: &[f64]) -> PixelPlane {
+fn convolve(
+    [width, height]: [usize; 2],
+    plane: &[f64],
+    across: &[f64],
+    down: &[f64],
+) -> PixelPlane {
     let neighbour = |place: usize, offset: usize, radius: usize, length: usize| {
         (place + offset).saturating_sub(radius).min(length - 1)
     };

@@ -46,7 +46,7 @@ impl Linear {
 /// One side of a polygon. The order of its ends is the same for both polygons that share it, so that they
 /// compute the same number for a point up to the sign.
 #[derive(Clone, Copy, Debug)]
-struct Edge {
+struct SurfaceEdge {
     from: Point,
     to: Point,
     /// 1 over its length, negative if the inside is on the other side.
@@ -55,7 +55,7 @@ struct Edge {
     owns: bool,
 }
 
-impl Edge {
+impl SurfaceEdge {
     fn new(a: Point, b: Point, orientation: f64) -> Self {
         let swapped = a > b;
         let (from, to) = if swapped { (b, a) } else { (a, b) };
@@ -103,7 +103,7 @@ pub(super) struct PreparedSurface<'a> {
     pub(super) opaque: bool,
     /// The least and the largest value of any channel of its colour.
     pub(super) tones: [(f64, f64); 3],
-    edges: Vec<Edge>,
+    edges: Vec<SurfaceEdge>,
     low: Point,
     high: Point,
 }
@@ -139,8 +139,8 @@ impl<'a> PreparedSurface<'a> {
         }
         let next = corners.iter().cycle().skip(1);
         let edges = corners.iter().zip(next).filter(|(a, b)| a != b);
-        let edges: Vec<Edge> = edges
-            .map(|(a, b)| Edge::new(*a, *b, area.signum()))
+        let edges: Vec<SurfaceEdge> = edges
+            .map(|(a, b)| SurfaceEdge::new(*a, *b, area.signum()))
             .collect();
         let depth = Linear::through(&corners, &depths);
         let uv = match &surface.paint {

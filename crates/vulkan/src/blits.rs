@@ -3,7 +3,7 @@
 
 use crate::device::Device;
 use crate::format;
-use crate::image::Place;
+use crate::image::ImagePlace;
 use crate::image_state::{ImageState, TRANSFER_DST, TRANSFER_SRC, UNDEFINED};
 use crate::plan::AttachmentPlan;
 use ash::vk;
@@ -30,14 +30,14 @@ pub(crate) unsafe fn record(
         let barriers = [attachment
             .barrier(from, to)
             .image(between)
-            .subresource_range(Place::default().range(aspects))];
+            .subresource_range(ImagePlace::default().range(aspects))];
         let info = vk::DependencyInfo::default().image_memory_barriers(&barriers);
         // SAFETY: upheld by the caller.
         unsafe { api.cmd_pipeline_barrier2(commands, &info) };
     };
     change(UNDEFINED, TRANSFER_DST);
     // The cleared values show if the driver loses a blit.
-    let ranges = [Place::default().range(aspects)];
+    let ranges = [ImagePlace::default().range(aspects)];
     // SAFETY: upheld by the caller; `between` has the layout of a transfer destination.
     unsafe {
         if aspects == vk::ImageAspectFlags::COLOR {
@@ -61,7 +61,7 @@ pub(crate) unsafe fn record(
         Some(blits) => blits.blits(&each),
         None => columns(&each, size),
     };
-    let regions = |blits: &[Blit], source: Place| -> Vec<vk::ImageBlit> {
+    let regions = |blits: &[Blit], source: ImagePlace| -> Vec<vk::ImageBlit> {
         blits.iter().map(|blit| region(blit, source)).collect()
     };
     let blit = |from, to, regions: &[vk::ImageBlit], filter| {
@@ -87,10 +87,10 @@ pub(crate) unsafe fn record(
             from: [[0, 0], [2 * size[0], size[1]]],
             to: [[0, 0], size],
         }];
-        let narrowed = regions(&narrowed, Place::default());
+        let narrowed = regions(&narrowed, ImagePlace::default());
         return blit(between, copy, &narrowed, vk::Filter::LINEAR);
     };
-    let place = Place::default();
+    let place = ImagePlace::default();
     let mut copies = Vec::new();
     for aspect in each {
         let layers = place.layers(format::aspect_flag(aspect));
@@ -132,12 +132,12 @@ fn columns(aspects: &[Aspect], [width, height]: [u32; 2]) -> Vec<Blit> {
 }
 
 /// Returns a blit from a part of an image to the first level and layer of another image.
-fn region(blit: &Blit, source: Place) -> vk::ImageBlit {
+fn region(blit: &Blit, source: ImagePlace) -> vk::ImageBlit {
     let aspects = blit.aspects.iter();
     let mask = aspects.fold(vk::ImageAspectFlags::empty(), |mask, aspect| {
         mask | format::aspect_flag(*aspect)
     });
-    let corners = |place: Place, [from, to]: [[u32; 2]; 2]| {
+    let corners = |place: ImagePlace, [from, to]: [[u32; 2]; 2]| {
         let end = place.offset(to[0], to[1]);
         [
             place.offset(from[0], from[1]),
@@ -147,7 +147,7 @@ fn region(blit: &Blit, source: Place) -> vk::ImageBlit {
             },
         ]
     };
-    let target = Place::default();
+    let target = ImagePlace::default();
     vk::ImageBlit {
         src_subresource: source.layers(mask),
         src_offsets: corners(source, blit.from),

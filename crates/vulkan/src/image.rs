@@ -26,7 +26,7 @@ pub(crate) struct ImageKey {
 
 /// The level, layer and slice of an image that a scene uses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Place {
+pub(crate) struct ImagePlace {
     level: u32,
     layer: u32,
     slice: u32,
@@ -40,21 +40,21 @@ pub(crate) const LAYERS: u32 = 3;
 pub(crate) const DRAWN_LAYERS: [u32; 2] = [1, 2];
 
 /// The dimensions of an image around the part that is used.
-pub(crate) struct Shape {
+pub(crate) struct ImageShape {
     pub(crate) kind: vk::ImageType,
     pub(crate) extent: vk::Extent3D,
     pub(crate) levels: u32,
     pub(crate) layers: u32,
     pub(crate) flags: vk::ImageCreateFlags,
-    pub(crate) place: Place,
+    pub(crate) place: ImagePlace,
 }
 
 impl ImageKey {
     /// Returns the dimensions. The used part is never the first level, layer or slice, except for plain
     /// targets.
-    pub(crate) fn shape(&self) -> Shape {
+    pub(crate) fn shape(&self) -> ImageShape {
         let [width, height] = self.size;
-        let mut shape = Shape {
+        let mut shape = ImageShape {
             kind: vk::ImageType::TYPE_2D,
             extent: vk::Extent3D {
                 width,
@@ -64,7 +64,7 @@ impl ImageKey {
             levels: 1,
             layers: 1,
             flags: vk::ImageCreateFlags::empty(),
-            place: Place::default(),
+            place: ImagePlace::default(),
         };
         if let Some(layer) = self.layered {
             shape.layers = LAYERS;
@@ -100,7 +100,7 @@ impl ImageKey {
     }
 }
 
-impl Place {
+impl ImagePlace {
     /// Returns the range for barriers: all slices of its level and layer, or all layers.
     pub(crate) fn range(self, mask: vk::ImageAspectFlags) -> vk::ImageSubresourceRange {
         vk::ImageSubresourceRange {
@@ -321,7 +321,7 @@ impl Image {
     }
 
     /// Returns the part of the image that is used.
-    pub(crate) fn place(&self) -> Place {
+    pub(crate) fn place(&self) -> ImagePlace {
         self.key.shape().place
     }
 

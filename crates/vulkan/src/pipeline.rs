@@ -27,7 +27,7 @@ const KEPT_PIPELINES: usize = 256;
 
 /// The static state of a pipeline; the rest is [`Setting::states`].
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-struct Key {
+struct PipelineKey {
     targets: Targets,
     shader: Shader,
     early_tests: EarlyTests,
@@ -129,7 +129,7 @@ pub(crate) struct Pipelines {
     tessellation: tessellation::Stages,
     cache: vk::PipelineCache,
     layouts: HashMap<Bindings, Layout>,
-    pipelines: HashMap<Key, Rc<Pipeline>>,
+    pipelines: HashMap<PipelineKey, Rc<Pipeline>>,
 }
 
 /// The parts of a pipeline that depend on the path.
@@ -197,7 +197,7 @@ impl Pipelines {
         draw: &Draw,
         way: Way<'_>,
     ) -> Result<Rc<Pipeline>, BackendError> {
-        let key = Key {
+        let key = PipelineKey {
             targets: targets.clone(),
             shader: draw.shader,
             early_tests: draw.early_tests,
@@ -306,7 +306,7 @@ pub(crate) fn create_layout(
 fn create(
     device: &Device,
     cache: vk::PipelineCache,
-    key: &Key,
+    key: &PipelineKey,
     (stages, attributes): (
         &[vk::PipelineShaderStageCreateInfo<'_>],
         &[vk::VertexInputAttributeDescription],

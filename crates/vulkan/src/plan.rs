@@ -8,7 +8,7 @@ use crate::error::internal;
 use crate::extended::Extended;
 use crate::format;
 use crate::gpu::Gpu;
-use crate::image::{Image, ImageKey, Place};
+use crate::image::{Image, ImageKey, ImagePlace};
 use crate::inputs::{Arguments, CallNumbers, DrawInputs};
 use crate::limits::attachment_usage;
 use crate::path;
@@ -29,7 +29,7 @@ use std::rc::Rc;
 
 /// The plan of a scene.
 #[derive(Default)]
-pub(crate) struct Plan {
+pub(crate) struct ScenePlan {
     pub(crate) attachments: Vec<AttachmentPlan>,
     pub(crate) passes: Vec<PassPlan>,
     pub(crate) reads: Vec<ReadPlan>,
@@ -42,7 +42,7 @@ pub(crate) struct Plan {
 pub(crate) struct AttachmentPlan {
     pub(crate) image: vk::Image,
     /// The part of the image that serves as the attachment.
-    pub(crate) place: Place,
+    pub(crate) place: ImagePlace,
     /// The route by which the attachment reaches the host.
     pub(crate) end: PathEnd,
     /// The image to which the attachment is copied before it is read.
@@ -84,7 +84,7 @@ pub(crate) struct MovedResolve {
     /// The intermediate image.
     pub(crate) image: vk::Image,
     /// The part of the intermediate image that is used.
-    pub(crate) place: Place,
+    pub(crate) place: ImagePlace,
 }
 
 /// The plan of a pass.

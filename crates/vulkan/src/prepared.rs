@@ -14,8 +14,8 @@ use crate::inputs::{DrawInputs, Inputs};
 use crate::path;
 use crate::pipeline::{Pipelines, Way};
 use crate::plan::{
-    AttachmentPlan, DrawPlan, InitialContents, MovedResolve, PassPlan, Plan, between_key, copy_key,
-    image_key, is_advanced, resolve_key, targets,
+    AttachmentPlan, DrawPlan, InitialContents, MovedResolve, PassPlan, ScenePlan, between_key,
+    copy_key, image_key, is_advanced, resolve_key, targets,
 };
 use crate::read::ReadPlan;
 use crate::record::{self, Recorder};
@@ -49,7 +49,7 @@ pub(crate) struct PreparedScene<'a> {
     pool: Option<(Buffer, Pool)>,
     /// The images of the attachments, then the images that they are copied to.
     images: Vec<Image>,
-    plan: Plan,
+    plan: ScenePlan,
     kind: PathCommands,
     /// True if state that does not change between draws is set only once.
     keeps_state: bool,
@@ -83,7 +83,7 @@ impl<'a> PreparedScene<'a> {
             counts: None,
             pool: None,
             images: Vec::new(),
-            plan: Plan::default(),
+            plan: ScenePlan::default(),
             kind: PathCommands::One,
             keeps_state: scene.path.state == PathState::Kept,
             dynamic_samples: scene.path.state == PathState::DynamicSamples,
@@ -292,7 +292,7 @@ impl<'a> PreparedScene<'a> {
                     let object = RenderPass::new(device, planned.size, attached, &targets, second)?;
                     planned.object = Some(object);
                 }
-                let drawing = Drawing {
+                let drawing = SceneDrawing {
                     device,
                     state: scene.path.state,
                     setting,
@@ -345,7 +345,7 @@ impl<'a> PreparedScene<'a> {
 }
 
 /// Data that the draws of a pass share within one of its areas.
-struct Drawing<'a> {
+struct SceneDrawing<'a> {
     device: &'a Device,
     state: PathState,
     setting: Setting,
@@ -358,7 +358,7 @@ struct Drawing<'a> {
     pass: usize,
 }
 
-impl Drawing<'_> {
+impl SceneDrawing<'_> {
     /// Returns the plan of a draw with these inputs and descriptors.
     fn plan(
         &self,

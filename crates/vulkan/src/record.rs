@@ -5,14 +5,14 @@ use crate::blits;
 use crate::clear::Ends;
 use crate::device::{Device, MOST_COUNTED};
 use crate::error::Check;
-use crate::image::Place;
+use crate::image::ImagePlace;
 use crate::image_state::{
     COLOR, COMPUTE, DEPTH_STENCIL, DEPTH_STENCIL_READ_ONLY, DEPTH_STENCIL_RESOLVE, FETCHED,
     ImageState, TRANSFER_DST, TRANSFER_SRC, UNDEFINED,
 };
 use crate::inputs::{ARGUMENTS_BYTES, Arguments, CallNumbers};
 use crate::pipeline::{INSTANCE_BINDING, Pipeline};
-use crate::plan::{AttachmentPlan, DrawPlan, InitialContents, PassPlan, Plan};
+use crate::plan::{AttachmentPlan, DrawPlan, InitialContents, PassPlan, ScenePlan};
 use crate::read::ReadPlan;
 use crate::render_pass::RenderPass;
 use crate::role::Role;
@@ -60,8 +60,8 @@ impl AttachmentPlan {
     }
 
     /// Returns the place that is read back, in the copy if there is one.
-    fn read_place(&self) -> Place {
-        self.copy.map_or(self.place, |_| Place::default())
+    fn read_place(&self) -> ImagePlace {
+        self.copy.map_or(self.place, |_| ImagePlace::default())
     }
 
     pub(crate) fn barrier(
@@ -87,7 +87,7 @@ impl AttachmentPlan {
 pub(crate) fn initial_contents(
     device: &Device,
     commands: vk::CommandBuffer,
-    plan: &Plan,
+    plan: &ScenePlan,
     input: vk::Buffer,
 ) {
     let into: Vec<_> = plan
@@ -197,7 +197,7 @@ fn clear_view(
 pub(crate) fn passes(
     device: &Device,
     recorder: &mut Recorder<'_>,
-    plan: &Plan,
+    plan: &ScenePlan,
     input: vk::Buffer,
 ) -> Result<(), BackendError> {
     let mut roles: Vec<Role> = plan.attachments.iter().map(|a| a.role).collect();
@@ -236,7 +236,7 @@ pub(crate) fn passes(
 fn change_roles(
     device: &Device,
     commands: vk::CommandBuffer,
-    plan: &Plan,
+    plan: &ScenePlan,
     roles: &mut [Role],
     new_roles: impl Iterator<Item = (usize, Role)>,
 ) {
@@ -661,12 +661,12 @@ unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, in
 }
 
 /// Records the copies of attachments to the images that are read instead.
-fn copies(device: &Device, commands: vk::CommandBuffer, plan: &Plan) {
+fn copies(device: &Device, commands: vk::CommandBuffer, plan: &ScenePlan) {
     let copied = || plan.attachments.iter().filter_map(|a| Some((a, a.copy?)));
     let moved = |image: vk::Image, a: &AttachmentPlan, from: ImageState, to: ImageState| {
         a.barrier(from, to)
             .image(image)
-            .subresource_range(Place::default().range(a.aspects))
+            .subresource_range(ImagePlace::default().range(a.aspects))
     };
     let into: Vec<_> = copied()
         .flat_map(|(a, copy)| {
@@ -677,7 +677,7 @@ fn copies(device: &Device, commands: vk::CommandBuffer, plan: &Plan) {
     barriers(device, commands, &into);
     for (attachment, copy) in copied() {
         let [width, height] = attachment.size;
-        let (from, to) = (attachment.place, Place::default());
+        let (from, to) = (attachment.place, ImagePlace::default());
         let source = from.layers(attachment.aspects);
         let target = to.layers(attachment.aspects);
         let extent = vk::Extent3D {
@@ -694,7 +694,7 @@ fn copies(device: &Device, commands: vk::CommandBuffer, plan: &Plan) {
         // rectangle.
         unsafe {
             if attachment.end == PathEnd::Blit {
-                let corners = |place: Place| {
+                let corners = |place: ImagePlace| {
                     let end = place.offset(width, height);
                     [
                         place.offset(0, 0),
@@ -745,7 +745,12 @@ fn copies(device: &Device, commands: vk::CommandBuffer, plan: &Plan) {
 }
 
 /// Records the copies into the output buffer of everything that is read back.
-pub(crate) fn reads(device: &Device, commands: vk::CommandBuffer, plan: &Plan, output: vk::Buffer) {
+pub(crate) fn reads(
+    device: &Device,
+    commands: vk::CommandBuffer,
+    plan: &ScenePlan,
+    output: vk::Buffer,
+) {
     copies(device, commands, plan);
     let into: Vec<_> = plan
         .attachments
@@ -825,7 +830,7 @@ fn barriers(
 /// Returns the copy of a whole aspect, tightly packed at an offset of a buffer.
 fn region(
     attachment: &AttachmentPlan,
-    place: Place,
+    place: ImagePlace,
     aspect: vk::ImageAspectFlags,
     offset: u64,
 ) -> vk::BufferImageCopy {

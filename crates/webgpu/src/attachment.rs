@@ -5,7 +5,7 @@ use crate::calls::{
     TextureAspect, buffer_usage,
 };
 use crate::path;
-use crate::tables::{Lowering, Target};
+use crate::tables::{Lowering, TextureTarget};
 use crate::texel;
 use etalon_frame::{Requirement, TextureFormat};
 use etalon_scene::{
@@ -17,7 +17,7 @@ pub(crate) const PITCH: u32 = 256;
 
 /// An attachment of a scene.
 pub(crate) struct Attached {
-    pub(crate) target: Target,
+    pub(crate) target: TextureTarget,
     format: TextureFormat,
     size: [u32; 2],
     initial: InitialContents,
@@ -188,7 +188,7 @@ impl Attached {
 /// Returns an attachment with the aspects that the format has.
 pub(crate) fn accessed(
     lowering: &mut Lowering<'_>,
-    target: Target,
+    target: TextureTarget,
     format: TextureFormat,
     depth: Access<f32>,
     stencil: Access<u32>,

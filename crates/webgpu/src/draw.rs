@@ -15,19 +15,19 @@ const COPY_ALIGNMENT: usize = 4;
 
 /// The vertices, indices and arguments of a scene, each in one buffer.
 pub(crate) struct Geometry {
-    vertices: Input,
-    indices: Input,
-    arguments: Input,
+    vertices: DrawInput,
+    indices: DrawInput,
+    arguments: DrawInput,
 }
 
 /// A buffer, if it has contents, and the contents.
-struct Input {
+struct DrawInput {
     usage: u32,
     buffer: Option<usize>,
     bytes: Vec<u8>,
 }
 
-impl Input {
+impl DrawInput {
     fn new(usage: u32) -> Self {
         Self {
             usage,
@@ -52,9 +52,9 @@ impl Input {
 impl Geometry {
     pub(crate) fn new() -> Self {
         Self {
-            vertices: Input::new(buffer_usage::VERTEX),
-            indices: Input::new(buffer_usage::INDEX),
-            arguments: Input::new(buffer_usage::INDIRECT),
+            vertices: DrawInput::new(buffer_usage::VERTEX),
+            indices: DrawInput::new(buffer_usage::INDEX),
+            arguments: DrawInput::new(buffer_usage::INDIRECT),
         }
     }
 

@@ -101,7 +101,7 @@ pub(crate) fn target(scene: &Scene, index: usize, abilities: Abilities) -> PathT
 
 /// The texture that an attachment is a part of.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) struct Shape {
+pub(crate) struct AttachmentTexture {
     pub(crate) size: Extent,
     pub(crate) dimension: TextureDimension,
     pub(crate) levels: u32,
@@ -111,7 +111,7 @@ pub(crate) struct Shape {
     pub(crate) layer: u32,
 }
 
-impl Shape {
+impl AttachmentTexture {
     pub(crate) fn of(target: PathTarget, [width, height]: [u32; 2]) -> Self {
         let plain = Self {
             size: [width, height, 1],
@@ -305,10 +305,16 @@ mod tests {
             found_target(color, 4, PathTarget::ArrayLayer),
             PathTarget::Plain
         );
-        let mip = Shape::of(PathTarget::MipLevel, [8, 5]);
+        let mip = AttachmentTexture::of(PathTarget::MipLevel, [8, 5]);
         assert_eq!((mip.size[0] >> mip.level, mip.size[1] >> mip.level), (8, 5));
-        assert_eq!(Shape::of(PathTarget::Slice3d, [8, 8]).slice(), Some(3));
-        assert_eq!(Shape::of(PathTarget::ArrayLayer, [8, 8]).slice(), None);
+        assert_eq!(
+            AttachmentTexture::of(PathTarget::Slice3d, [8, 8]).slice(),
+            Some(3)
+        );
+        assert_eq!(
+            AttachmentTexture::of(PathTarget::ArrayLayer, [8, 8]).slice(),
+            None
+        );
     }
 
     #[test]

@@ -11,7 +11,7 @@ use crate::fetch::{self, FetchKey};
 use crate::format::Format;
 use crate::path;
 use crate::reading::{ImageReading, ReadMethod, Reading};
-use crate::tables::{Lowering, Target};
+use crate::tables::{Lowering, TextureTarget};
 use etalon_backend::halves;
 use etalon_frame::{
     Aspect, ChannelEncoding, PathEnd, PathTarget, PathViews, ReadPath, Requirement, TextureFormat,
@@ -75,9 +75,9 @@ pub(crate) fn plan(
 fn copied(
     lowering: &mut Lowering<'_>,
     attachment: &Attachment,
-    drawn: Target,
+    drawn: TextureTarget,
     commands: &mut Vec<Command>,
-) -> Result<Target, Requirement> {
+) -> Result<TextureTarget, Requirement> {
     let (format, size) = (attachment.format, attachment.size);
     let (target, views) = (PathTarget::Plain, PathViews::Same);
     let target = lowering.attachment(format, size, attachment.samples, target, views)?;
@@ -95,7 +95,7 @@ fn copied(
 fn spoiled(
     lowering: &mut Lowering<'_>,
     format: TextureFormat,
-    target: Target,
+    target: TextureTarget,
 ) -> Option<RenderPass> {
     let mut pass = RenderPass::default();
     if format.is_color() {
@@ -162,7 +162,7 @@ fn image(
 /// The route by which one aspect reaches the buffer.
 struct Read<'a> {
     image: &'a ImageReading,
-    target: Target,
+    target: TextureTarget,
     end: PathEnd,
     output: usize,
 }
@@ -259,7 +259,7 @@ impl Read<'_> {
     fn bits(
         &self,
         lowering: &mut Lowering<'_>,
-        target: Target,
+        target: TextureTarget,
         half: u8,
     ) -> Result<RenderPass, Requirement> {
         let format = self.image.format;
@@ -283,7 +283,13 @@ impl Read<'_> {
     }
 
     /// Adds the copies of a texture to the image with index `image` in the buffer.
-    fn copy(&self, from: Target, aspect: TextureAspect, image: u64, commands: &mut Vec<Command>) {
+    fn copy(
+        &self,
+        from: TextureTarget,
+        aspect: TextureAspect,
+        image: u64,
+        commands: &mut Vec<Command>,
+    ) {
         let [width, height] = self.image.size;
         let (columns, rows) = match self.end {
             PathEnd::Part => (halves(width), halves(height)),
@@ -309,7 +315,7 @@ impl Read<'_> {
 }
 
 /// Returns a colour attachment that clears a target to zeros.
-fn cleared(lowering: &mut Lowering<'_>, target: Target) -> ColorAttachment {
+fn cleared(lowering: &mut Lowering<'_>, target: TextureTarget) -> ColorAttachment {
     ColorAttachment {
         view: lowering.view(target),
         depth_slice: None,

@@ -6,7 +6,7 @@ use crate::calls::{
 };
 use crate::device::{Device, attachment_usages, read_path, texture_usages};
 use crate::format::Format;
-use crate::path::{Reading as ReadingAbility, Shape};
+use crate::path::{AttachmentTexture, Reading as ReadingAbility};
 use crate::pipeline_state::{Pipeline, PipelineState};
 use etalon_frame::{
     Feature, PathTarget, PathValue, PathViews, ReadPath, Requirement, TextureFormat,
@@ -19,17 +19,17 @@ const FLAT: &str = "@interpolate(flat)";
 
 /// A texture, or the part of one that an attachment is.
 #[derive(Clone, Copy)]
-pub(crate) struct Target {
+pub(crate) struct TextureTarget {
     pub(crate) texture: usize,
     /// The format of views.
     pub(crate) format: Format,
     /// The format of the texture.
     stored: Format,
     pub(crate) samples: u32,
-    shape: Shape,
+    shape: AttachmentTexture,
 }
 
-impl Target {
+impl TextureTarget {
     /// Returns the slice that passes draw to, if the texture is a 3D texture.
     pub(crate) fn slice(&self) -> Option<u32> {
         self.shape.slice()
@@ -72,8 +72,8 @@ impl Lowering<'_> {
         samples: u32,
         target: PathTarget,
         views: PathViews,
-    ) -> Result<Target, Requirement> {
-        let shape = Shape::of(target, size);
+    ) -> Result<TextureTarget, Requirement> {
+        let shape = AttachmentTexture::of(target, size);
         let most = match shape.dimension {
             TextureDimension::D2 => self.device.max_texture_2d,
             TextureDimension::D3 => self.device.max_texture_3d,
@@ -91,9 +91,9 @@ impl Lowering<'_> {
     }
 
     /// Returns a texture that a fetch renders to, with undefined contents.
-    pub(crate) fn scratch(&mut self, format: Format, size: [u32; 2]) -> Target {
+    pub(crate) fn scratch(&mut self, format: Format, size: [u32; 2]) -> TextureTarget {
         let usage = texture_usages(TextureFormat::Rgba8Unorm) | texture_usage::RENDER_ATTACHMENT;
-        let shape = Shape::of(PathTarget::Plain, size);
+        let shape = AttachmentTexture::of(PathTarget::Plain, size);
         self.texture(format, format, shape, 1, usage)
     }
 
@@ -101,10 +101,10 @@ impl Lowering<'_> {
         &mut self,
         format: Format,
         stored: Format,
-        shape: Shape,
+        shape: AttachmentTexture,
         samples: u32,
         usage: u32,
-    ) -> Target {
+    ) -> TextureTarget {
         let codes = || format.without_srgb().filter(|_| samples > 1);
         self.list.textures.push(Texture {
             size: shape.size,
@@ -119,7 +119,7 @@ impl Lowering<'_> {
                 Some(format)
             },
         });
-        Target {
+        TextureTarget {
             texture: self.list.textures.len() - 1,
             format,
             stored,
@@ -129,12 +129,12 @@ impl Lowering<'_> {
     }
 
     /// Returns the view of all aspects, for passes.
-    pub(crate) fn view(&mut self, target: Target) -> usize {
+    pub(crate) fn view(&mut self, target: TextureTarget) -> usize {
         self.seen(target, TextureAspect::All, target.format)
     }
 
     /// Returns the view of colour or depth, for fetches.
-    pub(crate) fn fetched(&mut self, target: Target) -> usize {
+    pub(crate) fn fetched(&mut self, target: TextureTarget) -> usize {
         let aspect = if target.format.has_depth() {
             TextureAspect::DepthOnly
         } else {
@@ -146,11 +146,11 @@ impl Lowering<'_> {
     }
 
     /// Returns the view of stencil, for fetches.
-    pub(crate) fn fetched_stencil(&mut self, target: Target) -> usize {
+    pub(crate) fn fetched_stencil(&mut self, target: TextureTarget) -> usize {
         self.seen(target, TextureAspect::StencilOnly, target.format)
     }
 
-    fn seen(&mut self, target: Target, aspect: TextureAspect, format: Format) -> usize {
+    fn seen(&mut self, target: TextureTarget, aspect: TextureAspect, format: Format) -> usize {
         let shape = target.shape;
         let flat = shape.dimension == TextureDimension::D2;
         let view = TextureView {

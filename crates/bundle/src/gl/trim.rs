@@ -30,7 +30,7 @@ pub(super) fn trimmed(calls: &[Call], trim: Trim) -> Vec<&Call> {
         return calls.iter().collect();
     }
     let mut keep = vec![true; calls.len()];
-    let mut slots: BTreeMap<Key, StateSlot> = BTreeMap::new();
+    let mut slots: BTreeMap<StateKey, StateSlot> = BTreeMap::new();
     for (index, call) in calls.iter().enumerate() {
         if let Some(setter) = setter(call) {
             keep[index] = false;
@@ -45,7 +45,7 @@ pub(super) fn trimmed(calls: &[Call], trim: Trim) -> Vec<&Call> {
             slot.pending.push((index, setter.value));
         } else if let Some(replaced) = replaced(&call.function) {
             for (key, slot) in &mut slots {
-                if matches!(key, Key::State(family, _) if *family == replaced) {
+                if matches!(key, StateKey::State(family, _) if *family == replaced) {
                     for index in slot.flush() {
                         keep[index] = true;
                     }
@@ -56,8 +56,8 @@ pub(super) fn trimmed(calls: &[Call], trim: Trim) -> Vec<&Call> {
             let on: Vec<u32> = slots
                 .iter()
                 .filter_map(|(key, slot)| match key {
-                    Key::Capability(capability) => slot.is_on().then_some(*capability),
-                    Key::State(..) => None,
+                    StateKey::Capability(capability) => slot.is_on().then_some(*capability),
+                    StateKey::State(..) => None,
                 })
                 .collect();
             for slot in slots.values_mut() {
@@ -78,7 +78,7 @@ pub(super) fn trimmed(calls: &[Call], trim: Trim) -> Vec<&Call> {
 
 /// A piece of state.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Key {
+enum StateKey {
     /// A capability, on or off.
     Capability(u32),
     /// State that a family of functions sets, by the target if their first argument is one.
@@ -128,7 +128,7 @@ impl StateSlot {
 
 /// A call that sets state.
 struct Setter {
-    key: Key,
+    key: StateKey,
     value: Value,
     /// True if the call replaces the whole state that was set before.
     whole: bool,
@@ -380,7 +380,7 @@ fn setter(call: &Call) -> Option<Setter> {
             "glDisable"
         };
         return Some(Setter {
-            key: Key::Capability(capability),
+            key: StateKey::Capability(capability),
             initial: Some((initial.to_owned(), arguments.clone())),
             value: (function.to_owned(), arguments),
             whole: true,
@@ -389,7 +389,7 @@ fn setter(call: &Call) -> Option<Setter> {
     }
     if let ("glEnablei" | "glDisablei", [capability, _]) = (function, arguments.as_slice()) {
         return Some(Setter {
-            key: Key::Capability(u32::try_from(*capability).ok()?),
+            key: StateKey::Capability(u32::try_from(*capability).ok()?),
             initial: None,
             value: (function.to_owned(), arguments),
             whole: false,
@@ -410,7 +410,7 @@ fn setter(call: &Call) -> Option<Setter> {
     };
     let with_target = |values: Vec<u64>| target.into_iter().chain(values).collect();
     Some(Setter {
-        key: Key::State(known.family, target),
+        key: StateKey::State(known.family, target),
         initial: initial.map(|values| (function.to_owned(), with_target(values))),
         value: (function.to_owned(), arguments),
         whole: known.whole,

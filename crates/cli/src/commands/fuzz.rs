@@ -233,7 +233,7 @@ impl FuzzSearch<'_> {
             Some(_) => u64::MAX,
             None => self.arguments.count.unwrap_or(COUNT),
         };
-        let mut maker = Maker {
+        let mut maker = SceneMaker {
             fuzzer: Fuzzer::new(*seed, Space::of([limits])),
             limits: limits.clone(),
             left: count,
@@ -259,7 +259,7 @@ impl FuzzSearch<'_> {
     fn draw(
         &self,
         mut batches: Batches,
-        maker: &mut Maker,
+        maker: &mut SceneMaker,
         failing: &mut FailingScenes<'_>,
         tally: &mut SceneTally,
         bar: &ProgressBar,
@@ -330,7 +330,7 @@ impl FuzzSearch<'_> {
 }
 
 /// Makes the scenes of an adapter.
-struct Maker {
+struct SceneMaker {
     fuzzer: Fuzzer,
     limits: Limits,
     /// The number of scenes still to make.
@@ -339,7 +339,7 @@ struct Maker {
     until: Option<Instant>,
 }
 
-impl Maker {
+impl SceneMaker {
     /// Makes the scenes of a batch; an empty one at the end.
     fn batch(&mut self) -> Vec<RandomScene> {
         if self.until.is_some_and(|until| Instant::now() >= until) {

@@ -66,11 +66,11 @@ pub(crate) fn depths_start_from_their_clear(s: &Subject) -> Checked {
 
 /// The stored depth, the comparison, whether the draw writes, the depths of four columns, and which columns
 /// pass.
-type Comparison = (f64, &'static str, bool, [f64; 4], [bool; 4]);
+type DepthComparison = (f64, &'static str, bool, [f64; 4], [bool; 4]);
 
 /// Columns that are compared with a quarter and with one.
 const FOURTHS: [[f64; 4]; 2] = [[0.0, 0.25, 1.0, 1.0], [0.0, 1.0, 0.25, 0.5]];
-const COMPARISONS: [Comparison; 7] = [
+const COMPARISONS: [DepthComparison; 7] = [
     (0.25, "less", true, FOURTHS[0], [true, false, false, false]),
     (0.25, "equal", true, FOURTHS[0], [false, true, false, false]),
     (

@@ -5,7 +5,7 @@
 
 use super::AREA;
 use super::fragments::Fragments;
-use super::layout::Field;
+use super::layout::ChannelField;
 use super::planes::with_encoding;
 use crate::lanes::Codes;
 use etalon_frame::ChannelEncoding;
@@ -21,7 +21,7 @@ pub(crate) struct Affine {
 /// The function of one channel that is written.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Term {
-    pub(crate) field: Field,
+    pub(crate) field: ChannelField,
     pub(crate) encoding: ChannelEncoding,
     pub(crate) join: Join,
     /// False if the destination counts as 0.

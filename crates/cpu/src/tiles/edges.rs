@@ -95,7 +95,7 @@ impl Edges {
     /// Returns the [rows](Self::rows) of a triangle that is at most as large as a tile. The first texel must
     /// be at most a tile away from it.
     #[inline(always)]
-    pub(crate) fn near(&self, x: i32, y: i32, sample: [i32; 2]) -> Rows {
+    pub(crate) fn near(&self, x: i32, y: i32, sample: [i32; 2]) -> EdgeSigns {
         let units = UNITS as i32;
         let point = [x * units + sample[0], y * units + sample[1]];
         let mut values = [0; 3];
@@ -105,7 +105,7 @@ impl Edges {
             let value = self.across[i] * (point[0] - px) + self.down[i] * (point[1] - py);
             *slot = (value + self.bias[i] as i32) >> UNITS.ilog2();
         }
-        Rows {
+        EdgeSigns {
             at: values,
             across: self.across,
             down: self.down,
@@ -115,7 +115,7 @@ impl Edges {
     /// Returns numbers that have the signs of the edge functions at one point of each texel in a tile's rows,
     /// starting from a given texel.
     #[inline(always)]
-    pub(crate) fn rows(&self, x: i32, y: i32, sample: [i32; 2]) -> Rows {
+    pub(crate) fn rows(&self, x: i32, y: i32, sample: [i32; 2]) -> EdgeSigns {
         let units = UNITS as i32;
         let point = [x * units + sample[0], y * units + sample[1]];
         let mut values = [0; 3];
@@ -123,7 +123,7 @@ impl Edges {
             // From texel to texel, the function grows by a multiple of `UNITS`, so the floor keeps all signs.
             *slot = self.at(i, point).div_euclid(UNITS).clamp(-FAR, FAR) as i32;
         }
-        Rows {
+        EdgeSigns {
             at: values,
             across: self.across,
             down: self.down,
@@ -133,7 +133,7 @@ impl Edges {
 
 /// Numbers with the signs of the edge functions at the texels of a row.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Rows {
+pub(crate) struct EdgeSigns {
     /// The values at the row's first texel.
     pub(crate) at: [i32; 3],
     /// The increments to the next texel and to the next row.
@@ -141,7 +141,7 @@ pub(crate) struct Rows {
     pub(crate) down: [i32; 3],
 }
 
-impl Rows {
+impl EdgeSigns {
     /// Returns the rows of a triangle, beginning at a texel of a tile that the triangle touches.
     #[inline(always)]
     pub(crate) fn new(triangle: &Triangle, x: i32, y: i32, sample: [i32; 2]) -> Self {
@@ -166,7 +166,7 @@ impl Rows {
     }
 }
 
-/// The numbers of [`Rows`] at consecutive texels.
+/// The numbers of [`EdgeSigns`] at consecutive texels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Numbers<S, I> {
     simd: S,

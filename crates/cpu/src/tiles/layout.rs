@@ -9,31 +9,31 @@ pub(crate) type Words = [u32; 4];
 
 /// The number of words of a texel, and the position of each channel in them.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Layout {
-    fields: [Field; 4],
+pub(crate) struct TexelLayout {
+    fields: [ChannelField; 4],
     channels: usize,
     pub(crate) words: usize,
 }
 
 /// Where a channel's codes are.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Field {
+pub(crate) struct ChannelField {
     pub(crate) word: usize,
     shift: u32,
     mask: u32,
 }
 
-impl Layout {
+impl TexelLayout {
     /// Returns the layout of texels of these channels.
     pub(crate) fn new(encodings: &[ChannelEncoding]) -> Self {
-        let mut fields = [Field::default(); 4];
+        let mut fields = [ChannelField::default(); 4];
         let (mut words, mut room) = (0, 0);
         for (field, encoding) in fields.iter_mut().zip(encodings) {
             let bits = encoding.bits();
             if bits > room {
                 (words, room) = (words + 1, 32);
             }
-            *field = Field {
+            *field = ChannelField {
                 word: words - 1,
                 shift: 32 - room,
                 mask: encoding.mask(),
@@ -56,7 +56,7 @@ impl Layout {
 
     /// Returns where each channel is.
     #[inline(always)]
-    pub(crate) fn fields(&self) -> &[Field] {
+    pub(crate) fn fields(&self) -> &[ChannelField] {
         &self.fields[..self.channels]
     }
 
@@ -70,7 +70,7 @@ impl Layout {
     }
 }
 
-impl Field {
+impl ChannelField {
     /// Returns the code that a word contains.
     #[inline(always)]
     pub(crate) fn code(self, word: u32) -> u32 {
@@ -104,7 +104,7 @@ mod tests {
     fn channels_do_not_overlap_and_keep_their_codes() {
         for format in TextureFormat::ALL {
             let encodings = format.color_channels();
-            let layout = Layout::new(encodings);
+            let layout = TexelLayout::new(encodings);
             let bits: u32 = encodings.iter().map(|e| e.bits()).sum();
             assert_eq!(layout.words, bits.div_ceil(32) as usize, "{format}");
             let code = |c: usize| 0x9e37_79b9_u32.rotate_left(c as u32 * 7) & encodings[c].mask();
@@ -128,7 +128,7 @@ mod tests {
 
     #[test]
     fn channels_of_8_bits_are_bytes_in_memory() {
-        let layout = Layout::new(TextureFormat::Rgba8Unorm.color_channels());
+        let layout = TexelLayout::new(TextureFormat::Rgba8Unorm.color_channels());
         let [word, ..] = layout.texel(|c| c as u32 + 1);
         assert_eq!(word.to_ne_bytes(), [1, 2, 3, 4]);
     }

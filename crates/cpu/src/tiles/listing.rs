@@ -1,15 +1,15 @@
 //! Descriptions of a scene's kernels.
 
-use super::layout::Layout;
+use super::layout::TexelLayout;
 use super::paint::{Kernel, Paint};
-use super::plan::{PassPlan, Plan, Shading};
+use super::plan::{KernelPlan, PassPlan, Shading};
 use etalon_scene::{Draw, Scene};
 use fearless_simd::{Level, dispatch};
 
 /// Returns the kernels of a scene's draws, one line per draw, or one line with the reason why the scene has
 /// no kernels.
 pub(crate) fn lines(scene: &Scene, least: usize) -> Vec<String> {
-    let plan = match Plan::new(scene, least) {
+    let plan = match KernelPlan::new(scene, least) {
         Ok(plan) => plan,
         Err(reason) => return vec![format!("spans, since there is no kernel for {reason}")],
     };
@@ -67,7 +67,9 @@ fn paint(draw: &Draw, shading: Shading, pass: &PassPlan) -> &'static str {
         Kernel::Keep => "not written",
         Kernel::Store(_) => "stored",
         Kernel::Bits(bits) if bits.replaces() => "stored",
-        Kernel::Bits(bits) if bits.is_mask(&Layout::new(pass.channels)) => "stored through a mask",
+        Kernel::Bits(bits) if bits.is_mask(&TexelLayout::new(pass.channels)) => {
+            "stored through a mask"
+        }
         Kernel::Bits(_) => "a function of each code's bits",
         Kernel::Linear(_) => "a linear function of each code",
         Kernel::Table(_) => "a table of each code",

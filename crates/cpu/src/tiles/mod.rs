@@ -37,7 +37,7 @@ mod weights;
 mod work;
 
 pub(crate) use listing::lines;
-pub(crate) use plan::Plan;
+pub(crate) use plan::KernelPlan;
 pub use scene::Machine;
 pub(crate) use scene::TiledScene;
 pub(crate) use threads::on_threads;

@@ -3,7 +3,7 @@
 use super::TILE;
 use super::depth::Depths;
 use super::depth_stencil::{answers, passing};
-use super::edges::{Edges, Rows};
+use super::edges::{EdgeSigns, Edges};
 use super::lanes::NUMBERS;
 use super::paint::{Kernel, Paint};
 use super::plan::{DrawPlan, Shading};
@@ -191,7 +191,7 @@ pub(crate) struct Planes<'p> {
 
 /// The lanes of a triangle's rows.
 #[derive(Clone, Copy)]
-struct Area {
+struct TileArea {
     /// The column of the first lanes, and the number of groups of lanes in a row.
     first: i32,
     chunks: i32,
@@ -285,7 +285,7 @@ impl Opaque<'_> {
         // A narrow triangle needs one group of lanes, wherever it is.
         let near = start.min(left + TILE as i32 - NARROW);
         if last - near < NARROW {
-            let area = Area {
+            let area = TileArea {
                 first: near,
                 chunks: 1,
                 rows,
@@ -299,7 +299,7 @@ impl Opaque<'_> {
         } else {
             start / lanes * lanes
         };
-        let area = Area {
+        let area = TileArea {
             first,
             chunks: (last - first) / lanes + 1,
             rows,
@@ -309,7 +309,7 @@ impl Opaque<'_> {
 
     /// Draws the covered texels of a sample, with lanes of these types.
     #[inline(always)]
-    fn sample<S, I, U>(&self, simd: S, planes: Planes<'_>, area: Area)
+    fn sample<S, I, U>(&self, simd: S, planes: Planes<'_>, area: TileArea)
     where
         S: Simd,
         I: SimdInt<S, Element = i32>,
@@ -349,7 +349,7 @@ impl Opaque<'_> {
         &self,
         simd: S,
         planes: Planes<'_>,
-        area: Area,
+        area: TileArea,
         mut source: D,
     ) where
         S: Simd,
@@ -367,7 +367,7 @@ impl Opaque<'_> {
         let [left, top, ..] = self.texels;
         let lanes = U::LEN as i32;
         let [first, last] = area.rows;
-        let rows = Rows::new(self.triangle, area.first, first, position);
+        let rows = EdgeSigns::new(self.triangle, area.first, first, position);
         let mut numbers = rows.lanes::<S, I>(simd);
         let store = self.store;
         let answers = store.answers::<S, U>(simd);

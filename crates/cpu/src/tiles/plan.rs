@@ -21,7 +21,7 @@ const FARTHEST: f32 = 16384.0;
 
 /// The kernels of a scene.
 #[derive(Debug)]
-pub(crate) struct Plan {
+pub(crate) struct KernelPlan {
     pub(crate) passes: Vec<PassPlan>,
 }
 
@@ -153,12 +153,12 @@ pub(crate) struct Fetched {
 }
 
 /// The reason why a scene has no kernels.
-pub(crate) type Reason = &'static str;
+pub(crate) type NoKernels = &'static str;
 
-impl Plan {
+impl KernelPlan {
     /// Returns the kernels of a scene whose largest picture has at least `least` texels, or the reason why it
     /// has no kernels.
-    pub(crate) fn new(scene: &Scene, least: usize) -> Result<Self, Reason> {
+    pub(crate) fn new(scene: &Scene, least: usize) -> Result<Self, NoKernels> {
         if scene.pool.is_some() {
             return Err("a pool");
         }
@@ -174,7 +174,7 @@ impl Plan {
 }
 
 impl PassPlan {
-    fn new(scene: &Scene, pass: &Pass) -> Result<Self, Reason> {
+    fn new(scene: &Scene, pass: &Pass) -> Result<Self, NoKernels> {
         if pass.resolve.iter().skip(1).any(Option::is_some) {
             return Err("a resolve of several colour attachments");
         }
@@ -230,7 +230,7 @@ impl DrawPlan {
         size: [u32; 2],
         pass: &PassPlan,
         stencil: bool,
-    ) -> Result<Self, Reason> {
+    ) -> Result<Self, NoKernels> {
         // Forced early tests also store for fragments that the shader discards, and store a depth that it
         // does not write.
         let late = draw.early_tests == EarlyTests::Implicit;
@@ -351,7 +351,7 @@ fn is_cut(draw: &Draw, primitive: &PrimitiveVertices) -> bool {
 }
 
 /// Returns the shading by the texels of textures that have the attachments' size.
-fn texels(scene: &Scene, draw: &Draw, size: [u32; 2]) -> Result<Shading, Reason> {
+fn texels(scene: &Scene, draw: &Draw, size: [u32; 2]) -> Result<Shading, NoKernels> {
     let fetched = |place: usize| match draw.textures.get(place) {
         Some(index) => {
             let attachment = &scene.attachments[*index];
@@ -377,7 +377,7 @@ fn texels(scene: &Scene, draw: &Draw, size: [u32; 2]) -> Result<Shading, Reason>
 }
 
 /// Returns the shading by a texture whose codes are stored unchanged.
-fn texture(scene: &Scene, draw: &Draw, pass: &PassPlan) -> Result<Shading, Reason> {
+fn texture(scene: &Scene, draw: &Draw, pass: &PassPlan) -> Result<Shading, NoKernels> {
     let (Some(index), Some(sampler)) = (draw.textures.first(), draw.sampler) else {
         return Err("a shader without its texture");
     };

@@ -3,8 +3,8 @@
 use super::TILE;
 use super::image::Image;
 use super::layer::{Layer, Tiles};
-use super::plan::{PassPlan, Plan};
-use super::setup::{Input, Part, place};
+use super::plan::{KernelPlan, PassPlan};
+use super::setup::{Input, RangeTriangles, place};
 use super::threads::{available, on_threads};
 use super::tile::{self, Tile};
 use super::triangle::Placed;
@@ -51,20 +51,22 @@ impl Machine {
 #[derive(Debug)]
 pub(crate) struct TiledScene {
     scene: Scene,
-    plan: Plan,
+    plan: KernelPlan,
     machine: Machine,
     images: Vec<Image>,
     placed: Vec<Placed>,
-    parts: Vec<Part>,
+    parts: Vec<RangeTriangles>,
     submitted: bool,
 }
 
 impl TiledScene {
     /// Returns a scene with its kernels.
-    pub(crate) fn new(scene: Scene, plan: Plan, machine: Machine) -> Self {
+    pub(crate) fn new(scene: Scene, plan: KernelPlan, machine: Machine) -> Self {
         Self {
             images: scene.attachments.iter().map(Image::new).collect(),
-            parts: (0..machine.threads).map(|_| Part::default()).collect(),
+            parts: (0..machine.threads)
+                .map(|_| RangeTriangles::default())
+                .collect(),
             placed: Vec::new(),
             submitted: false,
             scene,
@@ -251,8 +253,8 @@ fn set_up<'p>(
     pass: &PassPlan,
     inputs: &[Input<'_>],
     placed: &[Placed],
-    parts: &'p mut [Part],
-) -> &'p [Part] {
+    parts: &'p mut [RangeTriangles],
+) -> &'p [RangeTriangles] {
     let tiles = pass.size.map(|s| s.div_ceil(TILE)).iter().product();
     let count = inputs.last().map_or(0, |i| i.first + i.count);
     // A draw costs more than a triangle, since its functions of codes are made.
@@ -273,7 +275,7 @@ fn draw_tiles(
     machine: Machine,
     pass: &PassPlan,
     inputs: &[Input<'_>],
-    parts: &[Part],
+    parts: &[RangeTriangles],
     tiles: Vec<Tile<'_>>,
 ) {
     let threads = machine.threads.min(tiles.len()).max(1);

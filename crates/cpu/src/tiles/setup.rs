@@ -8,7 +8,7 @@ use super::paint::Paint;
 use super::plan::{Behind, DrawPlan, PassPlan, PrimitiveRun, Shading};
 use super::texels::Texels;
 use super::texture::Texture;
-use super::triangle::{Placed, Rare, Shape, Triangle, point};
+use super::triangle::{Placed, Rare, Triangle, TriangleKind, point};
 use crate::lanes::LANES;
 use crate::linear::UNITS;
 use crate::planes::depth_bias;
@@ -29,7 +29,7 @@ const KNOWN: usize = 64;
 /// share a cache line.
 #[derive(Debug, Default)]
 #[repr(align(128))]
-pub(crate) struct Part {
+pub(crate) struct RangeTriangles {
     pub(crate) triangles: Vec<Triangle>,
     pub(crate) paints: Vec<Paint>,
     /// The first paints of draws, with everything that they depend on.
@@ -37,14 +37,14 @@ pub(crate) struct Part {
     /// The properties that few triangles have.
     rare: Vec<Rare>,
     /// The entries of each tile, in drawing order.
-    pub(crate) bins: Vec<Vec<Entry>>,
+    pub(crate) bins: Vec<Vec<TiledTriangle>>,
 }
 
 /// A triangle in a tile.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Entry(u32);
+pub(crate) struct TiledTriangle(u32);
 
-impl Entry {
+impl TiledTriangle {
     fn new(triangle: usize, whole: bool) -> Self {
         Self((triangle as u32) << 1 | u32::from(whole))
     }
@@ -153,7 +153,7 @@ pub(crate) fn place(draw: &Draw, vertices: &[Vertex], placed: &mut [Placed]) {
     }
 }
 
-impl Part {
+impl RangeTriangles {
     /// Empties the part for a pass with this many tiles.
     pub(crate) fn clear(&mut self, tiles: usize) {
         self.triangles.clear();
@@ -247,7 +247,7 @@ struct SetUp<'a, S> {
     draw: &'a Draw,
     plan: &'a DrawPlan,
     number: usize,
-    part: &'a mut Part,
+    part: &'a mut RangeTriangles,
     /// The index of the draw's first paint.
     first: usize,
     /// The depth and bias of the last flat triangle, and their code.
@@ -265,7 +265,7 @@ impl<'a, S: Simd> SetUp<'a, S> {
         pass: &'a PassPlan,
         input: &'a Input<'_>,
         number: usize,
-        part: &'a mut Part,
+        part: &'a mut RangeTriangles,
     ) -> Self {
         let ends = |axis: usize| {
             let positions = || pass.positions.iter().map(|p| p[axis]);
@@ -359,11 +359,11 @@ impl<'a, S: Simd> SetUp<'a, S> {
         let narrow = i32::from(around[2] - around[0]) < NARROW;
         let near = wide[1] - wide[0] <= side && high[1] - high[0] <= side;
         let shape = match (flat, near) {
-            (true, true) if narrow && !cut && tiles[..2] == tiles[2..] => Shape::Small,
-            (true, true) => Shape::FlatNear,
-            (true, false) => Shape::Flat,
-            (false, true) => Shape::SlopedNear,
-            (false, false) => Shape::Sloped,
+            (true, true) if narrow && !cut && tiles[..2] == tiles[2..] => TriangleKind::Small,
+            (true, true) => TriangleKind::FlatNear,
+            (true, false) => TriangleKind::Flat,
+            (false, true) => TriangleKind::SlopedNear,
+            (false, false) => TriangleKind::Sloped,
         };
         let triangle = Triangle {
             corners,
@@ -488,7 +488,7 @@ impl<'a, S: Simd> SetUp<'a, S> {
     fn sort(&mut self, index: usize, triangle: &Triangle, covers: bool) {
         let [left, top, right, bottom] = triangle.around.map(|v| v as usize / TILE);
         if left == right && top == bottom && !covers {
-            self.part.bins[top * self.across + left].push(Entry::new(index, false));
+            self.part.bins[top * self.across + left].push(TiledTriangle::new(index, false));
             return;
         }
         let edges = Edges::new(triangle);
@@ -504,7 +504,7 @@ impl<'a, S: Simd> SetUp<'a, S> {
                         rect[0] <= a && rect[1] <= b && c <= rect[2] && d <= rect[3]
                     }),
                 };
-                self.part.bins[y * self.across + x].push(Entry::new(index, whole));
+                self.part.bins[y * self.across + x].push(TiledTriangle::new(index, whole));
             }
         }
     }

@@ -7,17 +7,17 @@ use super::depth_stencil::{
     ANY, ANY_STENCIL, Decided, decided, hull, keeps, operate, operate_groups, operated,
     stencil_decided,
 };
-use super::edges::Rows;
+use super::edges::EdgeSigns;
 use super::fragments::{Fragments, MOST};
 use super::lanes::{ALL, Mask, alphas_from, columns, lanes, select};
 use super::layer::Layer;
 use super::opaque::{Opaque, Planes, Store};
 use super::paint::{Kernel, Paint};
 use super::plan::{DrawPlan, PassPlan, Shading};
-use super::setup::{Entry, Input, Part, tile_texels};
+use super::setup::{Input, RangeTriangles, TiledTriangle, tile_texels};
 use super::texels::Sources;
 use super::texture::Coordinates;
-use super::triangle::{Shape, Triangle};
+use super::triangle::{Triangle, TriangleKind};
 use super::work::Work;
 use crate::lanes::LANES;
 use etalon_pipeline::shader::cost;
@@ -55,7 +55,7 @@ impl<'a> Tile<'a> {
 }
 
 /// A tile being drawn.
-struct Drawing<'t, 'a> {
+struct TileDrawing<'t, 'a> {
     pass: &'t PassPlan,
     tile: Tile<'a>,
     /// The index of the tile in the attachments.
@@ -106,7 +106,7 @@ pub(crate) fn draw<S: Simd>(
     tile: Tile<'_>,
     pass: &PassPlan,
     inputs: &[Input<'_>],
-    parts: &[Part],
+    parts: &[RangeTriangles],
 ) {
     let samples = pass.positions.len();
     let across = pass.size[0].div_ceil(TILE);
@@ -115,7 +115,7 @@ pub(crate) fn draw<S: Simd>(
         && tile.others.iter().all(|o| o.cleared().is_some())
         && (tile.depth.planes.is_empty() || tile.depth.cleared().is_some())
         && (tile.stencil.planes.is_empty() || tile.stencil.cleared().is_some());
-    let mut drawing = Drawing {
+    let mut drawing = TileDrawing {
         pass,
         index,
         texels: tile_texels(pass, tile.at),
@@ -136,7 +136,7 @@ pub(crate) fn draw<S: Simd>(
                 last = drawing.triangle(simd, triangle, input, part, whole);
             }
             entries = match &last {
-                Some(store) if triangle.shape == Shape::Small => {
+                Some(store) if triangle.shape == TriangleKind::Small => {
                     drawing.small(simd, store, entries, input, part)
                 }
                 Some(store) => {
@@ -150,7 +150,7 @@ pub(crate) fn draw<S: Simd>(
     drawing.finish(simd);
 }
 
-impl Drawing<'_, '_> {
+impl TileDrawing<'_, '_> {
     /// Draws a triangle. An opaque triangle that covers a part of the tile is left to
     /// [`opaque`](Self::opaque): this function prepares the planes, and returns how the triangle changes
     /// texels.
@@ -160,7 +160,7 @@ impl Drawing<'_, '_> {
         simd: S,
         triangle: &Triangle,
         input: &Input<'_>,
-        part: &Part,
+        part: &RangeTriangles,
         whole: bool,
     ) -> Option<Store> {
         let paint = &part.paints[triangle.paint as usize];
@@ -253,7 +253,12 @@ impl Drawing<'_, '_> {
 
     /// Returns the depths of a triangle, unless it is flat or depths are not tested.
     #[inline(always)]
-    fn depths(&self, triangle: &Triangle, input: &Input<'_>, part: &Part) -> Option<Depths> {
+    fn depths(
+        &self,
+        triangle: &Triangle,
+        input: &Input<'_>,
+        part: &RangeTriangles,
+    ) -> Option<Depths> {
         match (input.plan.depth, self.pass.depth) {
             (Some(_), Some(encoding)) if !triangle.is_flat() => {
                 let bias = part.rare(triangle).bias;
@@ -379,7 +384,7 @@ impl Drawing<'_, '_> {
         store: &Store,
         triangle: &Triangle,
         input: &Input<'_>,
-        part: &Part,
+        part: &RangeTriangles,
     ) {
         let plan = input.plan;
         if self.answer(triangle, plan) == Some(Decided::Fail) {
@@ -428,13 +433,13 @@ impl Drawing<'_, '_> {
         &mut self,
         simd: S,
         store: &Store,
-        entries: &'e [Entry],
+        entries: &'e [TiledTriangle],
         input: &Input<'_>,
-        part: &Part,
-    ) -> &'e [Entry] {
-        let is_alike = |entry: &&Entry| {
+        part: &RangeTriangles,
+    ) -> &'e [TiledTriangle] {
+        let is_alike = |entry: &&TiledTriangle| {
             let triangle = &part.triangles[entry.triangle()];
-            triangle.shape == Shape::Small && store.is_of(triangle) && !entry.is_whole()
+            triangle.shape == TriangleKind::Small && store.is_of(triangle) && !entry.is_whole()
         };
         let count = entries.iter().take_while(is_alike).count();
         let (alike, others) = entries.split_at(count);
@@ -481,7 +486,7 @@ impl Drawing<'_, '_> {
         let first = around[0].max(left) / wide * wide;
         let (y_first, y_last) = (around[1].max(top), around[3].min(bottom - 1));
         let last = around[2].min(right - 1);
-        let rows = Rows::new(triangle, first, y_first, self.pass.positions[sample]);
+        let rows = EdgeSigns::new(triangle, first, y_first, self.pass.positions[sample]);
         let mut row = rows.lanes::<S, i32x16<S>>(simd);
         let rect = &work.plan.rects[sample];
         let cut = triangle.cut && !whole;

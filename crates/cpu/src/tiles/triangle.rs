@@ -27,7 +27,7 @@ pub(crate) struct Triangle {
     /// The first column, first row, last column and last row of the texels that the triangle might cover.
     pub(crate) around: [i16; 4],
     pub(crate) front: bool,
-    pub(crate) shape: Shape,
+    pub(crate) shape: TriangleKind,
     /// True if the vertices are counter-clockwise on the screen.
     pub(crate) counter: bool,
     /// True if scissor or viewport might cut the triangle.
@@ -47,7 +47,7 @@ pub(crate) struct Rare {
 
 /// The kind of a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Shape {
+pub(crate) enum TriangleKind {
     /// A triangle whose depth varies.
     Sloped,
     /// A triangle whose depth varies, not larger than a tile.
@@ -64,13 +64,16 @@ impl Triangle {
     /// Returns true if the triangle has a constant depth.
     #[inline(always)]
     pub(crate) fn is_flat(&self) -> bool {
-        matches!(self.shape, Shape::Flat | Shape::FlatNear | Shape::Small)
+        matches!(
+            self.shape,
+            TriangleKind::Flat | TriangleKind::FlatNear | TriangleKind::Small
+        )
     }
 
     /// Returns true if the triangle is not larger than a tile.
     #[inline(always)]
     pub(crate) fn is_near(&self) -> bool {
-        !matches!(self.shape, Shape::Flat | Shape::Sloped)
+        !matches!(self.shape, TriangleKind::Flat | TriangleKind::Sloped)
     }
 }
 

@@ -25,11 +25,11 @@ macro_rules! functions {
             $(
                 #[expect(non_snake_case, reason = "the name is the API's")]
                 pub(super) unsafe extern "system" fn $name(
-                    $($arg: <$kind as Kind>::Raw),*
-                ) $(-> <$result as Kind>::Raw)? {
+                    $($arg: <$kind as ArgumentKind>::Raw),*
+                ) $(-> <$result as ArgumentKind>::Raw)? {
                     type Own = unsafe extern "system" fn(
-                        $(<$kind as Kind>::Raw),*
-                    ) $(-> <$result as Kind>::Raw)?;
+                        $(<$kind as ArgumentKind>::Raw),*
+                    ) $(-> <$result as ArgumentKind>::Raw)?;
                     // SAFETY: the backend found this function instead of the driver's, whose address was
                     // kept, and the specification gives the name this type.
                     let own: Own = unsafe { std::mem::transmute(driver(stringify!($name))) };
@@ -295,9 +295,9 @@ mod special {
         ($($name:ident($($arg:ident: $kind:ident),*; $element:ident: $count:expr);)+) => {
             $(
                 pub(super) unsafe extern "system" fn $name(
-                    $($arg: <$kind as Kind>::Raw,)* all: *const <$element as Kind>::Raw,
+                    $($arg: <$kind as ArgumentKind>::Raw,)* all: *const <$element as ArgumentKind>::Raw,
                 ) {
-                    own!($name($($arg: <$kind as Kind>::Raw,)* all: *const <$element as Kind>::Raw));
+                    own!($name($($arg: <$kind as ArgumentKind>::Raw,)* all: *const <$element as ArgumentKind>::Raw));
                     if keeps() {
                         // SAFETY: the specification gives the number of values.
                         let all = unsafe { values(all, $count as usize) };
@@ -607,10 +607,10 @@ mod special {
         ($($name:ident($($arg:ident: $kind:ident),*; $size:expr);)+) => {
             $(
                 pub(super) unsafe extern "system" fn $name(
-                    $($arg: <$kind as Kind>::Raw,)* format: u32, kind: u32, pixels: Pointer,
+                    $($arg: <$kind as ArgumentKind>::Raw,)* format: u32, kind: u32, pixels: Pointer,
                 ) {
                     own!($name(
-                        $($arg: <$kind as Kind>::Raw,)* format: u32, kind: u32, pixels: Pointer
+                        $($arg: <$kind as ArgumentKind>::Raw,)* format: u32, kind: u32, pixels: Pointer
                     ));
                     if keeps() {
                         // SAFETY: the backend uploads whole images, tightly packed.

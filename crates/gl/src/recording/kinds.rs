@@ -7,7 +7,7 @@ use super::recorder::Pointer;
 use etalon_backend::Argument;
 
 /// A kind of argument.
-pub(super) trait Kind {
+pub(super) trait ArgumentKind {
     /// The argument's type in C.
     type Raw: Copy;
     /// Returns the recorded value.
@@ -20,7 +20,7 @@ macro_rules! kinds {
             $(#[$doc])*
             pub(super) struct $name;
 
-            impl Kind for $name {
+            impl ArgumentKind for $name {
                 type Raw = $raw;
 
                 fn value(raw: $raw) -> Argument {

@@ -15,14 +15,14 @@ use std::io::Read;
 use std::path::Path;
 
 /// The run read so far.
-struct Assembly {
+struct RunAssembly {
     header: Header,
     adapters: Vec<NewAdapter>,
     /// Names to indices in `adapters`.
     places: HashMap<String, usize>,
 }
 
-impl Assembly {
+impl RunAssembly {
     fn new(header: Header) -> Self {
         let adapters: Vec<NewAdapter> = header
             .adapters
@@ -56,7 +56,7 @@ impl Assembly {
 }
 
 pub(super) fn read(path: &Path, mut text: Digesting<impl Read>) -> Result<NewRun, HistoryError> {
-    let (assembly, _) = Run::fold(path, &mut text, Assembly::new, Assembly::take)?;
+    let (assembly, _) = Run::fold(path, &mut text, RunAssembly::new, RunAssembly::take)?;
     let (digest, header_digest) = text.digests();
     let header = assembly.header;
     let records: u64 = assembly

@@ -12,7 +12,7 @@ use etalon_scene::{BlendFactor, BlendOperation};
 
 const CONSTANT: Places<[f32; 4]> = |d| vec![&mut d.blend_constant];
 
-type Values = [[f32; 1]; 4];
+type BlendValues = [[f32; 1]; 4];
 
 /// Blends without further clamping, after `held` has clamped some of source, second source and constant.
 fn held(held: fn(&mut Input)) -> Plant {
@@ -22,7 +22,7 @@ fn held(held: fn(&mut Input)) -> Plant {
     })
 }
 
-fn clamped(values: Values) -> Values {
+fn clamped(values: BlendValues) -> BlendValues {
     values.map(|[v]| [v.clamp(0.0, 1.0)])
 }
 
@@ -32,7 +32,7 @@ fn integer(product: fn(u32, u32) -> u32) -> Plant {
         if encodings[0] != Unorm(8) {
             return faithful_blend(state, encodings, input);
         }
-        let codes = |v: Values| v.map(|[v]| code(Unorm(8), v));
+        let codes = |v: BlendValues| v.map(|[v]| code(Unorm(8), v));
         let operands = [input.src, input.dst, input.constant, input.src1].map(codes);
         let [src, dst, ..] = operands;
         let factor = |f: BlendFactor, c: usize| match (place(f), f) {

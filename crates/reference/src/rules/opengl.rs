@@ -11,13 +11,13 @@ use etalon_frame::{ApiVersion, Grade, Limits, Property};
 /// The specification that binds a context: the newest one that was read and is not newer than the context.
 /// Versions 4.2 to 4.4 are judged by 4.5, whose rules on blending came with 4.2.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Text {
+enum OpenGlText {
     V33,
     V45,
     V46,
 }
 
-impl Text {
+impl OpenGlText {
     fn of(version: ApiVersion) -> Self {
         match (version.major, version.minor) {
             (3, _) | (4, 0 | 1) => Self::V33,
@@ -38,16 +38,16 @@ impl Text {
 
 /// Returns a rule on the runs of shaders. On this, 4.6 contradicts itself, but 4.5 does not. Older contexts
 /// get storage from an extension whose specification matches 4.5.
-fn run_rule(text: Text, v45: &'static str, v46: &'static str) -> Permission<bool> {
+fn run_rule(text: OpenGlText, v45: &'static str, v46: &'static str) -> Permission<bool> {
     match text {
-        Text::V46 => narrowed(true, false, Grade::Disputed, v46),
-        Text::V33 | Text::V45 => permit(true, v45),
+        OpenGlText::V46 => narrowed(true, false, Grade::Disputed, v46),
+        OpenGlText::V33 | OpenGlText::V45 => permit(true, v45),
     }
 }
 
 pub(super) fn rules(limits: &Limits) -> Rules {
-    let text = Text::of(limits.version);
-    let old = text == Text::V33;
+    let text = OpenGlText::of(limits.version);
+    let old = text == OpenGlText::V33;
     Rules {
         name: "opengl",
         text: text.cite([
@@ -270,7 +270,7 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             ]),
         ),
         clips_points_at_sides: permit(
-            text != Text::V46,
+            text != OpenGlText::V46,
             text.cite([
                 "OpenGL 3.3: 2.19 Primitive Clipping: a point outside of the clip volume is discarded",
                 "OpenGL 4.5: 13.5 Primitive Clipping: a point outside of the clip volume is discarded",
@@ -331,16 +331,16 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             true,
             text.cite([
                 "OpenGL 3.3: 4.1.4 Stencil Test, 3.9.2 Shader Execution: points and lines are front-facing",
-                "OpenGL 4.5: 17.3.3 Stencil Test, 15.2.2 Shader Inputs: points and lines are front-facing",
-                "OpenGL 4.6: 17.3.3 Stencil Test, 15.2.2 Shader Inputs: points and lines are front-facing",
+                "OpenGL 4.5: 17.3.3 Stencil Test, 15.2.2 Shader SignatureInputs: points and lines are front-facing",
+                "OpenGL 4.6: 17.3.3 Stencil Test, 15.2.2 Shader SignatureInputs: points and lines are front-facing",
             ]),
         ),
         outlines_face_as_polygons: permit(
             true,
             text.cite([
                 "OpenGL 3.3: 3.9.2 Shader Execution, 4.1.4 Stencil Test: a triangle's fragments face by its area, also if it is drawn as points or lines",
-                "OpenGL 4.5: 15.2.2 Shader Inputs, 17.3.3 Stencil Test: a triangle's fragments face by its area, also if it is drawn as points or lines",
-                "OpenGL 4.6: 15.2.2 Shader Inputs, 17.3.3 Stencil Test: a triangle's fragments face by its area, also if it is drawn as points or lines",
+                "OpenGL 4.5: 15.2.2 Shader SignatureInputs, 17.3.3 Stencil Test: a triangle's fragments face by its area, also if it is drawn as points or lines",
+                "OpenGL 4.6: 15.2.2 Shader SignatureInputs, 17.3.3 Stencil Test: a triangle's fragments face by its area, also if it is drawn as points or lines",
             ]),
         ),
         early_updates: narrowed(
@@ -399,21 +399,21 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         ),
         input_mask: permit(
             match text {
-                Text::V33 | Text::V45 => InputMask::OfRunIfAsked,
-                Text::V46 => InputMask::OfAnyRun,
+                OpenGlText::V33 | OpenGlText::V45 => InputMask::OfRunIfAsked,
+                OpenGlText::V46 => InputMask::OfAnyRun,
             },
             text.cite([
-                "OpenGL 3.3 with GL_ARB_gpu_shader5: 3.12.2 Shader Inputs: a bit if its sample is covered for the run, of which 3.3.1 asks for a least number",
-                "OpenGL 4.5: 15.2.2 Shader Inputs: the samples covered for the run, of which 14.3.1.1 asks for a least number; the current sample's bit alone where gl_SampleID asks for it",
-                "OpenGL 4.6: 15.2.2 Shader Inputs: the samples covered for the run, of which 14.3.1.1 asks for a least number; the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
+                "OpenGL 3.3 with GL_ARB_gpu_shader5: 3.12.2 Shader SignatureInputs: a bit if its sample is covered for the run, of which 3.3.1 asks for a least number",
+                "OpenGL 4.5: 15.2.2 Shader SignatureInputs: the samples covered for the run, of which 14.3.1.1 asks for a least number; the current sample's bit alone where gl_SampleID asks for it",
+                "OpenGL 4.6: 15.2.2 Shader SignatureInputs: the samples covered for the run, of which 14.3.1.1 asks for a least number; the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
             ]),
         ),
         input_mask_lacks_masked: permit(
             true,
             text.cite([
-                "OpenGL 3.3 with GL_ARB_gpu_shader5: 3.12.2 Shader Inputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
-                "OpenGL 4.5: 15.2.2 Shader Inputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
-                "OpenGL 4.6: 15.2.2 Shader Inputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
+                "OpenGL 3.3 with GL_ARB_gpu_shader5: 3.12.2 Shader SignatureInputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
+                "OpenGL 4.5: 15.2.2 Shader SignatureInputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
+                "OpenGL 4.6: 15.2.2 Shader SignatureInputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
             ]),
         ),
         mask_acts_first: permit(

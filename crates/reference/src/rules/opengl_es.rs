@@ -10,13 +10,13 @@ use etalon_frame::{ApiVersion, Grade, Limits, Property};
 
 /// The specification that binds a context.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Text {
+enum OpenGlEsText {
     V30,
     V31,
     V32,
 }
 
-impl Text {
+impl OpenGlEsText {
     fn of(version: ApiVersion) -> Self {
         match (version.major, version.minor) {
             (3, 0) => Self::V30,
@@ -36,7 +36,7 @@ impl Text {
 }
 
 pub(super) fn rules(limits: &Limits) -> Rules {
-    let text = Text::of(limits.version);
+    let text = OpenGlEsText::of(limits.version);
     Rules {
         name: "opengl-es",
         text: text.cite(["OpenGL ES 3.0", "OpenGL ES 3.1", "OpenGL ES 3.2"]),
@@ -343,17 +343,17 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         input_mask: permit(
             InputMask::OfAnyRun,
             text.cite([
-                "OpenGL ES 3.0: OES_sample_variables, Shader Inputs: the samples covered for the run, of which sample shading asks for a least number; the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
-                "OpenGL ES 3.1: OES_sample_variables, Shader Inputs: the samples covered for the run, of which sample shading asks for a least number; the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
-                "OpenGL ES 3.2: 14.2.2 Shader Inputs: the samples covered for the run, of which sample shading asks for a least number; the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
+                "OpenGL ES 3.0: OES_sample_variables, Shader SignatureInputs: the samples covered for the run, of which sample shading asks for a least number; the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
+                "OpenGL ES 3.1: OES_sample_variables, Shader SignatureInputs: the samples covered for the run, of which sample shading asks for a least number; the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
+                "OpenGL ES 3.2: 14.2.2 Shader SignatureInputs: the samples covered for the run, of which sample shading asks for a least number; the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
             ]),
         ),
         input_mask_lacks_masked: permit(
             true,
             text.cite([
-                "OpenGL ES 3.0: OES_sample_variables, Shader Inputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
-                "OpenGL ES 3.1: OES_sample_variables, Shader Inputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
-                "OpenGL ES 3.2: 14.2.2 Shader Inputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
+                "OpenGL ES 3.0: OES_sample_variables, Shader SignatureInputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
+                "OpenGL ES 3.1: OES_sample_variables, Shader SignatureInputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
+                "OpenGL ES 3.2: 14.2.2 Shader SignatureInputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
             ]),
         ),
         mask_acts_first: permit(

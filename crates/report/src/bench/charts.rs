@@ -1,7 +1,7 @@
 //! The charts of a bench: the ruler over time, and the spread of one adapter's frame times as a strip in a
 //! table.
 
-use super::figures::Timed;
+use super::figures::TimedCase;
 use crate::chart::{HEIGHT, Plot, Scale, chart, n, polyline};
 use crate::numbers::{change, duration};
 use etalon_record::Bench;
@@ -67,14 +67,14 @@ const STRIP_HEIGHT: f64 = 22.0;
 
 /// The range of times that all strips of a table share, on a logarithmic scale.
 #[derive(Clone, Copy)]
-pub(super) struct Times {
+pub(super) struct TimeRange {
     low: f64,
     high: f64,
 }
 
-impl Times {
+impl TimeRange {
     /// Returns the range from the smallest sample to the largest 95th percentile.
-    pub(super) fn of(rows: &[Timed<'_>]) -> Self {
+    pub(super) fn of(rows: &[TimedCase<'_>]) -> Self {
         let low = rows
             .iter()
             .map(|t| t.wall.min)
@@ -103,7 +103,7 @@ impl Times {
 
 /// Returns the spread of a row: a dot for the median of each round, a line from the smallest sample to the
 /// 95th percentile, a bar for the interval and a stroke for the median.
-pub(super) fn strip(timed: &Timed<'_>, times: Times) -> Markup {
+pub(super) fn strip(timed: &TimedCase<'_>, times: TimeRange) -> Markup {
     let s = &timed.wall;
     let middle = STRIP_HEIGHT / 2.0;
     html! {

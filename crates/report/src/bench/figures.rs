@@ -22,20 +22,20 @@ pub(crate) struct CaseFigures<'a> {
     pub(crate) case: &'a str,
     /// The adapters with times: software adapters, then hardware adapters, both from the fastest to the
     /// slowest.
-    pub(crate) timed: [Vec<Timed<'a>>; 2],
+    pub(crate) timed: [Vec<TimedCase<'a>>; 2],
     /// The adapters without times: the picture is wrong, could not be drawn, or has no round yet.
     pub(crate) untimed: Vec<&'a BenchRecord>,
 }
 
 impl<'a> CaseFigures<'a> {
     /// Returns the timed adapters of a kind.
-    pub(crate) fn of_kind(&self, software: bool) -> &[Timed<'a>] {
+    pub(crate) fn of_kind(&self, software: bool) -> &[TimedCase<'a>] {
         &self.timed[usize::from(!software)]
     }
 }
 
 /// A case on an adapter.
-pub(crate) struct Timed<'a> {
+pub(crate) struct TimedCase<'a> {
     pub(crate) record: &'a BenchRecord,
     /// The rank among adapters of its kind, from 1. Adapters without a proven difference share a rank.
     pub(crate) rank: usize,
@@ -45,7 +45,7 @@ pub(crate) struct Timed<'a> {
     samples: Samples,
 }
 
-impl Timed<'_> {
+impl TimedCase<'_> {
     pub(crate) fn adapter(&self) -> &str {
         &self.record.picture.adapter
     }
@@ -114,11 +114,11 @@ pub(crate) fn samples(record: &BenchRecord, time: Time) -> Option<Samples> {
     samples.with_ruler(&record.rulers(time)).ok()
 }
 
-fn timed(record: &BenchRecord) -> Option<Timed<'_>> {
+fn timed(record: &BenchRecord) -> Option<TimedCase<'_>> {
     let wall = samples(record, Time::Wall)?;
     let others = Time::ALL.into_iter().filter(|t| *t != Time::Wall);
     let others = others.filter_map(|t| Some((t, summarize(&samples(record, t)?))));
-    Some(Timed {
+    Some(TimedCase {
         record,
         rank: 0,
         wall: summarize(&wall),
@@ -147,7 +147,7 @@ pub(crate) fn limits(settings: &BenchSettings) -> Markup {
 
 /// Sorts by median and ranks the rows. A row gets a new rank only if a comparison of samples finds it slower
 /// than the first row of the current rank.
-fn rank(times: &mut [Timed<'_>]) {
+fn rank(times: &mut [TimedCase<'_>]) {
     times.sort_by(|a, b| a.wall.median.total_cmp(&b.wall.median));
     let mut leader = 0;
     for index in 0..times.len() {

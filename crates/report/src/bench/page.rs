@@ -1,7 +1,7 @@
 //! `index.html` of a bench.
 
-use super::charts::{Times, drift, strip};
-use super::figures::{CaseFigures, KINDS, Timed, end, incomplete, limits};
+use super::charts::{TimeRange, drift, strip};
+use super::figures::{CaseFigures, KINDS, TimedCase, end, incomplete, limits};
 use crate::chart;
 use crate::numbers::{between, change, count, duration, percent};
 use crate::page::Page;
@@ -105,7 +105,7 @@ fn explanation() -> Markup {
 /// Returns a table of the medians of all cases on all adapters of a kind.
 fn overview(figures: &[CaseFigures<'_>], kind: bool, title: &str) -> Markup {
     let timed = figures.iter().flat_map(|c| c.of_kind(kind));
-    let adapters: BTreeSet<&str> = timed.map(Timed::adapter).collect();
+    let adapters: BTreeSet<&str> = timed.map(TimedCase::adapter).collect();
     let several = adapters.len() > 1;
     let mut table = Table::<(usize, &CaseFigures<'_>)>::new("times").head("Case", |(i, case)| {
         html! { a href={ "#case-" (i) } { (case.case) } }
@@ -161,9 +161,9 @@ fn of_case(case: &CaseFigures<'_>, number: usize) -> Markup {
     }
 }
 
-fn table(rows: &[Timed<'_>], title: &str) -> Markup {
-    let scale = Times::of(rows);
-    let mut table = Table::<&Timed<'_>>::new("times stacked")
+fn table(rows: &[TimedCase<'_>], title: &str) -> Markup {
+    let scale = TimeRange::of(rows);
+    let mut table = Table::<&TimedCase<'_>>::new("times stacked")
         .number("Rank", |row| row.rank)
         .head(format!("{title} adapter"), |row| breakable(row.adapter()))
         .text("Picture", |row| {

@@ -1,6 +1,6 @@
 //! The summary of a bench for a terminal.
 
-use super::figures::{KINDS, Timed, end, figures};
+use super::figures::{KINDS, TimedCase, end, figures};
 use crate::numbers::{between, change, count, duration};
 use crate::table::Table;
 use crate::terminal::TableOptions;
@@ -16,7 +16,7 @@ pub fn bench_table(bench: &Bench, options: TableOptions) -> String {
     let mut text = String::new();
     let cases = || figures.iter().filter(|c| cell(c.case).is_none());
     for (kind, title) in KINDS {
-        let rows: Vec<(&str, &Timed<'_>)> = cases()
+        let rows: Vec<(&str, &TimedCase<'_>)> = cases()
             .flat_map(|case| {
                 let names = [case.case].into_iter().chain(repeat(""));
                 names.zip(case.of_kind(kind))
@@ -54,9 +54,9 @@ pub fn bench_table(bench: &Bench, options: TableOptions) -> String {
     text
 }
 
-fn table<'a>() -> Table<'a, (&'a str, &'a Timed<'a>)> {
+fn table<'a>() -> Table<'a, (&'a str, &'a TimedCase<'a>)> {
     Table::new("")
-        .text("case", |(case, _): &(&'a str, &'a Timed<'a>)| *case)
+        .text("case", |(case, _): &(&'a str, &'a TimedCase<'a>)| *case)
         .text("#", |(_, timed)| timed.rank)
         .text("adapter", |(_, timed)| timed.adapter())
         .number("median", |(_, timed)| duration(timed.wall.median))

@@ -1,6 +1,6 @@
 //! Writing the reports of a bench.
 
-use super::figures::{CaseFigures, Timed, figures};
+use super::figures::{CaseFigures, TimedCase, figures};
 use super::page;
 use crate::error::ReportError;
 use crate::files::Destination;
@@ -69,7 +69,7 @@ pub(crate) fn write_bench_to(
 
 /// Returns all timed cases and adapters, in the order of the figures.
 fn benchmarks(figures: &[CaseFigures<'_>]) -> Vec<Benchmark> {
-    let each = |(case, timed): (&str, &Timed<'_>)| {
+    let each = |(case, timed): (&str, &TimedCase<'_>)| {
         let wall = [(Time::Wall, figure(&timed.wall))].into_iter();
         let others = timed.others.iter().map(|(time, s)| (*time, figure(s)));
         Benchmark {
@@ -93,7 +93,7 @@ fn figure(summary: &Summary) -> Figure {
     }
 }
 
-fn extra(timed: &Timed<'_>) -> String {
+fn extra(timed: &TimedCase<'_>) -> String {
     let s = &timed.wall;
     let visible = s.visible.map_or_else(
         || "no change is visible with so few rounds".to_owned(),

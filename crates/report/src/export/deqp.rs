@@ -32,18 +32,18 @@ use std::path::Path;
 pub(crate) const FOLDER: &str = "results";
 
 /// A list: its file name and its text.
-pub(crate) struct List {
+pub(crate) struct CaseList {
     pub(crate) name: String,
     pub(crate) text: String,
 }
 
 /// Returns a list per adapter of the run.
-pub(crate) fn lists(folder: &Path, run: &Run, grid: &Grid<'_>) -> Vec<List> {
+pub(crate) fn lists(folder: &Path, run: &Run, grid: &Grid<'_>) -> Vec<CaseList> {
     let selected = selected(folder, run);
     let mut names = BTreeSet::new();
     let adapters = grid.adapters.iter().enumerate();
     adapters
-        .map(|(column, adapter)| List {
+        .map(|(column, adapter)| CaseList {
             name: file_name(adapter, ".csv", &mut names),
             text: list(run, grid, column, &selected),
         })

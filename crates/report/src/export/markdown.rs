@@ -8,7 +8,7 @@ use crate::command;
 use crate::export::status::{incomplete, particulars};
 use crate::news::{News, NewsEntry};
 use crate::numbers::{count, percent_of};
-use crate::run::grid::Tally;
+use crate::run::grid::VerdictTally;
 use crate::run::unexpected::unexpected_records;
 use crate::table::{Table, some};
 use crate::words::{Tone, headline, name, plain, symbol};
@@ -22,13 +22,13 @@ pub(crate) const LIMIT: usize = 1_000_000;
 const LISTED: usize = 500;
 
 /// A text that grows up to a limit.
-struct Text {
+struct MarkdownText {
     text: String,
     /// The length of the text at which the current section must end.
     until: usize,
 }
 
-impl Text {
+impl MarkdownText {
     /// Begins a section that can fill the text up to `until` bytes.
     fn section(&mut self, until: usize) {
         self.until = until.min(LIMIT - 4096);
@@ -78,7 +78,7 @@ impl Text {
 
 /// The file.
 pub(crate) fn summary(run: &Run, news: Option<&News>) -> String {
-    let mut text = Text {
+    let mut text = MarkdownText {
         text: String::new(),
         until: 0,
     };
@@ -103,7 +103,7 @@ pub(crate) fn summary(run: &Run, news: Option<&News>) -> String {
     text.text
 }
 
-fn head(text: &mut Text, run: &Run, news: Option<&News>) {
+fn head(text: &mut MarkdownText, run: &Run, news: Option<&News>) {
     let h = &run.header;
     text.line("# etalon\n");
     if let Some(why) = incomplete(run) {
@@ -144,7 +144,7 @@ fn head(text: &mut Text, run: &Run, news: Option<&News>) {
 }
 
 /// Writes the news, then the runs with which this run was compared.
-fn told(text: &mut Text, news: &News) {
+fn told(text: &mut MarkdownText, news: &News) {
     for (title, entries) in news.sections() {
         if entries.is_empty() {
             continue;
@@ -172,7 +172,7 @@ fn told(text: &mut Text, news: &News) {
 }
 
 /// Returns a table with a row per adapter and a column per verdict that occurs.
-fn adapters(text: &mut Text, run: &Run) {
+fn adapters(text: &mut MarkdownText, run: &Run) {
     let mut records_of: BTreeMap<&str, Vec<&Record>> = BTreeMap::new();
     for record in &run.records {
         records_of.entry(&record.adapter).or_default().push(record);
@@ -180,13 +180,13 @@ fn adapters(text: &mut Text, run: &Run) {
     for adapter in &run.header.adapters {
         records_of.entry(&adapter.name).or_default();
     }
-    let rows: Vec<(&str, Tally)> = records_of
+    let rows: Vec<(&str, VerdictTally)> = records_of
         .into_iter()
-        .map(|(adapter, records)| (adapter, Tally::of(records)))
+        .map(|(adapter, records)| (adapter, VerdictTally::of(records)))
         .collect();
-    let missing = |tally: &Tally| run.header.cases.saturating_sub(tally.total);
-    let any = |count: &dyn Fn(&Tally) -> u64| rows.iter().any(|(_, tally)| count(tally) > 0);
-    let mut table = Table::<&(&str, Tally)>::new("")
+    let missing = |tally: &VerdictTally| run.header.cases.saturating_sub(tally.total);
+    let any = |count: &dyn Fn(&VerdictTally) -> u64| rows.iter().any(|(_, tally)| count(tally) > 0);
+    let mut table = Table::<&(&str, VerdictTally)>::new("")
         .text("adapter", |(adapter, _)| code(adapter, 100))
         .text("driver", |(adapter, _)| {
             let driver = run.header.adapter(adapter).map(|a| a.driver_text());
@@ -198,7 +198,7 @@ fn adapters(text: &mut Text, run: &Run) {
             table = table.number(title, move |(_, tally)| some(tally.plain(verdict)));
         }
     }
-    if any(&Tally::excused) {
+    if any(&VerdictTally::excused) {
         table = table.number("expected", |(_, tally)| some(tally.excused()));
     }
     table = table.number("unexpected", |(_, tally)| {
@@ -210,7 +210,7 @@ fn adapters(text: &mut Text, run: &Run) {
     text.table("Adapters", &table, &rows);
 }
 
-fn unexpected(text: &mut Text, run: &Run) {
+fn unexpected(text: &mut MarkdownText, run: &Run) {
     text.list("Unexpected", &unexpected_records(run), |record| {
         let sign = match Tone::of(record) {
             Tone::Missed => symbol(Verdict::Fail),
@@ -231,7 +231,7 @@ fn unexpected(text: &mut Text, run: &Run) {
     });
 }
 
-fn improvements(text: &mut Text, run: &Run) {
+fn improvements(text: &mut MarkdownText, run: &Run) {
     let better: Vec<&Record> = run.records.iter().filter(|r| r.improvement()).collect();
     text.list("Better than expected", &better, |record| {
         format!(
@@ -245,7 +245,7 @@ fn improvements(text: &mut Text, run: &Run) {
 }
 
 /// The asserted channels over all adapters, by area and aspect.
-fn asserted(text: &mut Text, run: &Run) {
+fn asserted(text: &mut MarkdownText, run: &Run) {
     let mut sums: BTreeMap<(&str, Aspect), Assertion> = BTreeMap::new();
     for record in &run.records {
         for assertion in &record.assertions {
@@ -270,7 +270,7 @@ fn asserted(text: &mut Text, run: &Run) {
     text.table("What was asserted", &table, sums);
 }
 
-fn absent(text: &mut Text, run: &Run) {
+fn absent(text: &mut MarkdownText, run: &Run) {
     let absent = &run.header.absent;
     if absent.is_empty() {
         return;

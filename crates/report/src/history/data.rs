@@ -128,12 +128,12 @@ pub(super) struct CaseFiles {
     /// For each file except the first, the index of its first case among all cases.
     first: Vec<usize>,
     files: Vec<String>,
-    now: CaseFile,
+    now: HistoryFile,
 }
 
 /// The file being filled.
 #[derive(Default)]
-struct CaseFile {
+struct HistoryFile {
     courses: Interner<String>,
     of: Vec<usize>,
     /// Entries of cases with times or triage: the case's index within the file, the file of its times or -1,
@@ -185,7 +185,7 @@ impl CaseFiles {
     }
 }
 
-impl CaseFile {
+impl HistoryFile {
     fn text(self) -> String {
         let courses = self.courses.values.join(",");
         format!("[[{courses}],{},{}]", json!(self.of), json!(self.more))

@@ -8,7 +8,7 @@ use super::page::page;
 use super::places::Places;
 use super::times::Series;
 use crate::error::ReportError;
-use crate::staged::{Kind, Staged, WrittenFolder};
+use crate::staged::{PagesKind, Staged, WrittenFolder};
 use etalon_history::{History, Labels, TriageEntry};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -18,7 +18,7 @@ use std::rc::Rc;
 /// The file that marks a folder as the page of a history.
 pub const HISTORY_PAGE_FILE: &str = "history.json";
 /// The kind of this folder.
-const FOLDER: Kind = Kind {
+const FOLDER: PagesKind = PagesKind {
     mark: HISTORY_PAGE_FILE,
     names: ["page", "page of a history"],
 };
@@ -47,7 +47,7 @@ pub fn write_history(
     let write = |name: &str, value: &str| {
         folder.write(format!("data/{name}.js"), file(name, value).as_bytes())
     };
-    let order = Order::of(model.cases);
+    let order = PageOrder::of(model.cases);
     write("runs", &data::runs(&model).to_string())?;
     write("cases", &data::cases(model.cases, &order.cases).to_string())?;
     write("news", &data::news(&news).to_string())?;
@@ -68,12 +68,12 @@ pub fn write_history(
 }
 
 /// Cases in the order of the script, which compares ids in UTF-16, and the rank of each.
-struct Order {
+struct PageOrder {
     cases: Vec<usize>,
     ranks: Vec<usize>,
 }
 
-impl Order {
+impl PageOrder {
     fn of(ids: &[Rc<str>]) -> Self {
         let mut cases: Vec<usize> = (0..ids.len()).collect();
         cases.sort_by(|a, b| ids[*a].encode_utf16().cmp(ids[*b].encode_utf16()));
@@ -88,7 +88,7 @@ impl Order {
 /// The files of cases, of frame times and of events of runs, and the first case or run of each file.
 type Packed = ([(&'static str, Vec<String>); 3], Value);
 
-fn packed(model: &Model<'_>, order: &Order) -> Result<Packed, ReportError> {
+fn packed(model: &Model<'_>, order: &PageOrder) -> Result<Packed, ReportError> {
     let mut series_of: BTreeMap<usize, Vec<&Series>> = BTreeMap::new();
     for times in &model.series {
         series_of.entry(times.case).or_default().push(times);

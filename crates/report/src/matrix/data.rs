@@ -10,13 +10,13 @@ use std::collections::BTreeMap;
 pub(crate) struct Matrix<'a> {
     pub(crate) bench: &'a Bench,
     /// The cells in the order of the bench.
-    pub(crate) cells: Vec<Cell>,
+    pub(crate) cells: Vec<MatrixCell>,
     /// The adapters that have a cell, in the order of the bench.
     pub(crate) adapters: Vec<&'a str>,
 }
 
 /// A cell on all adapters.
-pub(crate) struct Cell {
+pub(crate) struct MatrixCell {
     /// The id of the cell's cases without the number of layers.
     pub(crate) name: String,
     /// The name of the cell's case file.
@@ -26,11 +26,11 @@ pub(crate) struct Cell {
     /// The size of the cell's attachments.
     pub(crate) size: String,
     /// The entry of each adapter.
-    pub(crate) results: BTreeMap<String, Entry>,
+    pub(crate) results: BTreeMap<String, MatrixEntry>,
 }
 
 /// A cell on one adapter.
-pub(crate) struct Entry {
+pub(crate) struct MatrixEntry {
     pub(crate) outcome: CellOutcome,
     /// The cell's rate divided by the base cell's, if both count texels.
     pub(crate) of_base: Option<f64>,
@@ -109,8 +109,8 @@ impl<'a> Matrix<'a> {
         let named: Vec<(String, &'a BenchRecord)> = named.collect();
         let adapters = distinct(named.iter().map(|(_, r)| r.picture.adapter.as_str()));
         let cells = grouped(named).into_iter();
-        let mut cells: Vec<Cell> = cells
-            .map(|(name, records)| Cell::new(bench, name, records))
+        let mut cells: Vec<MatrixCell> = cells
+            .map(|(name, records)| MatrixCell::new(bench, name, records))
             .collect();
         hold_against(&mut cells, &adapters);
         Self {
@@ -126,7 +126,7 @@ impl<'a> Matrix<'a> {
     }
 }
 
-impl Cell {
+impl MatrixCell {
     fn new(bench: &Bench, name: String, records: Vec<&BenchRecord>) -> Self {
         let mut parts = name.split('/').skip(2);
         let group = parts.next().unwrap_or_default().to_owned();
@@ -141,7 +141,7 @@ impl Cell {
             let software = software(bench.header.adapter(adapter));
             let outcome = CellOutcome::new(&records, software);
             let limits = bench.header.limits.last().filter(|_| software);
-            let entry = Entry {
+            let entry = MatrixEntry {
                 of_base: None,
                 of_clear: None,
                 reached: limits.and_then(|limits| Reached::new(outcome.times()?, *limits)),
@@ -179,7 +179,7 @@ impl Cell {
 }
 
 /// Divides each rate by the base cell's rate and by the rate of clearing.
-fn hold_against(cells: &mut [Cell], adapters: &[&str]) {
+fn hold_against(cells: &mut [MatrixCell], adapters: &[&str]) {
     let sizes = distinct(cells.iter().map(|c| c.size.as_str()));
     let sizes: Vec<String> = sizes.into_iter().map(str::to_owned).collect();
     for size in &sizes {

@@ -1,6 +1,6 @@
 //! The layout of heat maps: the cells of each heat map and their positions.
 
-use super::data::Cell;
+use super::data::MatrixCell;
 use crate::lists::distinct;
 
 /// A heat map: rows are blending and format, columns tests and samples.
@@ -11,7 +11,7 @@ pub(super) struct Heat<'a> {
     pub(super) row_axes: &'static [&'static str],
     /// The tests and the samples of each column.
     pub(super) columns: Vec<(String, &'a str)>,
-    cells: Vec<&'a Cell>,
+    cells: Vec<&'a MatrixCell>,
 }
 
 const MAPS: [(&str, &[&str], &[&str]); 3] = [
@@ -30,10 +30,10 @@ const MAPS: [(&str, &[&str], &[&str]); 3] = [
 
 impl<'a> Heat<'a> {
     /// Returns the heat maps of the cells of one size.
-    pub(super) fn all(cells: &[&'a Cell]) -> Vec<Self> {
+    pub(super) fn all(cells: &[&'a MatrixCell]) -> Vec<Self> {
         let maps = MAPS.iter().map(|(title, groups, row_axes)| {
-            let in_groups = |cell: &&&Cell| groups.contains(&cell.group.as_str());
-            let mut cells: Vec<&Cell> = cells.iter().filter(in_groups).copied().collect();
+            let in_groups = |cell: &&&MatrixCell| groups.contains(&cell.group.as_str());
+            let mut cells: Vec<&MatrixCell> = cells.iter().filter(in_groups).copied().collect();
             cells.sort_by_key(|c| groups.iter().position(|group| *group == c.group));
             let mut columns = distinct(cells.iter().map(|c| column(c, row_axes)));
             columns
@@ -50,9 +50,9 @@ impl<'a> Heat<'a> {
     }
 
     /// Returns the cells that are in no heat map, by group.
-    pub(super) fn rest(cells: &[&'a Cell]) -> Vec<(&'a str, Vec<&'a Cell>)> {
-        let is_rest = |c: &&&Cell| !MAPS.iter().any(|m| m.1.contains(&c.group.as_str()));
-        let others: Vec<&Cell> = cells.iter().filter(is_rest).copied().collect();
+    pub(super) fn rest(cells: &[&'a MatrixCell]) -> Vec<(&'a str, Vec<&'a MatrixCell>)> {
+        let is_rest = |c: &&&MatrixCell| !MAPS.iter().any(|m| m.1.contains(&c.group.as_str()));
+        let others: Vec<&MatrixCell> = cells.iter().filter(is_rest).copied().collect();
         let groups = distinct(others.iter().map(|c| c.group.as_str()));
         let in_group = |group| {
             others
@@ -67,10 +67,11 @@ impl<'a> Heat<'a> {
             .collect()
     }
 
-    pub(super) fn cell(&self, row: &[&str], column: &(String, &str)) -> Option<&'a Cell> {
+    pub(super) fn cell(&self, row: &[&str], column: &(String, &str)) -> Option<&'a MatrixCell> {
         let mut cells = self.cells.iter();
-        let place =
-            |c: &&&Cell| key(c, self.row_axes) == row && self::column(c, self.row_axes) == *column;
+        let place = |c: &&&MatrixCell| {
+            key(c, self.row_axes) == row && self::column(c, self.row_axes) == *column
+        };
         cells.find(place).copied()
     }
 
@@ -82,11 +83,11 @@ impl<'a> Heat<'a> {
     }
 }
 
-fn key<'a>(cell: &'a Cell, axes: &[&str]) -> Vec<&'a str> {
+fn key<'a>(cell: &'a MatrixCell, axes: &[&str]) -> Vec<&'a str> {
     axes.iter().map(|a| cell.axis(a).unwrap_or("off")).collect()
 }
 
-fn column<'a>(cell: &'a Cell, row_axes: &[&str]) -> (String, &'a str) {
+fn column<'a>(cell: &'a MatrixCell, row_axes: &[&str]) -> (String, &'a str) {
     let format = cell
         .axis("depth_format")
         .filter(|_| !row_axes.contains(&"depth_format"));
@@ -105,7 +106,7 @@ fn column<'a>(cell: &'a Cell, row_axes: &[&str]) -> (String, &'a str) {
 }
 
 /// Returns the index of the first cell with these tests.
-fn place(cells: &[&Cell], tests: &str, row_axes: &[&str]) -> Option<usize> {
+fn place(cells: &[&MatrixCell], tests: &str, row_axes: &[&str]) -> Option<usize> {
     cells.iter().position(|c| column(c, row_axes).0 == tests)
 }
 

@@ -4,7 +4,7 @@
 //! scripts the page lacks only this comparison.
 
 use super::csv::state;
-use super::data::{Cell, CellOutcome, Entry, Matrix, unit};
+use super::data::{CellOutcome, Matrix, MatrixCell, MatrixEntry, unit};
 use super::heat::Heat;
 use super::roofline;
 use super::table::half_width;
@@ -147,7 +147,7 @@ fn id(adapter: usize, cell: usize) -> String {
 }
 
 fn of_adapter(matrix: &Matrix<'_>, number: usize, adapter: &str) -> Markup {
-    let link = |cell: &Cell| {
+    let link = |cell: &MatrixCell| {
         let place = matrix.cells.iter().position(|c| c.name == cell.name);
         id(number, place.unwrap_or(0))
     };
@@ -155,7 +155,7 @@ fn of_adapter(matrix: &Matrix<'_>, number: usize, adapter: &str) -> Markup {
         section.adapter id={ "adapter-" (number) } data-adapter=(adapter) {
             h2 { (breakable(adapter)) }
             @for size in matrix.sizes() {
-                @let cells: Vec<&Cell> = matrix.cells.iter().filter(|c| c.size == size).collect();
+                @let cells: Vec<&MatrixCell> = matrix.cells.iter().filter(|c| c.size == size).collect();
                 h3 { (size) }
                 @for heat in Heat::all(&cells) { (map(&heat, adapter, &link)) }
                 div.groups {
@@ -166,7 +166,7 @@ fn of_adapter(matrix: &Matrix<'_>, number: usize, adapter: &str) -> Markup {
     }
 }
 
-fn map(heat: &Heat<'_>, adapter: &str, link: &dyn Fn(&Cell) -> String) -> Markup {
+fn map(heat: &Heat<'_>, adapter: &str, link: &dyn Fn(&MatrixCell) -> String) -> Markup {
     html! {
         div.wide { table.heat {
             caption { (heat.title) ", Gpix/s and share of the base cell" }
@@ -191,7 +191,7 @@ fn map(heat: &Heat<'_>, adapter: &str, link: &dyn Fn(&Cell) -> String) -> Markup
 }
 
 /// Returns a cell of a heat map.
-fn figure(cell: &Cell, adapter: &str, link: &dyn Fn(&Cell) -> String) -> Markup {
+fn figure(cell: &MatrixCell, adapter: &str, link: &dyn Fn(&MatrixCell) -> String) -> Markup {
     let Some(entry) = cell.results.get(adapter) else {
         return html! { td.soft { "–" } };
     };
@@ -204,7 +204,7 @@ fn figure(cell: &Cell, adapter: &str, link: &dyn Fn(&Cell) -> String) -> Markup 
 }
 
 /// Returns the cell's name with the interval of its rate and its shares of the limits.
-fn words(cell: &Cell, entry: &Entry) -> String {
+fn words(cell: &MatrixCell, entry: &MatrixEntry) -> String {
     let times = entry.outcome.times();
     let interval = times.and_then(|t| Some((unit(t.measure), t.slope.rate_interval()?)));
     let interval = interval.map(|((unit, divisor), ends)| {
@@ -230,7 +230,7 @@ fn share_of(share: f64) -> String {
     format!("{} %", digits(share * 100.0, 3))
 }
 
-fn value(entry: &Entry) -> String {
+fn value(entry: &MatrixEntry) -> String {
     match (&entry.outcome, entry.outcome.rate()) {
         (CellOutcome::Rate(times), Some(rate)) => digits(rate / unit(times.measure).1, 3),
         (CellOutcome::Below(_), _) => "below".to_owned(),
@@ -239,7 +239,12 @@ fn value(entry: &Entry) -> String {
 }
 
 /// Returns the cells of a group without a heat map.
-fn listed(group: &str, cells: &[&Cell], adapter: &str, link: &dyn Fn(&Cell) -> String) -> Markup {
+fn listed(
+    group: &str,
+    cells: &[&MatrixCell],
+    adapter: &str,
+    link: &dyn Fn(&MatrixCell) -> String,
+) -> Markup {
     let measure = cells
         .iter()
         .find_map(|c| c.results.get(adapter)?.outcome.times());
@@ -247,7 +252,7 @@ fn listed(group: &str, cells: &[&Cell], adapter: &str, link: &dyn Fn(&Cell) -> S
     let share = |share: Option<f64>| share.map(share_of);
     Table::new("list")
         .caption(group.replace('-', " "))
-        .head("Cell", |cell: &&Cell| {
+        .head("Cell", |cell: &&MatrixCell| {
             let axes = cell
                 .axes
                 .iter()
@@ -278,14 +283,14 @@ fn listed(group: &str, cells: &[&Cell], adapter: &str, link: &dyn Fn(&Cell) -> S
         .page(cells.iter().copied())
 }
 
-fn half(entry: &Entry) -> Option<String> {
+fn half(entry: &MatrixEntry) -> Option<String> {
     let times = entry.outcome.times()?;
     let share = half_width(times.slope.rate_interval(), times.slope.rate()?)?;
     Some(format!("{} %", digits(share * 100.0, 2)))
 }
 
 /// Returns the samples of a cell on an adapter, or the reason why it lacks them.
-fn samples(cell: &Cell, adapter: &str, id: &str) -> Markup {
+fn samples(cell: &MatrixCell, adapter: &str, id: &str) -> Markup {
     let Some(entry) = cell.results.get(adapter) else {
         return html! {};
     };
@@ -303,7 +308,7 @@ fn samples(cell: &Cell, adapter: &str, id: &str) -> Markup {
     }
 }
 
-fn rounds(times: &CellRate, entry: &Entry) -> Markup {
+fn rounds(times: &CellRate, entry: &MatrixEntry) -> Markup {
     let (unit, divisor) = unit(times.measure);
     let scaled = |rate: f64| digits(rate / divisor, 4);
     let each: Vec<String> = times.slope.rounds.iter().map(|s| scaled(1.0 / s)).collect();

@@ -1,6 +1,6 @@
 //! The roofline: how near the cells of software adapters come to the limits of memory and of arithmetic.
 
-use super::data::{Cell, Matrix};
+use super::data::{Matrix, MatrixCell};
 use super::reached::Reached;
 use crate::chart::{HEIGHT, Plot, Scale, chart, key, marker, polyline};
 use crate::numbers::{count, digits};
@@ -32,7 +32,7 @@ pub(super) fn giga(amount: f64) -> String {
 /// Returns the chart of all cells with arithmetic, or `None` without one.
 pub(super) fn section(matrix: &Matrix<'_>) -> Option<Markup> {
     let adapters = matrix.adapters.iter().enumerate();
-    let points: Vec<(usize, &Cell, Reached)> = adapters
+    let points: Vec<(usize, &MatrixCell, Reached)> = adapters
         .flat_map(|(style, adapter)| {
             let cells = matrix.cells.iter();
             cells.filter_map(move |cell| Some((style, cell, cell.results.get(*adapter)?.reached?)))

@@ -1,7 +1,7 @@
 //! The matrix for a terminal.
 
 use super::csv::state;
-use super::data::{Cell, Entry, Matrix, unit};
+use super::data::{Matrix, MatrixCell, MatrixEntry, unit};
 use crate::numbers::digits;
 use crate::table::Table;
 use crate::terminal::TableOptions;
@@ -13,8 +13,8 @@ pub fn matrix_table(bench: &Bench, options: TableOptions) -> String {
     let matrix = Matrix::new(bench);
     let mut text = String::new();
     for size in matrix.sizes() {
-        let cells: Vec<&Cell> = matrix.cells.iter().filter(|c| c.size == size).collect();
-        let mut table = Table::<&Cell>::new("")
+        let cells: Vec<&MatrixCell> = matrix.cells.iter().filter(|c| c.size == size).collect();
+        let mut table = Table::<&MatrixCell>::new("")
             .text("cell", |cell| short(cell, &cells))
             .text("unit", |cell| {
                 let measure = cell.results.values().find_map(|e| e.outcome.times());
@@ -36,7 +36,7 @@ pub fn matrix_table(bench: &Bench, options: TableOptions) -> String {
 }
 
 /// Returns the group and the axes in which its cells differ.
-fn short(cell: &Cell, cells: &[&Cell]) -> String {
+fn short(cell: &MatrixCell, cells: &[&MatrixCell]) -> String {
     let differ = |axis: &str| {
         let mut same = cells.iter().filter(|c| c.group == cell.group);
         same.any(|c| c.axis(axis) != cell.axis(axis))
@@ -46,7 +46,7 @@ fn short(cell: &Cell, cells: &[&Cell]) -> String {
     format!("{}{}", cell.group, axes.collect::<String>())
 }
 
-fn figures(entry: &Entry) -> String {
+fn figures(entry: &MatrixEntry) -> String {
     let times = entry.outcome.times();
     let Some((times, rate)) = times.and_then(|t| Some((t, t.slope.rate()?))) else {
         return match state(&entry.outcome).0.as_str() {

@@ -8,20 +8,20 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The records of methods.
 pub(crate) struct Methods<'a> {
     /// Adapters that drew a method, in the header's order.
-    pub(crate) adapters: Vec<Adapter<'a>>,
+    pub(crate) adapters: Vec<ChartAdapter<'a>>,
     /// The questions by name.
     pub(crate) questions: Vec<Question<'a>>,
 }
 
 /// An adapter of the charts.
-pub(crate) struct Adapter<'a> {
+pub(crate) struct ChartAdapter<'a> {
     pub(crate) name: &'a str,
-    pub(crate) kind: Kind,
+    pub(crate) kind: DeviceKind,
 }
 
 /// The device that an adapter draws with. Kinds are ranked separately.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Kind {
+pub(crate) enum DeviceKind {
     /// The processor.
     Software,
     /// A separate device.
@@ -30,7 +30,7 @@ pub(crate) enum Kind {
     Unknown,
 }
 
-impl Kind {
+impl DeviceKind {
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Software => "software",
@@ -76,11 +76,11 @@ pub(crate) struct Series<'a> {
     /// The parameter's name.
     pub(crate) parameter: Option<&'a str>,
     /// The points in the order of the parameter's values, then of adapters.
-    pub(crate) points: Vec<Point<'a>>,
+    pub(crate) points: Vec<SeriesPoint<'a>>,
 }
 
 /// A record as a point of a series.
-pub(crate) struct Point<'a> {
+pub(crate) struct SeriesPoint<'a> {
     /// The index in [`Methods::adapters`].
     pub(crate) adapter: usize,
     /// The parameter's value.
@@ -120,7 +120,7 @@ impl Setting<'_> {
 }
 
 /// A scene as the page shows it.
-pub(crate) struct Shown<'s, 'a> {
+pub(crate) struct ShownScene<'s, 'a> {
     pub(crate) methods: &'s Methods<'a>,
     pub(crate) question: &'s Question<'a>,
     pub(crate) scene: &'s SceneSeries<'a>,
@@ -132,7 +132,7 @@ pub(crate) struct Shown<'s, 'a> {
     pub(crate) main: usize,
 }
 
-impl Shown<'_, '_> {
+impl ShownScene<'_, '_> {
     /// Returns the classes of an element that is shown at one setting only.
     pub(crate) fn class(&self, class: &str, setting: usize) -> String {
         let off = if setting == self.main { "" } else { " off" };
@@ -153,7 +153,7 @@ pub(crate) fn usable(value: f64) -> bool {
     value.is_finite() && value.abs() <= 1e12
 }
 
-impl Point<'_> {
+impl SeriesPoint<'_> {
     /// Returns the error, if a chart can show it.
     pub(crate) fn error(&self) -> Option<f64> {
         let rmse = self.measured.distance.rmse;
@@ -177,7 +177,7 @@ impl Point<'_> {
 
 impl<'a> Series<'a> {
     /// Returns the setting of one of the series' points.
-    pub(crate) fn setting(&self, point: &Point<'a>) -> Setting<'a> {
+    pub(crate) fn setting(&self, point: &SeriesPoint<'a>) -> Setting<'a> {
         Setting {
             variant: self.variant.clone(),
             parameter: self.parameter.zip(point.value),
@@ -200,7 +200,7 @@ impl<'a> Series<'a> {
     }
 
     /// Returns the points of one adapter in the order of values.
-    pub(crate) fn on(&self, adapter: usize) -> impl Iterator<Item = &Point<'a>> {
+    pub(crate) fn on(&self, adapter: usize) -> impl Iterator<Item = &SeriesPoint<'a>> {
         self.points.iter().filter(move |p| p.adapter == adapter)
     }
 
@@ -249,9 +249,9 @@ impl<'a> SceneSeries<'a> {
     pub(crate) fn at<'s>(
         &'s self,
         setting: &'s Setting<'a>,
-    ) -> impl Iterator<Item = (&'s Series<'a>, &'s Point<'a>)> {
+    ) -> impl Iterator<Item = (&'s Series<'a>, &'s SeriesPoint<'a>)> {
         self.series.iter().flat_map(move |series| {
-            let here = move |p: &&Point<'a>| series.setting(p) == *setting;
+            let here = move |p: &&SeriesPoint<'a>| series.setting(p) == *setting;
             series.points.iter().filter(here).map(move |p| (series, p))
         })
     }
@@ -308,11 +308,11 @@ impl<'a> Methods<'a> {
         let adapters = distinct(names)
             .into_iter()
             .filter(drew)
-            .map(|name| Adapter {
+            .map(|name| ChartAdapter {
                 name,
-                kind: Kind::of(run, name),
+                kind: DeviceKind::of(run, name),
             });
-        let adapters: Vec<Adapter<'a>> = adapters.collect();
+        let adapters: Vec<ChartAdapter<'a>> = adapters.collect();
         let mut sorted: BTreeMap<&str, BTreeMap<&str, Family<'_>>> = BTreeMap::new();
         for (record, m) in measured {
             let scenes = sorted.entry(&m.question).or_default();
@@ -341,14 +341,14 @@ impl<'a> Methods<'a> {
     }
 
     /// Returns all scenes as the page shows them.
-    pub(crate) fn shown(&self) -> Vec<Shown<'_, 'a>> {
+    pub(crate) fn shown(&self) -> Vec<ShownScene<'_, 'a>> {
         let mut shown = Vec::new();
         for (q, question) in self.questions.iter().enumerate() {
             shown.extend(question.scenes.iter().enumerate().map(|(s, scene)| {
                 let settings = scene.settings();
                 let main = scene.main();
                 let main = settings.iter().position(|s| Some(s) == main.as_ref());
-                Shown {
+                ShownScene {
                     methods: self,
                     question,
                     scene,
@@ -367,7 +367,7 @@ impl<'a> Methods<'a> {
     }
 
     /// Returns the kinds of adapters that occur, in order.
-    pub(crate) fn kinds(&self) -> BTreeSet<Kind> {
+    pub(crate) fn kinds(&self) -> BTreeSet<DeviceKind> {
         self.adapters.iter().map(|a| a.kind).collect()
     }
 }
@@ -385,7 +385,7 @@ fn scene<'a>(
     question: &'a str,
     name: &'a str,
     records: &[(&'a Record, &'a Measured)],
-    adapters: &[Adapter<'a>],
+    adapters: &[ChartAdapter<'a>],
 ) -> SceneSeries<'a> {
     // An axis with one value in the whole scene is not part of the variant.
     let mut values: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
@@ -399,7 +399,7 @@ fn scene<'a>(
             .collect();
         parts.join(" ")
     };
-    let mut sorted: BTreeMap<(&str, String, Option<&str>), Vec<Point<'a>>> = BTreeMap::new();
+    let mut sorted: BTreeMap<(&str, String, Option<&str>), Vec<SeriesPoint<'a>>> = BTreeMap::new();
     for (record, measured) in records {
         let Some(adapter) = adapters.iter().position(|a| a.name == record.adapter) else {
             continue;
@@ -407,7 +407,7 @@ fn scene<'a>(
         let parameter = measured.parameter.as_ref().filter(|p| usable(p.value));
         let name = parameter.map(|p| p.name.as_str());
         let key = (&*measured.method, variant(record, measured), name);
-        sorted.entry(key).or_default().push(Point {
+        sorted.entry(key).or_default().push(SeriesPoint {
             adapter,
             value: parameter.map(|p| p.value),
             record,
@@ -417,7 +417,7 @@ fn scene<'a>(
     let series = sorted
         .into_iter()
         .map(|((method, variant, parameter), mut points)| {
-            let place = |p: &Point<'_>| (p.value.unwrap_or(0.0), p.adapter);
+            let place = |p: &SeriesPoint<'_>| (p.value.unwrap_or(0.0), p.adapter);
             points.sort_by(|a, b| {
                 let (a, b) = (place(a), place(b));
                 a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))
@@ -486,7 +486,10 @@ mod tests {
             "alpha 0.5, size=8",
         ];
         assert_eq!(settings, expected);
-        assert_eq!(methods.kinds(), [Kind::Software, Kind::Hardware].into());
+        assert_eq!(
+            methods.kinds(),
+            [DeviceKind::Software, DeviceKind::Hardware].into()
+        );
         assert_eq!(methods.questions[1].style("b"), 1);
     }
 
@@ -525,7 +528,7 @@ mod tests {
         ]);
         let methods = Methods::of(&run).unwrap();
         let scene = methods.scenes().next().unwrap();
-        let points: Vec<&Point<'_>> = scene.series.iter().flat_map(|s| &s.points).collect();
+        let points: Vec<&SeriesPoint<'_>> = scene.series.iter().flat_map(|s| &s.points).collect();
         assert_eq!(points.len(), 4);
         assert_eq!(points.iter().filter(|p| p.error().is_some()).count(), 1);
         assert_eq!(points.iter().filter(|p| p.wall().is_some()).count(), 1);

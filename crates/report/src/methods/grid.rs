@@ -1,7 +1,7 @@
 //! Break points in one picture: a row for each method with a parameter, and a cell for each value.
 
 use super::breaks::LIMIT;
-use super::data::{Series, Shown};
+use super::data::{Series, ShownScene};
 use super::name::value_text;
 use crate::chart::key;
 use crate::numbers::share;
@@ -13,14 +13,14 @@ const STEPS: [f64; 5] = [0.0, 1e-9, 0.001, LIMIT, 0.1];
 
 /// A method along its parameter in a scene.
 struct Row<'s, 'a> {
-    shown: &'s Shown<'s, 'a>,
+    shown: &'s ShownScene<'s, 'a>,
     series: &'s Series<'a>,
     /// The parameter's values, each with the largest error of all adapters.
     errors: Vec<(f64, f64)>,
 }
 
 /// Returns the picture of all scenes; empty if no method was drawn at several values.
-pub(super) fn picture(shown: &[Shown<'_, '_>]) -> Markup {
+pub(super) fn picture(shown: &[ShownScene<'_, '_>]) -> Markup {
     let rows: Vec<Row<'_, '_>> = shown.iter().flat_map(rows).collect();
     if rows.is_empty() {
         return html! {};
@@ -49,7 +49,7 @@ pub(super) fn picture(shown: &[Shown<'_, '_>]) -> Markup {
     }
 }
 
-fn rows<'s, 'a>(shown: &'s Shown<'s, 'a>) -> Vec<Row<'s, 'a>> {
+fn rows<'s, 'a>(shown: &'s ShownScene<'s, 'a>) -> Vec<Row<'s, 'a>> {
     let series = shown.scene.series.iter();
     let several = series.filter(|series| series.values().len() > 1);
     several

@@ -1,7 +1,7 @@
 //! The first screen of the page of methods: a small chart and a sentence for each question, and the methods
 //! that fit a budget.
 
-use super::data::{Methods, Point, Question, Shown};
+use super::data::{Methods, Question, SeriesPoint, ShownScene};
 use super::front::{front, undecided};
 use super::scatter::steps;
 use crate::chart::{
@@ -19,7 +19,7 @@ const MARGIN: f64 = 9.0;
 const SHORT: f64 = 0.001;
 
 /// A method's time and error on an adapter, at the setting that represents its scene.
-struct Timed<'a> {
+struct TimedMethod<'a> {
     method: &'a str,
     adapter: usize,
     time: f64,
@@ -29,7 +29,7 @@ struct Timed<'a> {
 }
 
 /// The charts of all questions, with the choice of an adapter and of a budget.
-pub(super) fn section(methods: &Methods<'_>, shown: &[Shown<'_, '_>]) -> Markup {
+pub(super) fn section(methods: &Methods<'_>, shown: &[ShownScene<'_, '_>]) -> Markup {
     html! {
         section id="overview" {
             h2 { "Which method, at which price?" }
@@ -47,7 +47,7 @@ pub(super) fn section(methods: &Methods<'_>, shown: &[Shown<'_, '_>]) -> Markup 
                 (limit("most-error", "RMSE at most"))
             }
             div.cards {
-                @for (q, question) in methods.questions.iter().enumerate() { (card(methods, q, &Answer::of(question, shown))) }
+                @for (q, question) in methods.questions.iter().enumerate() { (card(methods, q, &ScatterAnswer::of(question, shown))) }
             }
         }
     }
@@ -64,19 +64,19 @@ fn limit(id: &str, name: &str) -> Markup {
 const ADAPTERS: usize = 4;
 
 /// A question's scenes, and the timed methods of each.
-struct Answer<'s, 'a> {
+struct ScatterAnswer<'s, 'a> {
     question: &'s Question<'a>,
-    scenes: Vec<&'s Shown<'s, 'a>>,
+    scenes: Vec<&'s ShownScene<'s, 'a>>,
     /// The timed methods, by scene.
-    timed: Vec<Vec<Timed<'a>>>,
+    timed: Vec<Vec<TimedMethod<'a>>>,
 }
 
-impl<'s, 'a> Answer<'s, 'a> {
-    fn of(question: &'s Question<'a>, shown: &'s [Shown<'s, 'a>]) -> Self {
+impl<'s, 'a> ScatterAnswer<'s, 'a> {
+    fn of(question: &'s Question<'a>, shown: &'s [ShownScene<'s, 'a>]) -> Self {
         let scenes = shown
             .iter()
             .filter(|shown| std::ptr::eq(shown.question, question));
-        let scenes: Vec<&Shown<'_, '_>> = scenes.collect();
+        let scenes: Vec<&ShownScene<'_, '_>> = scenes.collect();
         Self {
             question,
             timed: scenes.iter().map(|shown| timed(shown)).collect(),
@@ -85,7 +85,7 @@ impl<'s, 'a> Answer<'s, 'a> {
     }
 
     /// The scene in which the most methods were timed, with these methods; `None` if no method was timed.
-    fn fullest(&self) -> Option<(&'s Shown<'s, 'a>, &[Timed<'a>])> {
+    fn fullest(&self) -> Option<(&'s ShownScene<'s, 'a>, &[TimedMethod<'a>])> {
         let timed = self.timed.iter().enumerate();
         let fullest = timed.max_by_key(|(place, points)| (points.len(), std::cmp::Reverse(*place)));
         let (place, points) = fullest.filter(|(_, points)| !points.is_empty())?;
@@ -94,10 +94,10 @@ impl<'s, 'a> Answer<'s, 'a> {
 }
 
 /// The sentences of all questions for a terminal, one per adapter.
-pub(super) fn lines(methods: &Methods<'_>, shown: &[Shown<'_, '_>]) -> Vec<String> {
+pub(super) fn lines(methods: &Methods<'_>, shown: &[ShownScene<'_, '_>]) -> Vec<String> {
     let mut lines = Vec::new();
     for question in &methods.questions {
-        let found = Answer::of(question, shown);
+        let found = ScatterAnswer::of(question, shown);
         let Some((scene, timed)) = found.fullest() else {
             lines.push(format!("{}: not timed", question.name));
             continue;
@@ -121,7 +121,7 @@ pub(super) fn lines(methods: &Methods<'_>, shown: &[Shown<'_, '_>]) -> Vec<Strin
     lines
 }
 
-fn card(methods: &Methods<'_>, number: usize, found: &Answer<'_, '_>) -> Markup {
+fn card(methods: &Methods<'_>, number: usize, found: &ScatterAnswer<'_, '_>) -> Markup {
     let points: Vec<_> = found
         .timed
         .iter()
@@ -157,12 +157,12 @@ fn card(methods: &Methods<'_>, number: usize, found: &Answer<'_, '_>) -> Markup 
 }
 
 /// Returns the methods of a scene at the setting that represents it.
-fn timed<'a>(shown: &Shown<'_, 'a>) -> Vec<Timed<'a>> {
+fn timed<'a>(shown: &ShownScene<'_, 'a>) -> Vec<TimedMethod<'a>> {
     let Some(setting) = shown.settings.get(shown.main) else {
         return Vec::new();
     };
-    let of_point = |method: &'a str, point: &Point<'a>| {
-        Some(Timed {
+    let of_point = |method: &'a str, point: &SeriesPoint<'a>| {
+        Some(TimedMethod {
             method,
             adapter: point.adapter,
             time: point.wall()?,
@@ -179,8 +179,8 @@ fn timed<'a>(shown: &Shown<'_, 'a>) -> Vec<Timed<'a>> {
 /// The chart of a scene on an adapter. Its axes fit all adapters.
 fn chart(
     question: &Question<'_>,
-    shown: &Shown<'_, '_>,
-    points: &[Timed<'_>],
+    shown: &ShownScene<'_, '_>,
+    points: &[TimedMethod<'_>],
     adapter: usize,
 ) -> Markup {
     let positive = points.iter().map(|t| t.error).filter(|error| *error > 0.0);
@@ -196,7 +196,7 @@ fn chart(
             (y - TOP) / (BOTTOM - TOP) * height,
         )
     };
-    let here: Vec<&Timed<'_>> = points.iter().filter(|t| t.adapter == adapter).collect();
+    let here: Vec<&TimedMethod<'_>> = points.iter().filter(|t| t.adapter == adapter).collect();
     let costs: Vec<(f64, f64)> = here.iter().map(|t| (t.time, t.error)).collect();
     let line: Vec<(f64, f64)> = steps(&plot, &costs).into_iter().map(small).collect();
     let (_, level) = small((LEFT, plot.y(super::breaks::LIMIT)));
@@ -230,8 +230,8 @@ fn chart(
 
 /// Returns the recommended methods: the most accurate one within a short time, and the most accurate one
 /// overall. Names the methods that are on the front or not, depending on where times are in their intervals.
-fn answer(points: &[Timed<'_>], adapter: usize) -> String {
-    let here: Vec<&Timed<'_>> = points.iter().filter(|t| t.adapter == adapter).collect();
+fn answer(points: &[TimedMethod<'_>], adapter: usize) -> String {
+    let here: Vec<&TimedMethod<'_>> = points.iter().filter(|t| t.adapter == adapter).collect();
     let intervals = here
         .iter()
         .map(|t| (t.interval.unwrap_or([t.time; 2]), t.error));
@@ -245,9 +245,9 @@ fn answer(points: &[Timed<'_>], adapter: usize) -> String {
     }
 }
 
-fn recommended(here: &[&Timed<'_>]) -> String {
+fn recommended(here: &[&TimedMethod<'_>]) -> String {
     let costs: Vec<(f64, f64)> = here.iter().map(|t| (t.time, t.error)).collect();
-    let leaders: Vec<&Timed<'_>> = front(&costs).into_iter().map(|i| here[i]).collect();
+    let leaders: Vec<&TimedMethod<'_>> = front(&costs).into_iter().map(|i| here[i]).collect();
     let (Some(fastest), Some(best)) = (leaders.first(), leaders.last()) else {
         return "Not timed on this adapter.".to_owned();
     };
@@ -275,8 +275,8 @@ fn recommended(here: &[&Timed<'_>]) -> String {
 mod tests {
     use super::*;
 
-    fn timed(method: &'static str, time: f64, error: f64) -> Timed<'static> {
-        Timed {
+    fn timed(method: &'static str, time: f64, error: f64) -> TimedMethod<'static> {
+        TimedMethod {
             method,
             adapter: 0,
             time,
@@ -308,7 +308,7 @@ mod tests {
         let slow = [timed("a", 0.002, 0.5), timed("b", 0.004, 0.1)];
         assert!(answer(&slow, 0).starts_with("fastest: a, "));
         // The clock does not tell which one is faster.
-        let coarse = slow.map(|timed| Timed {
+        let coarse = slow.map(|timed| TimedMethod {
             interval: Some([0.001, 0.005]),
             ..timed
         });

@@ -1,6 +1,6 @@
 //! `methods.html`.
 
-use super::data::{Methods, Point, Question, SceneSeries, Series, Setting, Shown};
+use super::data::{Methods, Question, SceneSeries, Series, SeriesPoint, Setting, ShownScene};
 use super::name::{title, value_text};
 use super::pictures::Pictures;
 use super::stability::CurveBreak;
@@ -148,7 +148,7 @@ fn profile(run: &Run) -> Markup {
 }
 
 /// Returns a table of all break points. Curves that never cross the limit are listed with their charts.
-fn breaks(methods: &Methods<'_>, shown: &[Shown<'_, '_>]) -> Markup {
+fn breaks(methods: &Methods<'_>, shown: &[ShownScene<'_, '_>]) -> Markup {
     let found = |shown| {
         stability::found(shown)
             .into_iter()
@@ -183,7 +183,7 @@ fn breaks(methods: &Methods<'_>, shown: &[Shown<'_, '_>]) -> Markup {
 }
 
 /// A break and its scene.
-type Broken<'m, 'a> = (&'m Shown<'m, 'a>, CurveBreak<'a>);
+type Broken<'m, 'a> = (&'m ShownScene<'m, 'a>, CurveBreak<'a>);
 
 fn broken_table<'m, 'a>() -> Table<'m, Broken<'m, 'a>> {
     Table::new("text")
@@ -205,7 +205,7 @@ fn single_values(methods: &Methods<'_>) -> u64 {
 }
 
 /// Returns links to the pictures on both sides of crossings.
-fn beside(shown: &Shown<'_, '_>, between: &[[Setting<'_>; 2]]) -> Markup {
+fn beside(shown: &ShownScene<'_, '_>, between: &[[Setting<'_>; 2]]) -> Markup {
     html! {
         @for (i, pair) in between.iter().enumerate() {
             @if i > 0 { "; " }
@@ -237,7 +237,7 @@ fn explained(question: &Question<'_>) -> Markup {
     }
 }
 
-fn in_scene(run: &Run, pictures: &mut Pictures<'_>, shown: &Shown<'_, '_>) -> Markup {
+fn in_scene(run: &Run, pictures: &mut Pictures<'_>, shown: &ShownScene<'_, '_>) -> Markup {
     let (methods, scene) = (shown.methods, shown.scene);
     let truth = scene
         .series
@@ -292,7 +292,7 @@ fn in_scene(run: &Run, pictures: &mut Pictures<'_>, shown: &Shown<'_, '_>) -> Ma
 
 /// Returns the setting of the charts and pictures, and the slider to other settings. Without scripts the
 /// setting is fixed.
-fn slider(shown: &Shown<'_, '_>) -> Markup {
+fn slider(shown: &ShownScene<'_, '_>) -> Markup {
     let names: Vec<String> = shown.settings.iter().map(Setting::text).collect();
     let input = format!("{}-at", shown.anchor);
     html! {
@@ -311,7 +311,7 @@ fn slider(shown: &Shown<'_, '_>) -> Markup {
 }
 
 /// Returns the methods of the scene without an error, or without a time, at a setting.
-fn unmeasured(shown: &Shown<'_, '_>, setting: &Setting<'_>, index: usize) -> Markup {
+fn unmeasured(shown: &ShownScene<'_, '_>, setting: &Setting<'_>, index: usize) -> Markup {
     let (methods, scene) = (shown.methods, shown.scene);
     let drew = |i: &usize| scene.series.iter().any(|s| s.on(*i).next().is_some());
     let drew: Vec<usize> = (0..methods.adapters.len()).filter(drew).collect();
@@ -344,8 +344,8 @@ fn unmeasured(shown: &Shown<'_, '_>, setting: &Setting<'_>, index: usize) -> Mar
 }
 
 fn table(methods: &Methods<'_>, scene: &SceneSeries<'_>) -> Markup {
-    type Row<'s, 'a> = (&'s Series<'a>, &'s Point<'a>);
-    let time = |point: &Point<'_>, part: fn(&Times) -> Option<f64>| {
+    type Row<'s, 'a> = (&'s Series<'a>, &'s SeriesPoint<'a>);
+    let time = |point: &SeriesPoint<'_>, part: fn(&Times) -> Option<f64>| {
         point.measured.time.as_ref().and_then(part).map(duration)
     };
     let mut table =

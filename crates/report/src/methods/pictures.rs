@@ -1,6 +1,6 @@
 //! The pictures of a scene: the truth, and the picture of each method at each setting.
 
-use super::data::{Point, Setting, Shown};
+use super::data::{SeriesPoint, Setting, ShownScene};
 use crate::chart::color;
 use crate::numbers::{digits, share};
 use base64::Engine;
@@ -25,7 +25,7 @@ pub(super) struct Pictures<'a> {
 /// A picture that could be read.
 struct Shot<'s, 'a> {
     method: &'a str,
-    point: &'s Point<'a>,
+    point: &'s SeriesPoint<'a>,
     data: String,
 }
 
@@ -45,7 +45,7 @@ impl<'f> Pictures<'f> {
 
     /// Returns the truth and each method's picture at each setting, from the first adapter that has a
     /// picture. The page computes the differences.
-    pub(super) fn of(&mut self, shown: &Shown<'_, '_>) -> Markup {
+    pub(super) fn of(&mut self, shown: &ShownScene<'_, '_>) -> Markup {
         let mut groups = Vec::new();
         for (index, setting) in shown.settings.iter().enumerate() {
             let mut truth = None;
@@ -93,7 +93,7 @@ impl<'f> Pictures<'f> {
     }
 }
 
-fn figure(shown: &Shown<'_, '_>, setting: &Setting<'_>, shot: &Shot<'_, '_>) -> Markup {
+fn figure(shown: &ShownScene<'_, '_>, setting: &Setting<'_>, shot: &Shot<'_, '_>) -> Markup {
     let distance = &shot.point.measured.distance;
     let adapter = shown.methods.adapters[shot.point.adapter].name;
     let name = format!("{}{}", shot.method, setting.at());

@@ -1,6 +1,6 @@
 //! Accuracy against speed: a chart per scene and adapter, with a Pareto front for each setting.
 
-use super::data::{Kind, Point, Setting, Shown};
+use super::data::{DeviceKind, SeriesPoint, Setting, ShownScene};
 use super::front::front;
 use crate::chart::{
     BOTTOM, HEIGHT, LEFT, Labels, Plot, RIGHT, Scale, TOP, chart, color, marker, n, polyline,
@@ -15,7 +15,7 @@ pub(super) const ROUNDING: f64 = 1.0 / (255.0 * 3.464_101_615_137_754_4);
 
 /// One point of a chart.
 struct Dot<'s, 'a> {
-    point: &'s Point<'a>,
+    point: &'s SeriesPoint<'a>,
     /// The index of the method in its question.
     style: usize,
     /// The index of its setting.
@@ -34,7 +34,7 @@ pub(super) struct OfKind {
 
 /// Returns all charts of a scene, with software and hardware adapters apart. All settings share the axes, so
 /// a method's mark moves on them from setting to setting.
-pub(super) fn charts(shown: &Shown<'_, '_>) -> Vec<OfKind> {
+pub(super) fn charts(shown: &ShownScene<'_, '_>) -> Vec<OfKind> {
     let methods = shown.methods;
     let dots = dots(shown);
     let positive: Vec<f64> = dots.iter().map(|d| d.error).filter(|e| *e > 0.0).collect();
@@ -70,15 +70,15 @@ pub(super) fn charts(shown: &Shown<'_, '_>) -> Vec<OfKind> {
     result
 }
 
-fn heading(kind: Kind) -> &'static str {
+fn heading(kind: DeviceKind) -> &'static str {
     match kind {
-        Kind::Software => "Software adapters, which draw with the processor",
-        Kind::Hardware => "Hardware adapters",
-        Kind::Unknown => "Adapters of unknown kind",
+        DeviceKind::Software => "Software adapters, which draw with the processor",
+        DeviceKind::Hardware => "Hardware adapters",
+        DeviceKind::Unknown => "Adapters of unknown kind",
     }
 }
 
-fn dots<'s, 'a>(shown: &'s Shown<'s, 'a>) -> Vec<Dot<'s, 'a>> {
+fn dots<'s, 'a>(shown: &'s ShownScene<'s, 'a>) -> Vec<Dot<'s, 'a>> {
     let mut dots = Vec::new();
     for (index, setting) in shown.settings.iter().enumerate() {
         for (series, point) in shown.scene.at(setting) {
@@ -97,7 +97,7 @@ fn dots<'s, 'a>(shown: &'s Shown<'s, 'a>) -> Vec<Dot<'s, 'a>> {
 }
 
 fn panel(
-    shown: &Shown<'_, '_>,
+    shown: &ShownScene<'_, '_>,
     title: &str,
     plot: &Plot,
     dots: &[&Dot<'_, '_>],

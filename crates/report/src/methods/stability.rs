@@ -1,7 +1,7 @@
 //! Stability: the error along a parameter, one curve per method, with break points.
 
 use super::breaks::{self, Break, LIMIT};
-use super::data::{Methods, SceneSeries, Series, Setting, Shown};
+use super::data::{Methods, SceneSeries, Series, Setting, ShownScene};
 use super::name::value_text;
 use super::scatter::{ROUNDING, line_at};
 use crate::chart::{
@@ -52,7 +52,7 @@ fn scale(series: &[&Series<'_>]) -> Scale {
 }
 
 /// Every method's break in a scene, in order. Adapters with equal breaks are grouped.
-pub(super) fn found<'a>(shown: &Shown<'_, 'a>) -> Vec<CurveBreak<'a>> {
+pub(super) fn found<'a>(shown: &ShownScene<'_, 'a>) -> Vec<CurveBreak<'a>> {
     let (methods, scene) = (shown.methods, shown.scene);
     let mut result: Vec<CurveBreak<'a>> = Vec::new();
     for parameter in parameters(scene) {
@@ -106,7 +106,7 @@ fn between<'a>(series: &Series<'a>, found: &Break) -> Vec<[Setting<'a>; 2]> {
 }
 
 /// Returns all charts of a scene; empty if no method has several values of a parameter.
-pub(super) fn charts(shown: &Shown<'_, '_>) -> Vec<Markup> {
+pub(super) fn charts(shown: &ShownScene<'_, '_>) -> Vec<Markup> {
     let mut panels = Vec::new();
     for parameter in parameters(shown.scene) {
         let found = curves(shown.scene, parameter);
@@ -123,7 +123,7 @@ pub(super) fn charts(shown: &Shown<'_, '_>) -> Vec<Markup> {
 
 /// Lists the breaks of a scene: a sentence for each crossing, and one item for all series that stay on the same
 /// side.
-pub(super) fn list(shown: &Shown<'_, '_>) -> Markup {
+pub(super) fn list(shown: &ShownScene<'_, '_>) -> Markup {
     let methods = shown.methods;
     let (broken, steady): (Vec<_>, Vec<_>) = found(shown).into_iter().partition(|f| f.crosses());
     let groups = grouped(steady.into_iter().map(|f| {
@@ -154,7 +154,7 @@ pub(super) fn list(shown: &Shown<'_, '_>) -> Markup {
 }
 
 /// The breaks of all scenes for a terminal.
-pub(super) fn lines(methods: &Methods<'_>, shown: &[Shown<'_, '_>]) -> Vec<String> {
+pub(super) fn lines(methods: &Methods<'_>, shown: &[ShownScene<'_, '_>]) -> Vec<String> {
     let breaks = shown.iter().flat_map(|shown| {
         let broken = found(shown).into_iter().filter(CurveBreak::crosses);
         broken.map(move |found| (shown.scene, found))
@@ -204,7 +204,7 @@ fn alike(methods: &Methods<'_>, series: &[&Series<'_>]) -> Vec<Vec<usize>> {
 }
 
 fn panel(
-    shown: &Shown<'_, '_>,
+    shown: &ShownScene<'_, '_>,
     parameter: &str,
     variant: &str,
     series: &[&Series<'_>],

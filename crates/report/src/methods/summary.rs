@@ -1,7 +1,7 @@
 //! The best methods of every scene, for the first page and the terminal.
 
 use super::breaks::LIMIT;
-use super::data::{Kind, Methods, Point, SceneSeries, Series, Setting};
+use super::data::{DeviceKind, Methods, SceneSeries, Series, SeriesPoint, Setting};
 use super::name::PAGE;
 use super::{claims, overview, stability};
 use crate::numbers::{duration, share};
@@ -20,7 +20,7 @@ struct Best<'a> {
     anchor: String,
     scene: String,
     setting: Setting<'a>,
-    kind: Kind,
+    kind: DeviceKind,
     /// The most accurate method and its error.
     accurate: (&'a str, f64),
     fast: Fast<'a>,
@@ -62,13 +62,13 @@ fn best<'a>(methods: &Methods<'a>) -> Vec<Best<'a>> {
 }
 
 /// A method on an adapter with its error.
-type RankedMethod<'s, 'a> = (&'s Series<'a>, &'s Point<'a>, f64);
+type RankedMethod<'s, 'a> = (&'s Series<'a>, &'s SeriesPoint<'a>, f64);
 
 fn candidates<'s, 'a>(
     methods: &'s Methods<'a>,
     scene: &'s SceneSeries<'a>,
     setting: &'s Setting<'a>,
-    kind: Kind,
+    kind: DeviceKind,
 ) -> impl Iterator<Item = RankedMethod<'s, 'a>> {
     let of_kind = scene
         .at(setting)
@@ -77,8 +77,10 @@ fn candidates<'s, 'a>(
 }
 
 /// The most accurate method; if several are equal, the fastest of them.
-fn accurate<'s, 'a, 'c>(candidates: &'c [RankedMethod<'s, 'a>]) -> Option<&'c RankedMethod<'s, 'a>> {
-    let time = |point: &Point<'_>| point.wall().unwrap_or(f64::INFINITY);
+fn accurate<'s, 'a, 'c>(
+    candidates: &'c [RankedMethod<'s, 'a>],
+) -> Option<&'c RankedMethod<'s, 'a>> {
+    let time = |point: &SeriesPoint<'_>| point.wall().unwrap_or(f64::INFINITY);
     candidates
         .iter()
         .min_by(|(_, a, a_error), (_, b, b_error)| {

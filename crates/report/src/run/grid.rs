@@ -17,17 +17,17 @@ pub(crate) struct Grid<'a> {
     /// Adapter names: the header's, then any that only records name.
     pub(crate) adapters: Vec<&'a str>,
     /// Areas by name.
-    pub(crate) areas: Vec<Area<'a>>,
+    pub(crate) areas: Vec<AreaRecords<'a>>,
 }
 
 /// All case files of an area.
-pub(crate) struct Area<'a> {
+pub(crate) struct AreaRecords<'a> {
     pub(crate) name: &'a str,
-    pub(crate) files: Vec<CaseFile<'a>>,
+    pub(crate) files: Vec<GridFile<'a>>,
 }
 
 /// All cases that share their id up to the first axis value.
-pub(crate) struct CaseFile<'a> {
+pub(crate) struct GridFile<'a> {
     pub(crate) name: &'a str,
     pub(crate) cases: Vec<CaseRow<'a>>,
 }
@@ -76,11 +76,11 @@ impl<'a> Grid<'a> {
         }
         let areas = sorted
             .into_iter()
-            .map(|(name, files)| Area {
+            .map(|(name, files)| AreaRecords {
                 name,
                 files: files
                     .into_iter()
-                    .map(|(name, rows)| CaseFile {
+                    .map(|(name, rows)| GridFile {
                         name,
                         cases: rows
                             .into_iter()
@@ -102,7 +102,7 @@ impl<'a> Grid<'a> {
     }
 
     /// All case files.
-    pub(crate) fn files(&self) -> impl Iterator<Item = &CaseFile<'a>> {
+    pub(crate) fn files(&self) -> impl Iterator<Item = &GridFile<'a>> {
         self.areas.iter().flat_map(|area| &area.files)
     }
 
@@ -118,14 +118,14 @@ impl<'a> Grid<'a> {
     }
 }
 
-impl Area<'_> {
+impl AreaRecords<'_> {
     /// The records on one adapter, in the order of case files and cases.
     pub(crate) fn on(&self, adapter: usize) -> impl Iterator<Item = usize> {
         self.files.iter().flat_map(move |f| f.on(adapter))
     }
 }
 
-impl CaseFile<'_> {
+impl GridFile<'_> {
     /// The records on one adapter, in the order of cases.
     pub(crate) fn on(&self, adapter: usize) -> impl Iterator<Item = usize> {
         self.cases.iter().filter_map(move |c| c.records[adapter])
@@ -141,7 +141,7 @@ pub(crate) fn rate(records: &[&Record]) -> Option<f64> {
 
 /// Counts of records by verdict.
 #[derive(Default)]
-pub(crate) struct Tally {
+pub(crate) struct VerdictTally {
     /// Counts, the most serious first: unexpected verdicts before expected ones.
     counts: BTreeMap<(u8, u8, Verdict, Tone), u64>,
     /// The number of unexpected records.
@@ -156,7 +156,7 @@ pub(crate) struct Tally {
     pub(crate) total: u64,
 }
 
-impl Tally {
+impl VerdictTally {
     pub(crate) fn of<'r>(records: impl IntoIterator<Item = &'r Record>) -> Self {
         let mut tally = Self::default();
         for record in records {

@@ -25,7 +25,7 @@ use crate::numbers::count;
 use crate::page::origin::origin;
 use crate::page::{self, Page};
 use crate::run::beside;
-use crate::run::grid::{Grid, Tally};
+use crate::run::grid::{Grid, VerdictTally};
 use crate::run::reasons::{total, undrawn};
 use crate::words::{self, Tone};
 use etalon_record::{Dead, Run, Verdict};
@@ -59,7 +59,7 @@ pub(crate) fn page(
     news: Option<&News>,
 ) -> String {
     let grid = Grid::new(run);
-    let plan = findings::Plan::new(&grid);
+    let plan = findings::FindingPlan::new(&grid);
     let drivers = methods::driver_section(&grid);
     let charts = drivers.as_ref().map(|_| chart::style());
     let main = html! {
@@ -134,7 +134,7 @@ fn head(run: &Run, dead: &[Dead], news: Option<&News>, methods: bool, drivers: b
 
 /// The state of the run, in the order of the page: what is missing, changed, new, known and not drawn.
 fn state(run: &Run, dead: &[Dead], news: Option<&News>) -> Markup {
-    let tally = Tally::of(run.all_records());
+    let tally = VerdictTally::of(run.all_records());
     let beside = run.unexpected_beside();
     let improvements = run.records.iter().filter(|r| r.improvement()).count() as u64;
     let undrawn = total(&undrawn(run));
@@ -203,7 +203,7 @@ fn about(run: &Run) -> Markup {
 
 /// Counts over the whole run, which also serve as the legend.
 fn totals(run: &Run) -> Markup {
-    let tally = Tally::of(&run.records);
+    let tally = VerdictTally::of(&run.records);
     page::totals(tally.entries().map(|(verdict, tone, n)| {
         let name =
             html! { i { (words::symbol(verdict)) } " " (words::name(verdict)) (tone.suffix()) };

@@ -1,6 +1,6 @@
 //! One record, for pages that show records as they are made.
 
-use super::index::detail::{Budget, Drawn, body};
+use super::index::detail::{DetailBudget, DrawnFrame, body};
 use crate::mark::class;
 use crate::words::{self, Tone};
 use etalon_record::{FrameFile, Record};
@@ -34,6 +34,6 @@ impl RecordLine {
 
 /// Returns everything about a record as HTML, as the page of its run shows it. All texts are escaped.
 pub fn record_html(record: &Record, frame: Option<FrameFile>) -> String {
-    let drawn = frame.map(|frame| Drawn::new(Ok(frame)));
-    body(record, drawn.as_ref(), &mut Budget::default()).into_string()
+    let drawn = frame.map(|frame| DrawnFrame::new(Ok(frame)));
+    body(record, drawn.as_ref(), &mut DetailBudget::default()).into_string()
 }

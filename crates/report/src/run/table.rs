@@ -2,7 +2,7 @@
 
 use crate::methods;
 use crate::numbers::count;
-use crate::run::grid::{Grid, Tally, rate};
+use crate::run::grid::{Grid, VerdictTally, rate};
 use crate::run::reasons::{total, undrawn};
 use crate::run::unexpected::unexpected_records;
 use crate::table::{Cell, Table, some};
@@ -82,7 +82,8 @@ fn adapters(rows: &[(&str, Vec<&Record>)], options: TableOptions) -> String {
         ("skipped", &[Skipped], Color::FG_BRIGHT_BLACK),
         ("broken", &BROKEN, Color::FG_MAGENTA | Color::BOLD),
     ];
-    let mut table = Table::<(&str, Tally, Option<String>)>::new("").text("adapter", |row| row.0);
+    let mut table =
+        Table::<(&str, VerdictTally, Option<String>)>::new("").text("adapter", |row| row.0);
     // Columns of zeros are left out first, then the columns that say least about the driver.
     let mut optional = Vec::new();
     for (name, verdicts, color) in columns {
@@ -112,7 +113,7 @@ fn adapters(rows: &[(&str, Vec<&Record>)], options: TableOptions) -> String {
     let rows = rows.iter().map(|(adapter, records)| {
         (
             *adapter,
-            Tally::of(records.iter().copied()),
+            VerdictTally::of(records.iter().copied()),
             rate(records).map(|rate| format!("{rate:.0}")),
         )
     });

@@ -151,7 +151,7 @@ impl RunReport<'_> {
         let summary = to.write(SUMMARY, markdown::summary(run, self.news).as_bytes())?;
         let results = if self.deqp || folder.join(deqp::FOLDER).exists() {
             let lists = deqp::lists(folder, run, &grid).into_iter();
-            let write = |list: deqp::List| {
+            let write = |list: deqp::CaseList| {
                 to.write(
                     &format!("{}/{}", deqp::FOLDER, list.name),
                     list.text.as_bytes(),

@@ -19,18 +19,18 @@ use std::path::{Path, PathBuf};
 pub type CasesOf<'a> = dyn Fn(&Path, &Run) -> Option<Catalogue> + 'a;
 
 /// One recorded folder.
-pub(crate) struct Recorded {
+pub(crate) struct RecordedFolder {
     /// The folder's name in the site.
     pub(crate) name: String,
     /// The files, by path below the folder.
     pub(crate) files: BTreeSet<PathBuf>,
     /// The folder's description.
-    pub(crate) facts: Facts,
+    pub(crate) facts: FolderFacts,
 }
 
 /// The facts of a folder on the start page.
 #[derive(Default)]
-pub(crate) struct Facts {
+pub(crate) struct FolderFacts {
     pub(crate) started: String,
     /// The number of cases, and the adapters.
     pub(crate) drawn: String,
@@ -39,7 +39,7 @@ pub(crate) struct Facts {
     pub(crate) index: &'static str,
 }
 
-impl Recorded {
+impl RecordedFolder {
     fn names(&self) -> impl Iterator<Item = &str> {
         self.files.iter().filter_map(|file| file.to_str())
     }
@@ -74,13 +74,13 @@ pub(crate) fn write(
     site: &Staged,
     folders: &[PathBuf],
     cases_of: &CasesOf<'_>,
-) -> Result<Vec<Recorded>, ReportError> {
+) -> Result<Vec<RecordedFolder>, ReportError> {
     let mut taken = BTreeSet::new();
     let write = |folder: &PathBuf| {
         fs::read_dir(folder).map_err(ReportError::unread(folder))?;
         let name = name(folder, &mut taken);
         let to = site.below(Path::new("runs").join(&name));
-        Ok(Recorded {
+        Ok(RecordedFolder {
             facts: write_pages(folder, &to, cases_of)?,
             name,
             files: to.names(),
@@ -94,7 +94,7 @@ fn write_pages(
     folder: &Path,
     to: &dyn Destination,
     cases_of: &CasesOf<'_>,
-) -> Result<Facts, ReportError> {
+) -> Result<FolderFacts, ReportError> {
     Ok(match FolderKind::of(folder) {
         Some(FolderKind::Run) => {
             let run = Run::read(folder)?;
@@ -107,7 +107,7 @@ fn write_pages(
                 deqp: false,
             };
             report.write_to(to)?;
-            Facts {
+            FolderFacts {
                 drawn: scope(run.header.cases, &run.header.adapters),
                 result: result(&run),
                 started: run.header.started,
@@ -118,7 +118,7 @@ fn write_pages(
             let bench = Bench::read(folder)?;
             write_bench_to(to, &bench)?;
             let header = bench.header;
-            Facts {
+            FolderFacts {
                 drawn: scope(header.cases, &header.adapters),
                 result: html! { "frame times" },
                 started: header.started,
@@ -128,17 +128,17 @@ fn write_pages(
         Some(FolderKind::Versions) => {
             let versions = Versions::read(folder)?;
             write_versions_page(to, &versions)?;
-            Facts {
+            FolderFacts {
                 started: versions.header.started,
-                ..Facts::default()
+                ..FolderFacts::default()
             }
         }
         Some(FolderKind::Hunt) => {
             let hunt = Hunt::read(folder)?;
             write_hunt_page(to, &hunt)?;
-            Facts {
+            FolderFacts {
                 started: hunt.started,
-                ..Facts::default()
+                ..FolderFacts::default()
             }
         }
         Some(FolderKind::Fuzz) | None => {

@@ -1,6 +1,6 @@
 //! The start page of a site.
 
-use super::runs::{Facts, Recorded};
+use super::runs::{FolderFacts, RecordedFolder};
 use crate::page::Page;
 use crate::table::Table;
 use maud::{Markup, html};
@@ -10,7 +10,7 @@ pub(super) const PAGE: &str = "page";
 const STYLE: &str = include_str!("site.css");
 
 /// Returns the page.
-pub(super) fn page(runs: &[Recorded], tests_visitor: bool) -> String {
+pub(super) fn page(runs: &[RecordedFolder], tests_visitor: bool) -> String {
     let shown = runs.iter().find(|run| !run.galleries().is_empty());
     let main = html! {
         header {
@@ -30,9 +30,9 @@ pub(super) fn page(runs: &[Recorded], tests_visitor: bool) -> String {
         .html()
 }
 
-fn reports(runs: &[Recorded]) -> Markup {
+fn reports(runs: &[RecordedFolder]) -> Markup {
     let table = Table::new("stacked")
-        .head("Report", |run: &&Recorded| {
+        .head("Report", |run: &&RecordedFolder| {
             let first = run.pages().first().map(|page| address(run, page));
             html! { @if let Some(first) = first { a href=(first) { (run.name) } } @else { (run.name) } }
         })
@@ -54,7 +54,7 @@ fn reports(runs: &[Recorded]) -> Markup {
 }
 
 /// Returns the title of a page, by its file's name.
-fn title<'a>(page: &'a str, facts: &Facts) -> &'a str {
+fn title<'a>(page: &'a str, facts: &FolderFacts) -> &'a str {
     match page {
         "index.html" => facts.index,
         "methods.html" => "accuracy against speed",
@@ -66,11 +66,11 @@ fn title<'a>(page: &'a str, facts: &Facts) -> &'a str {
 }
 
 /// Returns the relative address of a file of a recorded folder.
-fn address(run: &Recorded, file: &str) -> String {
+fn address(run: &RecordedFolder, file: &str) -> String {
     format!("runs/{}/{file}", run.name)
 }
 
-fn galleries(run: &Recorded) -> Markup {
+fn galleries(run: &RecordedFolder) -> Markup {
     let index = address(run, "index.html");
     html! {
         section id="cases" {

@@ -3,7 +3,7 @@
 use super::runs::{self, CasesOf};
 use super::start::{self, PAGE};
 use crate::error::ReportError;
-use crate::staged::{Kind, Staged, WrittenFolder};
+use crate::staged::{PagesKind, Staged, WrittenFolder};
 use etalon_record::overlap;
 use serde_json::json;
 use std::fs;
@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// The file that marks a folder as a site.
 pub const SITE_FILE: &str = "site.json";
 /// The kind of a site's folder.
-const FOLDER: Kind = Kind {
+const FOLDER: PagesKind = PagesKind {
     mark: SITE_FILE,
     names: ["site", "site"],
 };

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 /// The sequence of a case's results over the releases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Course {
+pub(super) enum ResultCourse {
     /// Bad in some releases.
     Bad,
     /// Never bad, but flaky in some release.
@@ -18,8 +18,8 @@ pub(super) enum Course {
 }
 
 /// Cases with the same finding that change in the same way.
-pub(super) struct Group<'a> {
-    pub(super) course: Course,
+pub(super) struct CaseGroup<'a> {
+    pub(super) course: ResultCourse,
     /// The finding; `None` if no finding mentions the cases.
     pub(super) finding: Option<&'a str>,
     /// The releases in which they are bad, in words.
@@ -29,26 +29,26 @@ pub(super) struct Group<'a> {
     pub(super) cases: Vec<&'a CaseVersions>,
 }
 
-impl Group<'_> {
+impl CaseGroup<'_> {
     /// Returns the releases in which the cases are bad, in words.
     pub(super) fn bad(&self) -> &str {
         match self.course {
-            Course::Flaky => "flaky",
+            ResultCourse::Flaky => "flaky",
             _ => &self.bad,
         }
     }
 }
 
 /// Returns the groups: bad ones first, the largest of each kind first.
-pub(super) fn groups(versions: &Versions) -> Vec<Group<'_>> {
+pub(super) fn groups(versions: &Versions) -> Vec<CaseGroup<'_>> {
     let mut by_key: BTreeMap<_, Vec<&CaseVersions>> = BTreeMap::new();
     for case in &versions.cases {
         let key = (course(case), case.finding.as_deref(), spans(versions, case));
         by_key.entry(key).or_default().push(case);
     }
-    let mut groups: Vec<Group<'_>> = by_key
+    let mut groups: Vec<CaseGroup<'_>> = by_key
         .into_iter()
-        .map(|((course, finding, bad), cases)| Group {
+        .map(|((course, finding, bad), cases)| CaseGroup {
             course,
             finding,
             bad,
@@ -60,17 +60,17 @@ pub(super) fn groups(versions: &Versions) -> Vec<Group<'_>> {
     groups
 }
 
-fn course(case: &CaseVersions) -> Course {
+fn course(case: &CaseVersions) -> ResultCourse {
     let standings = case.standings();
     let any = |wanted| standings.contains(&Some(wanted));
     if any(Standing::Bad) {
-        Course::Bad
+        ResultCourse::Bad
     } else if any(Standing::Flaky) {
-        Course::Flaky
+        ResultCourse::Flaky
     } else if any(Standing::Good) {
-        Course::Good
+        ResultCourse::Good
     } else {
-        Course::Unknown
+        ResultCourse::Unknown
     }
 }
 

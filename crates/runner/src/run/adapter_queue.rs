@@ -45,7 +45,7 @@ pub(super) struct AdapterQueue {
     running: Mutex<Option<Worker>>,
     /// The time that this worker took to open the adapter.
     opening: Duration,
-    state: Mutex<State>,
+    state: Mutex<QueueState>,
     written: AtomicU64,
 }
 
@@ -62,7 +62,7 @@ pub(super) struct First {
 
 /// The state that the workers of an adapter share.
 #[derive(Debug, Default)]
-pub(super) struct State {
+pub(super) struct QueueState {
     /// The number of frame files of imprecise cases, by case file.
     pub(super) imprecise_frames: HashMap<String, u32>,
     /// The case that is shown in full, by the reason why its failure is expected.
@@ -215,7 +215,7 @@ impl AdapterQueue {
         lock(&self.running).take()
     }
 
-    pub(super) fn state(&self) -> MutexGuard<'_, State> {
+    pub(super) fn state(&self) -> MutexGuard<'_, QueueState> {
         lock(&self.state)
     }
 

@@ -63,7 +63,7 @@ pub(super) fn confirm(
     let only_after_others = verdict.is_bad() && repeats.iter().all(|v| !v.is_bad());
     if only_after_others && !before.is_empty() && run.queue.may_search() {
         match search(run, number, verdict, before) {
-            Cause::Cases(cases) => {
+            OrderCause::Cases(cases) => {
                 let named = cases.iter().take(MAX_NAMED);
                 first.record.after = named.map(|n| run.case(*n).id.clone()).collect();
                 let story = first.record.story.as_mut();
@@ -75,8 +75,8 @@ pub(super) fn confirm(
                 first.record.repeats = repeats;
                 return Some(first);
             }
-            Cause::Unknown => {}
-            Cause::Stopped => return None,
+            OrderCause::Unknown => {}
+            OrderCause::Stopped => return None,
         }
     }
     let drawings = std::iter::once(first).chain(others);
@@ -137,7 +137,7 @@ fn draw(run: &AdapterRun<'_, '_>, worker: &mut WorkerProcess, number: usize) -> 
 }
 
 /// The reason why a case has a verdict that it does not have alone.
-enum Cause {
+enum OrderCause {
     /// These cases, drawn before it in this order.
     Cases(Vec<usize>),
     Unknown,
@@ -145,7 +145,12 @@ enum Cause {
 }
 
 /// Searches for the cases that must precede a case for its verdict, by halving the cases drawn before it.
-fn search(run: &AdapterRun<'_, '_>, number: usize, verdict: Verdict, before: &[usize]) -> Cause {
+fn search(
+    run: &AdapterRun<'_, '_>,
+    number: usize,
+    verdict: Verdict,
+    before: &[usize],
+) -> OrderCause {
     let start = Instant::now();
     let mut stopped = false;
     let mut reproduces = |cases: &[usize]| match draw_alone(run, cases, number) {
@@ -173,10 +178,10 @@ fn search(run: &AdapterRun<'_, '_>, number: usize, verdict: Verdict, before: &[u
     // repeatedly.
     found = found && (0..CONFIRMATIONS).all(|_| reproduces(&cause) && !reproduces(&[]));
     if stopped || lock(&run.shared.error).is_some() {
-        Cause::Stopped
+        OrderCause::Stopped
     } else if found {
-        Cause::Cases(cause)
+        OrderCause::Cases(cause)
     } else {
-        Cause::Unknown
+        OrderCause::Unknown
     }
 }

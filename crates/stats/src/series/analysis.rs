@@ -4,7 +4,7 @@ use super::change::{Cause, ChangePoint, Drift, ratio};
 use super::clean::clean;
 use super::point::{Point, PointError, check};
 use super::segmentation::{self, WINDOW};
-use super::stretch::{MIN_RUNS, STEP, Sums, Test};
+use super::stretch::{MIN_RUNS, STEP, ShiftTest, Sums};
 use crate::compare::{BEYOND_RULER, LEVEL, MINIMUM};
 use crate::rank::upper_normal;
 use crate::summary::CONFIDENCE;
@@ -54,7 +54,11 @@ impl Changes {
         let last = self.points.last().map_or(0, |point| point.index);
         let before = self.runs - last;
         let enough = before.min(after) >= MIN_RUNS;
-        enough.then(|| Test::of_noise(self.noise, before, after).visible().exp())
+        enough.then(|| {
+            ShiftTest::of_noise(self.noise, before, after)
+                .visible()
+                .exp()
+        })
     }
 
     /// Returns the first run that can still matter to later ones: [`Changes::append`] reads none before it.
@@ -159,7 +163,7 @@ impl Logs {
     }
 
     /// Returns the tests of a step as measured, in units of the ruler, and of the ruler.
-    fn tests(&self, [from, place, to]: [usize; 3]) -> (Test, Option<[Test; 2]>) {
+    fn tests(&self, [from, place, to]: [usize; 3]) -> (ShiftTest, Option<[ShiftTest; 2]>) {
         let raw = segmentation::test(&self.level, from, place, to);
         let ruled = self.ruled.as_ref().map(|[ruled, ruler]| {
             let ruled = segmentation::test(ruled, from, place, to);
@@ -248,7 +252,7 @@ fn drifts(logs: &Logs, places: &[usize]) -> Vec<Drift> {
                     .measured_ruler
                     .as_ref()
                     .map(|ruler| ruler.climb(from, to));
-                let along = |ruler: Test| {
+                let along = |ruler: ShiftTest| {
                     let enough = BEYOND_RULER * ruler.shift.abs() > climb.shift.abs();
                     enough && ruler.shift * climb.shift > 0.0 && ruler.p() <= LEVEL
                 };

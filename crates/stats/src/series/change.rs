@@ -1,7 +1,7 @@
 //! Change points and drifts.
 
 use crate::compare::{BEYOND_RULER, Ratio};
-use crate::series::stretch::Test;
+use crate::series::stretch::ShiftTest;
 
 /// A run from which on a series stays at another level.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,8 +68,8 @@ impl Cause {
 
     /// Returns the cause of a step from its tests as measured, in units of the ruler, and of the ruler
     /// itself.
-    pub(super) fn of(raw: &Test, ruled: &Test, ruler: &Test) -> Self {
-        let clear = |test: &Test| test.shift.abs() > test.reach();
+    pub(super) fn of(raw: &ShiftTest, ruled: &ShiftTest, ruler: &ShiftTest) -> Self {
+        let clear = |test: &ShiftTest| test.shift.abs() > test.reach();
         let beyond = raw.shift.abs() >= BEYOND_RULER * ruler.shift.abs();
         let (of_whom, cause) = if beyond {
             (ruled, Self::Driver)
@@ -98,7 +98,7 @@ pub struct Drift {
 }
 
 /// Returns the ratio of a shift of logarithms.
-pub(super) fn ratio(test: &Test) -> Ratio {
+pub(super) fn ratio(test: &ShiftTest) -> Ratio {
     let reach = test.reach();
     Ratio {
         estimate: test.shift.exp(),

@@ -7,7 +7,7 @@
 //! visible are searched for afterwards, in each stretch as a whole.
 
 use super::divergence::best_place;
-use super::stretch::{MIN_RUNS, STEP, Sums, Test};
+use super::stretch::{MIN_RUNS, STEP, ShiftTest, Sums};
 use crate::compare::LEVEL;
 use std::collections::BTreeSet;
 
@@ -48,7 +48,7 @@ pub(super) fn places(sums: &Sums) -> Vec<usize> {
 }
 
 /// Returns the test of a change between its neighbours: for two levels, or on a line if a line fits better.
-pub(super) fn test(sums: &Sums, from: usize, place: usize, to: usize) -> Test {
+pub(super) fn test(sums: &Sums, from: usize, place: usize, to: usize) -> ShiftTest {
     if sums.is_rather_a_line(from, place, to) {
         sums.step_of_line(from, place, to)
     } else {

@@ -52,7 +52,7 @@ struct Moments {
 
 /// A shift with its test.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Test {
+pub(super) struct ShiftTest {
     /// The step of the logarithm.
     pub(super) shift: f64,
     /// The standard error of the shift.
@@ -63,7 +63,7 @@ pub(super) struct Test {
     runs: f64,
 }
 
-impl Test {
+impl ShiftTest {
     /// Returns the probability of an equally clear shift at a place given in advance: Student's test.
     pub(super) fn p(&self) -> f64 {
         two_sided(self.shift.abs() / self.error, self.freedom)
@@ -234,18 +234,18 @@ impl Sums {
     }
 
     /// Returns the step at a place between two levels, for independent runs.
-    pub(super) fn plain_step(&self, from: usize, place: usize, to: usize) -> Test {
+    pub(super) fn plain_step(&self, from: usize, place: usize, to: usize) -> ShiftTest {
         self.step_with(from, place, to, 0.0)
     }
 
     /// Returns the step at a place between two levels.
-    pub(super) fn step(&self, from: usize, place: usize, to: usize) -> Test {
+    pub(super) fn step(&self, from: usize, place: usize, to: usize) -> ShiftTest {
         self.step_with(from, place, to, 1.0)
     }
 
     /// Returns the step at a place; `dependence` is the share of the neighbours' correlation that is
     /// corrected for.
-    fn step_with(&self, from: usize, place: usize, to: usize, dependence: f64) -> Test {
+    fn step_with(&self, from: usize, place: usize, to: usize, dependence: f64) -> ShiftTest {
         let (a, b) = (self.moments(from, place), self.moments(place, to));
         let runs = a.runs + b.runs;
         let freedom = runs - 2.0;
@@ -256,7 +256,7 @@ impl Sums {
             runs,
             freedom,
         );
-        Test {
+        ShiftTest {
             shift: b.mean - a.mean,
             error: (variance * (1.0 / a.runs + 1.0 / b.runs)).sqrt(),
             freedom,
@@ -265,7 +265,7 @@ impl Sums {
     }
 
     /// Returns the step at a place of a line.
-    pub(super) fn step_of_line(&self, from: usize, place: usize, to: usize) -> Test {
+    pub(super) fn step_of_line(&self, from: usize, place: usize, to: usize) -> ShiftTest {
         let (a, b) = (self.moments(from, place), self.moments(place, to));
         let runs = a.runs + b.runs;
         let freedom = runs - 3.0;
@@ -282,7 +282,7 @@ impl Sums {
         );
         let apart = b.middle - a.middle;
         let parts = 1.0 / a.runs + 1.0 / b.runs + apart * apart / index_squares;
-        Test {
+        ShiftTest {
             shift: b.mean - a.mean - slope * apart,
             error: (variance * parts).sqrt(),
             freedom,
@@ -298,7 +298,7 @@ impl Sums {
     }
 
     /// Returns the test of the slope of a stretch: its rise from the first run to the last.
-    pub(super) fn climb(&self, from: usize, to: usize) -> Test {
+    pub(super) fn climb(&self, from: usize, to: usize) -> ShiftTest {
         let moments = self.moments(from, to);
         let slope = moments.by_index / moments.index_squares;
         let explained = slope * moments.by_index;
@@ -307,7 +307,7 @@ impl Sums {
         let next = moments.by_next - explained;
         let variance = variance(left, next, moments.error, moments.runs, freedom);
         let length = moments.runs - 1.0;
-        Test {
+        ShiftTest {
             shift: slope * length,
             error: (variance / moments.index_squares).sqrt() * length,
             freedom,

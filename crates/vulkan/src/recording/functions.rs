@@ -15,7 +15,7 @@ macro_rules! functions {
                     struct Arguments {
                         $($argument: $type,)+
                     }
-                    static FIELDS: &[Field] = &[$(Field {
+                    static FIELDS: &[StructField] = &[$(StructField {
                         name: stringify!($argument),
                         offset: offset_of!(Arguments, $argument),
                         kind: $kind,

@@ -7,25 +7,25 @@ use std::ffi::CStr;
 use std::slice::from_raw_parts;
 
 /// A structure.
-pub(super) struct Layout {
+pub(super) struct StructLayout {
     /// The name in C.
     pub(super) name: &'static str,
     /// The size in bytes.
     pub(super) size: usize,
-    pub(super) fields: &'static [Field],
+    pub(super) fields: &'static [StructField],
 }
 
 /// A field of a structure, or an argument of a function.
-pub(super) struct Field {
+pub(super) struct StructField {
     /// The name in C.
     pub(super) name: &'static str,
     /// The offset in bytes.
     pub(super) offset: usize,
-    pub(super) kind: Kind,
+    pub(super) kind: ValueKind,
 }
 
 /// The kind of a value.
-pub(super) enum Kind {
+pub(super) enum ValueKind {
     U32,
     I32,
     F32,
@@ -35,21 +35,21 @@ pub(super) enum Kind {
     /// A handle of this type.
     Handle(&'static str),
     /// A structure stored inline.
-    Struct(&'static Layout),
+    Struct(&'static StructLayout),
     /// Values stored inline.
-    Values(&'static Kind, usize),
+    Values(&'static ValueKind, usize),
     /// The address of values.
-    Array(&'static Kind, Count),
+    Array(&'static ValueKind, ArrayCount),
     /// The address of bytes.
-    Bytes(Count),
+    Bytes(ArrayCount),
     /// The address of a zero-terminated string.
     Text,
     /// The address of the next structure of a chain; its type gives its layout.
-    Next(fn(vk::StructureType) -> Option<&'static Layout>),
+    Next(fn(vk::StructureType) -> Option<&'static StructLayout>),
     /// The address of handles of this type, which the call creates.
-    Made(&'static str, Count),
+    Made(&'static str, ArrayCount),
     /// The address of bytes that the call writes.
-    Output(Count),
+    Output(ArrayCount),
     /// The address where the call stores the address of mapped memory.
     Mapped,
     /// The address of memory requirements, which differ between drivers.
@@ -62,7 +62,7 @@ pub(super) enum Kind {
 
 /// The number of values at an address.
 #[derive(Clone, Copy)]
-pub(super) enum Count {
+pub(super) enum ArrayCount {
     Fixed(usize),
     /// The value of another field of the structure, or of a field of a structure that it points to:
     /// `pInfo->count`.
@@ -73,10 +73,10 @@ pub(super) enum Count {
 macro_rules! structures {
     ($($name:ident: $type:ty { $($c:ident = $field:ident: $kind:expr,)+ })+) => {
         $(
-            static $name: Layout = Layout {
+            static $name: StructLayout = StructLayout {
                 name: stringify!($name),
                 size: size_of::<$type>(),
-                fields: &[$(Field {
+                fields: &[$(StructField {
                     name: stringify!($c),
                     offset: offset_of!($type, $field),
                     kind: $kind,
@@ -90,10 +90,10 @@ macro_rules! structures {
 macro_rules! unions {
     ($($name:ident: $type:ty,)+) => {
         $(
-            static $name: Layout = Layout {
+            static $name: StructLayout = StructLayout {
                 name: stringify!($name),
                 size: size_of::<$type>(),
-                fields: &[Field {
+                fields: &[StructField {
                     name: "bits",
                     offset: 0,
                     kind: Values(&U32, size_of::<$type>() / 4),
@@ -107,7 +107,7 @@ macro_rules! unions {
 macro_rules! chained {
     ($($name:ident: $type:ident,)+) => {
         /// Returns the layout of the structure with this type, if it is recorded.
-        fn chained(kind: vk::StructureType) -> Option<&'static Layout> {
+        fn chained(kind: vk::StructureType) -> Option<&'static StructLayout> {
             match kind {
                 $(vk::StructureType::$type => Some(&$name),)+
                 _ => None,
@@ -137,8 +137,8 @@ pub(super) use {chained, flags, named, structures, unions};
 /// # Safety
 /// `address` points to a structure with these fields, and everything that they point to is as the
 /// specification requires.
-pub(super) unsafe fn members(fields: &'static [Field], address: *const u8) -> Vec<Member> {
-    let member = |field: &Field| Member {
+pub(super) unsafe fn members(fields: &'static [StructField], address: *const u8) -> Vec<Member> {
+    let member = |field: &StructField| Member {
         name: field.name.to_owned(),
         // SAFETY: the field is in the structure.
         value: unsafe { field.kind.read(address.add(field.offset), fields, address) },
@@ -146,7 +146,7 @@ pub(super) unsafe fn members(fields: &'static [Field], address: *const u8) -> Ve
     fields.iter().map(member).collect()
 }
 
-impl Layout {
+impl StructLayout {
     /// Returns the structure at an address.
     ///
     /// # Safety
@@ -178,12 +178,12 @@ fn constant(value: u32, name: fn(u32) -> String) -> Argument {
     })
 }
 
-impl Count {
+impl ArrayCount {
     /// Returns the number, which can be the value of one of the fields at `address`.
     ///
     /// # Safety
     /// As for [`members`].
-    unsafe fn of(self, fields: &[Field], address: *const u8) -> usize {
+    unsafe fn of(self, fields: &[StructField], address: *const u8) -> usize {
         let path = match self {
             Self::Fixed(count) => return count,
             Self::By(path) => path,
@@ -197,17 +197,17 @@ impl Count {
         unsafe {
             let place = address.add(field.offset);
             match field.kind {
-                Kind::Array(Kind::Struct(layout), _) => {
+                ValueKind::Array(ValueKind::Struct(layout), _) => {
                     Self::By(behind).of(layout.fields, get(place))
                 }
-                Kind::U32 => get::<u32>(place) as usize,
+                ValueKind::U32 => get::<u32>(place) as usize,
                 _ => get(place),
             }
         }
     }
 }
 
-impl Kind {
+impl ValueKind {
     /// Returns the size of a value in bytes.
     fn size(&self) -> usize {
         match self {
@@ -234,12 +234,17 @@ impl Kind {
     ///
     /// # Safety
     /// As for [`members`].
-    unsafe fn read(&self, place: *const u8, fields: &[Field], structure: *const u8) -> Argument {
+    unsafe fn read(
+        &self,
+        place: *const u8,
+        fields: &[StructField],
+        structure: *const u8,
+    ) -> Argument {
         // SAFETY: upheld by the caller; kinds and counts are the registry's.
         unsafe {
             // The address stored at `place`, and the number of values there.
             let start = || get::<*const u8>(place);
-            let count = |count: &Count| {
+            let count = |count: &ArrayCount| {
                 if start().is_null() {
                     0
                 } else {

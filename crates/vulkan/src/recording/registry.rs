@@ -9,9 +9,9 @@
 #![expect(non_upper_case_globals, reason = "the names are the API's")]
 
 use super::functions::functions;
-use super::layout::Count::{By, Fixed};
-use super::layout::Kind::*;
-use super::layout::{Field, Layout, chained, flags, named, structures, unions};
+use super::layout::ArrayCount::{By, Fixed};
+use super::layout::ValueKind::*;
+use super::layout::{StructField, StructLayout, chained, flags, named, structures, unions};
 use ash::vk;
 use std::ffi::c_void;
 use std::mem::offset_of;

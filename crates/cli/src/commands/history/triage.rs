@@ -22,7 +22,7 @@ const PRINTED: usize = 40;
 
 /// A person's judgement of a change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum State {
+pub(crate) enum ChangeState {
     /// Not looked at yet.
     New,
     /// The driver changed.
@@ -43,7 +43,7 @@ pub(crate) struct Arguments {
     pub(crate) adapters: Vec<String>,
     /// State to set: a bad verdict that is real or ignored does not count in `etalon run --history`
     #[arg(long, value_enum, requires = "cases")]
-    pub(crate) state: Option<State>,
+    pub(crate) state: Option<ChangeState>,
     /// Reason for the state; only new needs none
     #[arg(
         long,
@@ -82,7 +82,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let Some(state) = arguments.state else {
         return list(arguments, &history, &labels);
     };
-    if state != State::New && arguments.reason.trim().is_empty() {
+    if state != ChangeState::New && arguments.reason.trim().is_empty() {
         return Err(Failure::usage(
             "a state needs a reason: say why with --reason TEXT",
         ));
@@ -187,13 +187,13 @@ fn step(
     Ok(Step { machine, time, run })
 }
 
-impl From<State> for TriageState {
-    fn from(state: State) -> Self {
+impl From<ChangeState> for TriageState {
+    fn from(state: ChangeState) -> Self {
         match state {
-            State::New => Self::New,
-            State::Real => Self::Real,
-            State::Ignored => Self::Ignored,
-            State::Fixed => Self::Fixed,
+            ChangeState::New => Self::New,
+            ChangeState::Real => Self::Real,
+            ChangeState::Ignored => Self::Ignored,
+            ChangeState::Fixed => Self::Fixed,
         }
     }
 }

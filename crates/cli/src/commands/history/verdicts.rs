@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
 /// A record of the case.
-pub(super) struct Drawn {
+pub(super) struct DrawnRecord {
     /// The run.
     pub(super) run: RunId,
     /// The outcome.
@@ -20,7 +20,7 @@ pub(super) struct Verdicts {
     /// The timeline of the adapter.
     pub(super) timeline: Rc<str>,
     /// The records, oldest first; at least one.
-    pub(super) records: Vec<Drawn>,
+    pub(super) records: Vec<DrawnRecord>,
     /// The events, oldest first.
     pub(super) happenings: Vec<Happening<RunId>>,
 }
@@ -56,7 +56,7 @@ impl Verdicts {
         let mut records = Vec::new();
         for point in &of_case.points {
             if is_meant(history, point.run, labels) {
-                records.push(Drawn {
+                records.push(DrawnRecord {
                     run: point.run,
                     outcome: history.outcome(point.outcome)?,
                 });
@@ -65,7 +65,7 @@ impl Verdicts {
         if records.is_empty() {
             return Ok(None);
         }
-        let by_run: HashMap<RunId, &Drawn> = records.iter().map(|d| (d.run, d)).collect();
+        let by_run: HashMap<RunId, &DrawnRecord> = records.iter().map(|d| (d.run, d)).collect();
         let parts = history.adapter_runs().iter();
         let parts = parts.filter(|part| {
             part.timeline == of_case.timeline && is_meant(history, part.run, labels)
@@ -79,7 +79,7 @@ impl Verdicts {
     }
 
     /// The last record.
-    pub(super) fn last(&self) -> Option<&Drawn> {
+    pub(super) fn last(&self) -> Option<&DrawnRecord> {
         self.records.last()
     }
 
@@ -139,7 +139,7 @@ impl Verdicts {
 fn standings<'h>(
     history: &History,
     parts: impl Iterator<Item = &'h AdapterRun>,
-    by_run: &HashMap<RunId, &Drawn>,
+    by_run: &HashMap<RunId, &DrawnRecord>,
 ) -> Vec<(RunId, Standing)> {
     let mut sizes = BTreeMap::new();
     let mut standings = Vec::new();

@@ -2,7 +2,7 @@
 
 use super::outcome::{Figure, Holds, Unit};
 use crate::methods::breaks::{self, Break, LIMIT};
-use crate::methods::data::{Methods, Point, SceneSeries, Series, Setting, usable};
+use crate::methods::data::{Methods, SceneSeries, Series, SeriesPoint, Setting, usable};
 use crate::numbers::{digits, share};
 use etalon_methods::{Claim, Condition, Quantity, Test, Values};
 
@@ -202,7 +202,7 @@ impl<'a> On<'_, 'a> {
         }
     }
 
-    fn point(&self, setting: &Setting<'a>, method: &str) -> Option<&Point<'a>> {
+    fn point(&self, setting: &Setting<'a>, method: &str) -> Option<&SeriesPoint<'a>> {
         let series = self.scene.series.iter().filter(|s| s.method == method);
         let mut points = series.flat_map(|s| s.on(self.adapter).map(move |p| (s, p)));
         points.find_map(|(s, p)| (s.setting(p) == *setting).then_some(p))
@@ -240,7 +240,7 @@ impl<'a> On<'_, 'a> {
     }
 
     /// Returns the points of a curve that count, in order.
-    fn points<'p>(&self, series: &'p Series<'a>) -> Vec<&'p Point<'a>> {
+    fn points<'p>(&self, series: &'p Series<'a>) -> Vec<&'p SeriesPoint<'a>> {
         let times = series.on(self.adapter);
         times
             .filter(|p| p.value.is_some() && self.counted(p.value))
@@ -387,7 +387,7 @@ impl<'a> On<'_, 'a> {
 }
 
 /// Returns a quantity of one record with its interval.
-fn measured(point: &Point<'_>, quantity: Quantity) -> Option<(f64, [f64; 2])> {
+fn measured(point: &SeriesPoint<'_>, quantity: Quantity) -> Option<(f64, [f64; 2])> {
     let exact = |v: f64| (v, [v; 2]);
     let m = point.measured;
     match quantity {

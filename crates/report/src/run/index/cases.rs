@@ -3,7 +3,7 @@
 use super::consensus::{Consensus, Votes};
 use crate::numbers::count;
 use crate::page::adapter::breakable;
-use crate::run::grid::{Grid, Tally};
+use crate::run::grid::{Grid, VerdictTally};
 use crate::words;
 use etalon_record::Verdict;
 use maud::{Markup, html};
@@ -73,7 +73,7 @@ pub(crate) fn view() -> Markup {
 }
 
 fn controls(grid: &Grid<'_>) -> Markup {
-    let tally = Tally::of(&grid.run.records);
+    let tally = VerdictTally::of(&grid.run.records);
     let mut verdicts: Vec<Verdict> = tally.entries().map(|(v, _, _)| v).collect();
     verdicts.sort_by_key(|v| std::cmp::Reverse(v.severity()));
     verdicts.dedup();

@@ -23,7 +23,7 @@ const LISTED: usize = 60;
 const FILES: usize = 12;
 
 /// The unexpected records with one symptom on one adapter.
-struct Cause<'a> {
+struct ListedCause<'a> {
     adapter: &'a str,
     kind: Symptom,
     records: usize,
@@ -61,7 +61,7 @@ pub(crate) fn section(grid: &Grid<'_>, news: Option<&News>) -> Markup {
     }
 }
 
-fn entry(cause: &Cause<'_>) -> Markup {
+fn entry(cause: &ListedCause<'_>) -> Markup {
     let tone = Tone::Plain;
     let kind = match cause.kind.text() {
         text if text.is_empty() => words::name(cause.kind.verdict).to_owned(),
@@ -91,7 +91,7 @@ fn entry(cause: &Cause<'_>) -> Markup {
     }
 }
 
-fn causes<'a>(grid: &Grid<'a>) -> Vec<Cause<'a>> {
+fn causes<'a>(grid: &Grid<'a>) -> Vec<ListedCause<'a>> {
     let mut found: BTreeMap<(usize, Symptom), BTreeMap<&'a str, Vec<&'a Record>>> = BTreeMap::new();
     let mut drawn: BTreeMap<(usize, &str), Vec<&str>> = BTreeMap::new();
     for file in grid.files() {
@@ -113,7 +113,7 @@ fn causes<'a>(grid: &Grid<'a>) -> Vec<Cause<'a>> {
             }
         }
     }
-    let mut causes: Vec<Cause<'a>> = found
+    let mut causes: Vec<ListedCause<'a>> = found
         .into_iter()
         .map(|((column, kind), files)| {
             let mut files: Vec<_> = files
@@ -129,7 +129,7 @@ fn causes<'a>(grid: &Grid<'a>) -> Vec<Cause<'a>> {
                 })
                 .collect();
             files.sort_by_key(|(_, condition, _)| Reverse(condition.failing));
-            Cause {
+            ListedCause {
                 adapter: grid.adapters[column],
                 kind,
                 records: files

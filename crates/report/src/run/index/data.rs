@@ -6,10 +6,10 @@
 
 use super::consensus::Consensus;
 use super::facts::{self, Label};
-use super::findings::{Plan, kind};
+use super::findings::{FindingPlan, kind};
 use crate::lists::Interner;
 use crate::mark::class;
-use crate::run::grid::{Grid, Tally};
+use crate::run::grid::{Grid, VerdictTally};
 use crate::words::{self, Tone};
 use etalon_record::Verdict;
 use maud::{Markup, PreEscaped, html};
@@ -27,7 +27,7 @@ const NO_RECORD: char = '.';
 struct Data<'a> {
     adapters: &'a [&'a str],
     /// The meaning of each sign, the most serious first.
-    cells: Vec<Cell>,
+    cells: Vec<CellLook>,
     /// Text, distribution of votes, odd adapters.
     consensus: Interner<(String, &'static str, Vec<usize>)>,
     /// The labels of facts: words, form, and true if an entry under Findings has the same.
@@ -35,7 +35,7 @@ struct Data<'a> {
     texts: Interner<String>,
     /// The facts of a record: label, text, label, text, …; the first list is empty.
     facts: Interner<Vec<usize>>,
-    files: Vec<File<'a>>,
+    files: Vec<ListedFile<'a>>,
     /// Case, adapter and record of entries under Findings with all facts.
     bodies: Vec<[usize; 3]>,
     /// Area and path of the scripts with the cases as intended.
@@ -43,7 +43,7 @@ struct Data<'a> {
 }
 
 #[derive(Serialize)]
-struct Cell {
+struct CellLook {
     sign: char,
     /// The verdict's name in records.
     verdict: &'static str,
@@ -56,19 +56,19 @@ struct Cell {
 }
 
 #[derive(Serialize)]
-struct File<'a> {
+struct ListedFile<'a> {
     name: &'a str,
     area: usize,
-    cases: Vec<Case<'a>>,
+    cases: Vec<ListedCase<'a>>,
 }
 
 /// The id behind the file's name, a sign per adapter, the consensus; for each record in turn the
 /// microseconds of drawing and judging; for each record the facts.
 #[derive(Serialize)]
-struct Case<'a>(&'a str, String, usize, Vec<u64>, Vec<usize>);
+struct ListedCase<'a>(&'a str, String, usize, Vec<u64>, Vec<usize>);
 
 /// The block, ready to be put into a page.
-pub(crate) fn block(grid: &Grid<'_>, plan: &Plan, scripts: &[(String, String)]) -> Markup {
+pub(crate) fn block(grid: &Grid<'_>, plan: &FindingPlan, scripts: &[(String, String)]) -> Markup {
     let mut data = data(grid, plan);
     data.scripts = scripts;
     let json = serde_json::to_string(&data);
@@ -78,7 +78,7 @@ pub(crate) fn block(grid: &Grid<'_>, plan: &Plan, scripts: &[(String, String)]) 
     html! { script type="application/json" id="data" { (PreEscaped(json)) } }
 }
 
-fn data<'a>(grid: &'a Grid<'_>, plan: &Plan) -> Data<'a> {
+fn data<'a>(grid: &'a Grid<'_>, plan: &FindingPlan) -> Data<'a> {
     let (facts, facts_of, texts, labels) = facts_of_all(grid);
     let (cells, signs) = cells(grid);
     let mut consensus = Interner::default();
@@ -92,7 +92,7 @@ fn data<'a>(grid: &'a Grid<'_>, plan: &Plan) -> Data<'a> {
                 let found = Consensus::of(grid, case);
                 let found = consensus.place((found.text, found.votes.name(), found.odd));
                 let id = case.id.strip_prefix(file.name).unwrap_or(case.id);
-                let mut row = Case(id, String::new(), found, Vec::new(), Vec::new());
+                let mut row = ListedCase(id, String::new(), found, Vec::new(), Vec::new());
                 for (column, index) in case.records.iter().enumerate() {
                     let Some(index) = *index else {
                         row.1.push(NO_RECORD);
@@ -113,7 +113,7 @@ fn data<'a>(grid: &'a Grid<'_>, plan: &Plan) -> Data<'a> {
                 number += 1;
             }
             let (name, area) = (file.name, a);
-            files.push(File { name, area, cases });
+            files.push(ListedFile { name, area, cases });
         }
     }
     Data {
@@ -130,8 +130,8 @@ fn data<'a>(grid: &'a Grid<'_>, plan: &Plan) -> Data<'a> {
 }
 
 /// The kinds of cells that the run has, the most serious first, with the sign of each.
-fn cells(grid: &Grid<'_>) -> (Vec<Cell>, HashMap<(Verdict, Tone), char>) {
-    let tally = Tally::of(&grid.run.records);
+fn cells(grid: &Grid<'_>) -> (Vec<CellLook>, HashMap<(Verdict, Tone), char>) {
+    let tally = VerdictTally::of(&grid.run.records);
     let mut signs = HashMap::new();
     let cells = tally
         .entries()
@@ -140,7 +140,7 @@ fn cells(grid: &Grid<'_>) -> (Vec<Cell>, HashMap<(Verdict, Tone), char>) {
             let sign = char::from(*sign);
             signs.insert((verdict, tone), sign);
             let plain = tone == Tone::Plain;
-            Cell {
+            CellLook {
                 sign,
                 verdict: verdict.name(),
                 word: format!("{}{}", words::name(verdict), tone.suffix()),
@@ -218,7 +218,7 @@ mod tests {
     fn block_of(records: Vec<Record>) -> String {
         let run = run(records);
         let grid = Grid::new(&run);
-        block(&grid, &Plan::new(&grid), &[]).into_string()
+        block(&grid, &FindingPlan::new(&grid), &[]).into_string()
     }
 
     #[test]

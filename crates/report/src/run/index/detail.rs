@@ -22,21 +22,21 @@ const PICTURE_BYTES: usize = 2 << 20;
 
 /// The room that pictures take.
 #[derive(Default)]
-pub(crate) struct Budget {
+pub(crate) struct DetailBudget {
     bytes: usize,
     /// The number of frames without room.
     pub(crate) cut: u64,
 }
 
 /// The frame of a record with its pictures.
-pub(crate) struct Drawn {
+pub(crate) struct DrawnFrame {
     /// The frame without its images.
     frame: Result<FrameFile, RecordError>,
     /// The pictures of each image; `None` if its codes do not fit its size.
     strips: Vec<Option<Strip>>,
 }
 
-impl Drawn {
+impl DrawnFrame {
     /// Reads and draws a record's frame, or returns `None` if the record names none.
     pub(crate) fn of(folder: &Path, record: &Record) -> Option<Self> {
         Some(Self::new(Run::read_frame(folder, record.frame.as_deref()?)))
@@ -54,7 +54,11 @@ impl Drawn {
     }
 }
 
-pub(crate) fn body(record: &Record, drawn: Option<&Drawn>, budget: &mut Budget) -> Markup {
+pub(crate) fn body(
+    record: &Record,
+    drawn: Option<&DrawnFrame>,
+    budget: &mut DetailBudget,
+) -> Markup {
     let path = record.frame.as_deref();
     let frame = path.zip(drawn.map(|drawn| &drawn.frame));
     html! {
@@ -88,7 +92,7 @@ fn about(frame: &FrameFile) -> Markup {
     }
 }
 
-fn pictures(strips: &[Option<Strip>], budget: &mut Budget) -> Markup {
+fn pictures(strips: &[Option<Strip>], budget: &mut DetailBudget) -> Markup {
     if budget.bytes > PICTURE_BYTES {
         budget.cut += 1;
         return html! { p.note { "These pictures were left out to keep the page small." } };

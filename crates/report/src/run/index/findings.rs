@@ -1,11 +1,11 @@
 //! The findings by area and adapter: everything that is not a plain pass.
 
 use super::consensus::Consensus;
-use super::detail::{self, Budget, Drawn};
+use super::detail::{self, DetailBudget, DrawnFrame};
 use crate::mark::{class, mark};
 use crate::numbers::count;
 use crate::page::link;
-use crate::run::grid::{Area, CaseFile, Grid, Tally};
+use crate::run::grid::{AreaRecords, Grid, GridFile, VerdictTally};
 use crate::threads::on_threads;
 use crate::words::{self, Tone};
 use etalon_record::{Record, Verdict};
@@ -23,7 +23,7 @@ const LINES: usize = 20;
 const ALL_LINES: usize = 5000;
 
 /// The listed records, and whether each is shown with all facts.
-pub(crate) struct Plan {
+pub(crate) struct FindingPlan {
     bodies: HashMap<usize, bool>,
     /// Records whose adapter differs from all others that drew the case.
     odd: HashSet<usize>,
@@ -31,7 +31,7 @@ pub(crate) struct Plan {
     cut: usize,
 }
 
-impl Plan {
+impl FindingPlan {
     pub(crate) fn new(grid: &Grid<'_>) -> Self {
         // The first of every case file and adapter go before any second one, and what is
         // unexpected before what is not.
@@ -96,7 +96,7 @@ pub(crate) fn kind(record: &Record) -> usize {
 }
 
 /// Returns the records of a case file on one adapter that get an entry, the most serious kind first.
-fn listed(grid: &Grid<'_>, file: &CaseFile<'_>, column: usize) -> Vec<usize> {
+fn listed(grid: &Grid<'_>, file: &GridFile<'_>, column: usize) -> Vec<usize> {
     let worth = |i: &usize| {
         let r = grid.record(*i);
         r.unexpected() || r.verdict.is_bad() || r.verdict == Verdict::Imprecise
@@ -108,24 +108,24 @@ fn listed(grid: &Grid<'_>, file: &CaseFile<'_>, column: usize) -> Vec<usize> {
 
 /// Returns the frames of all records that are shown whole, by record. They are most of a page's cost and
 /// independent of each other.
-fn drawn(folder: &Path, grid: &Grid<'_>, plan: &Plan) -> HashMap<usize, Drawn> {
+fn drawn(folder: &Path, grid: &Grid<'_>, plan: &FindingPlan) -> HashMap<usize, DrawnFrame> {
     let complete: Vec<usize> = plan
         .bodies
         .keys()
         .copied()
         .filter(|i| plan.whole(*i))
         .collect();
-    let drawn = on_threads(&complete, |i| Drawn::of(folder, grid.record(*i)));
+    let drawn = on_threads(&complete, |i| DrawnFrame::of(folder, grid.record(*i)));
     let drawn = complete.into_iter().zip(drawn);
     drawn.filter_map(|(i, drawn)| Some((i, drawn?))).collect()
 }
 
-pub(crate) fn section(folder: &Path, grid: &Grid<'_>, plan: &Plan) -> Markup {
+pub(crate) fn section(folder: &Path, grid: &Grid<'_>, plan: &FindingPlan) -> Markup {
     let mut section = Section {
         grid,
         plan,
         drawn: drawn(folder, grid, plan),
-        budget: Budget::default(),
+        budget: DetailBudget::default(),
     };
     let areas = grid.areas.iter().enumerate();
     let areas: Vec<Markup> = areas.map(|(a, area)| section.area(a, area)).collect();
@@ -153,18 +153,18 @@ pub(crate) fn section(folder: &Path, grid: &Grid<'_>, plan: &Plan) -> Markup {
 /// The section that is being written.
 struct Section<'a> {
     grid: &'a Grid<'a>,
-    plan: &'a Plan,
-    drawn: HashMap<usize, Drawn>,
-    budget: Budget,
+    plan: &'a FindingPlan,
+    drawn: HashMap<usize, DrawnFrame>,
+    budget: DetailBudget,
 }
 
 impl Section<'_> {
-    fn area(&mut self, a: usize, area: &Area<'_>) -> Markup {
+    fn area(&mut self, a: usize, area: &AreaRecords<'_>) -> Markup {
         let grid = self.grid;
         html! {
             h3 id={ "a" (a) } { (area.name) }
             @for (column, adapter) in grid.adapters.iter().enumerate() {
-                @let tally = Tally::of(area.on(column).map(|i| grid.record(i)));
+                @let tally = VerdictTally::of(area.on(column).map(|i| grid.record(i)));
                 @if tally.total > 0 {
                     div.list id={ "l" (a) "-" (column) } {
                         h4 {
@@ -181,7 +181,7 @@ impl Section<'_> {
         }
     }
 
-    fn file(&mut self, file: &CaseFile<'_>, column: usize) -> Markup {
+    fn file(&mut self, file: &GridFile<'_>, column: usize) -> Markup {
         let listed_cases = listed(self.grid, file, column);
         let (shown, others): (Vec<usize>, Vec<usize>) =
             listed_cases.into_iter().partition(|i| self.plan.lists(*i));
@@ -222,7 +222,7 @@ impl Section<'_> {
 }
 
 /// Returns the cases that the adapter cannot draw, counted by what is missing.
-fn not_supported(grid: &Grid<'_>, area: &Area<'_>, column: usize) -> Markup {
+fn not_supported(grid: &Grid<'_>, area: &AreaRecords<'_>, column: usize) -> Markup {
     let mut reasons: BTreeMap<String, u64> = BTreeMap::new();
     for index in area.on(column) {
         let record = grid.record(index);

@@ -4,7 +4,7 @@ use crate::lists::grouped;
 use crate::mark::class;
 use crate::page::adapter::breakable;
 use crate::page::link;
-use crate::run::grid::{Grid, Tally};
+use crate::run::grid::{Grid, VerdictTally};
 use crate::words::{Tone, api_name, name};
 use etalon_frame::AdapterName;
 use etalon_record::Record;
@@ -121,9 +121,9 @@ fn within<'a>(area: &str, file: &'a str) -> &'a str {
 fn cell<'r>(
     records: impl Iterator<Item = &'r Record>,
     edge: bool,
-    list: impl FnOnce(&Tally) -> Option<String>,
+    list: impl FnOnce(&VerdictTally) -> Option<String>,
 ) -> Markup {
-    let tally = Tally::of(records);
+    let tally = VerdictTally::of(records);
     let (number, kind) = match (tally.unexpected, tally.known, tally.right) {
         (0, 0, 0) => ("–".to_owned(), None),
         (0, 0, _) => ("0".to_owned(), None),
@@ -145,7 +145,7 @@ fn cell<'r>(
 }
 
 /// The ends of a bar's parts, in percent.
-fn bar(tally: &Tally) -> String {
+fn bar(tally: &VerdictTally) -> String {
     let mut end = 0;
     let parts = [
         ("x", tally.unexpected),
@@ -160,7 +160,7 @@ fn bar(tally: &Tally) -> String {
 }
 
 /// `3 fail, 12 fail (expected), 200 pass`.
-fn words(tally: &Tally) -> String {
+fn words(tally: &VerdictTally) -> String {
     let entries = tally.entries();
     let words = entries.map(|(verdict, tone, n)| format!("{n} {}{}", name(verdict), tone.suffix()));
     match words.collect::<Vec<_>>() {
