@@ -58,7 +58,7 @@ impl CaseFile {
             return Vec::new();
         };
         let mut used = BTreeSet::new();
-        for key in ["axes", "derived", "about", "spec"] {
+        for key in ["$schema", "axes", "derived", "about", "spec"] {
             file.remove(key);
         }
         for value in file.values() {
