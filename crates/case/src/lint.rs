@@ -163,7 +163,7 @@ impl CaseFile {
         if !self.spells_draws_out() {
             return Vec::new();
         }
-        // The parameters of each draw that is given one, and true if its shader reads it in some case.
+        // The shader that ignores a parameter of a draw; `None` if a shader reads it in some case.
         let mut given: BTreeMap<(&str, [usize; 2]), Option<Shader>> = BTreeMap::new();
         for (index, case) in self.cases(Profile::Full).enumerate() {
             if index >= LOOKED_AT_FOR_IGNORED {
@@ -193,23 +193,42 @@ impl CaseFile {
             return Vec::new();
         }
         // Several draws can come from one place of the file, and some of their shaders can read the parameter.
-        let mut places: BTreeMap<String, Option<At>> = BTreeMap::new();
+        let mut places: BTreeMap<(&str, String), Option<At>> = BTreeMap::new();
         for ((name, draw), ignored) in given {
             let warning = ignored.map(|shader| {
-                At::new(format!(
+                let message = format!(
                     "the shader {shader} does not read `params.{name}`: remove it, or choose a shader that reads it"
-                ))
+                );
+                self.at_draw(draw, At::new(message).key(name).key("params"))
             });
-            let at = warning.clone().unwrap_or_else(|| At::new(""));
-            let at = self.at_draw(draw, at.key(name).key("params"));
-            let place = at.clone().locate(self.name(), &self.text).key;
-            let warning = warning.map(|_| at);
             places
-                .entry(place)
+                .entry((name, self.key_of_draw(draw)))
                 .and_modify(|known| *known = known.take().filter(|_| warning.is_some()))
                 .or_insert(warning);
         }
         places.into_values().flatten().collect()
+    }
+
+    /// Returns the key of the item in the file that stands for a draw, given the indices of pass and draw. It
+    /// is the key of the whole list if an axis gives that, and of the sequence if there is one.
+    pub fn key_of_draw(&self, [pass, draw]: [usize; 2]) -> String {
+        let file = self.json();
+        let list = format!("/scene/passes/{pass}/draws");
+        let at = At::new("");
+        let at = if file
+            .pointer(&format!("{list}/{draw}"))
+            .is_some_and(Value::is_object)
+        {
+            at.index(draw).key("draws").index(pass).key("passes")
+        } else if file.pointer(&list).is_some() {
+            at.key("draws").index(pass).key("passes")
+        } else {
+            at.key("passes")
+        };
+        match self.scene_key() {
+            "scene" => at.key("scene").locate(self.name(), &self.text).key,
+            other => other.to_owned(),
+        }
     }
 
     /// Moves a place in a draw to the draw's place in the file, given the indices of pass and draw.
@@ -355,12 +374,17 @@ mod tests {
 
     #[test]
     fn a_parameter_that_the_shader_ignores_gives_a_warning() {
-        let scene = |draw: &str| {
+        let drawn = |draws: &str| {
             format!(
                 r#""scene": {{ "attachments": {{ "c": {{ "format": "rgba8unorm" }} }}, "passes": [ {{ "color": ["c"],
-  "draws": [ {{ "mesh": {{ "kind": "full" }}, "shader": "flat_color" }},
-    {draw} ] }} ], "read": ["c"] }}"#
+  "draws": {draws} }} ], "read": ["c"] }}"#
             )
+        };
+        let scene = |draw: &str| {
+            drawn(&format!(
+                r#"[ {{ "mesh": {{ "kind": "full" }}, "shader": "flat_color" }},
+    {draw} ]"#
+            ))
         };
         let ignored = r#"{ "mesh": { "kind": "full" }, "shader": "uniform_color",
       "params": { "color": [1, 0, 0, 1],
@@ -375,6 +399,9 @@ mod tests {
         assert_eq!(warnings(some, &scene(&axis)), []);
         let each = axis.replacen('{', &format!("{{ \"each\": {{ {some} }},"), 1);
         assert_eq!(warnings("", &scene(&each)), []);
+        let list = |draw: &str| format!(r#""list": [{{ "name": "a", "value": [{draw}] }}]"#);
+        assert_eq!(warnings(&list(&each), &drawn("\"$list\"")), []);
+        assert_eq!(warnings(&list(ignored), &drawn("\"$list\"")).len(), 1);
         let none = r#""shader": ["uniform_color", "flat_color_depth"]"#;
         assert_eq!(places(&warnings(none, &scene(&axis))), [place]);
     }

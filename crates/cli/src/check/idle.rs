@@ -82,8 +82,8 @@ fn effects(file: &CaseFile, rasterizer: &mut Rasterizer) -> Option<BTreeMap<Stri
             }
             let mut kinds = None;
             for indices in all_indices(scene) {
-                let key = keys.entry(indices).or_insert_with(|| key(file, indices));
-                let effect = places.entry(key.clone()).or_insert_with(|| DrawEffect {
+                let place = keys.entry(indices).or_insert_with(|| place(file, indices));
+                let effect = places.entry(place.clone()).or_insert_with(|| DrawEffect {
                     indices,
                     ..DrawEffect::default()
                 });
@@ -102,6 +102,14 @@ fn effects(file: &CaseFile, rasterizer: &mut Rasterizer) -> Option<BTreeMap<Stri
         }
     }
     Some(places)
+}
+
+/// Returns the place of the file that stands for a draw. The steps of a sequence are told apart by their indices.
+fn place(file: &CaseFile, indices: DrawIndices) -> String {
+    match file.scene_key() {
+        "scene" => file.key_of_draw(indices),
+        _ => format!("{indices:?}"),
+    }
 }
 
 fn all_indices(scene: &Scene) -> impl Iterator<Item = DrawIndices> {
@@ -348,13 +356,6 @@ impl Rasterizer {
         }
         Some(false)
     }
-}
-
-/// Returns the key of a draw in the file as written: that of the item that stands for it.
-fn key(file: &CaseFile, [pass, draw]: DrawIndices) -> String {
-    let (pass, draw) = (pass.to_string(), draw.to_string());
-    let keys = [file.scene_key(), "passes", &pass, "draws", &draw];
-    file.warning(&keys, "").key
 }
 
 fn warnings(file: &CaseFile, places: impl Iterator<Item = DrawEffect>) -> Vec<CaseError> {
