@@ -104,7 +104,7 @@ fn effects(file: &CaseFile, rasterizer: &mut Rasterizer) -> Option<BTreeMap<Stri
     Some(places)
 }
 
-/// Returns the place of the file that stands for a draw. The steps of a sequence are told apart by their indices.
+/// Returns the place of the file that stands for a draw. In a sequence, its indices stand for the place.
 fn place(file: &CaseFile, indices: DrawIndices) -> String {
     match file.scene_key() {
         "scene" => file.key_of_draw(indices),
