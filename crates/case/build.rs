@@ -1,5 +1,9 @@
 //! Lists the case files under `cases/`, so that they are compiled in.
 
+#[path = "src/comments.rs"]
+mod comments;
+
+use comments::without_comments;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
@@ -20,7 +24,8 @@ fn main() -> io::Result<()> {
         let mut included = file.clone();
         if minified {
             included = out.join(format!("{number}.json"));
-            fs::write(&included, without_spaces(&fs::read_to_string(file)?))?;
+            let text = fs::read_to_string(file)?;
+            fs::write(&included, without_spaces(&without_comments(&text)))?;
             println!("cargo:rerun-if-changed={}", file.display());
         }
         let _ = writeln!(text, "    ({name:?}, include_str!({included:?})),");

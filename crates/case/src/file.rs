@@ -163,7 +163,7 @@ impl CaseFile {
 
     /// Returns the file as JSON with its lists unrolled.
     pub(crate) fn json(&self) -> Value {
-        let mut file = serde_json::from_str(&self.text).unwrap_or_default();
+        let mut file = parse_json(&self.text).unwrap_or_default();
         // Parsing the file has already shown that the lists can be unrolled.
         let _unrolled = unroll(&mut file);
         file

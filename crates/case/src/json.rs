@@ -1,16 +1,18 @@
-//! JSON as people write it: duplicate keys, and numbers that overflow a 32-bit float, are errors.
+//! JSON as people write it: with comments. Duplicate keys, and numbers that overflow a 32-bit float, are errors.
 
+use crate::comments::without_comments;
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use serde_json::{Map, Value};
 use std::fmt;
 
-/// Parses a JSON text, which can begin with a byte order mark.
+/// Parses a JSON text, which can begin with a byte order mark and have comments after `//`.
 ///
 /// # Errors
 /// If it is not JSON, an object has a duplicate key, or a number overflows a 32-bit float; the error names
 /// the line.
 pub fn parse_json(text: &str) -> Result<Value, serde_json::Error> {
-    let strict: Strict = serde_json::from_str(etalon_frame::without_mark(text))?;
+    let text = without_comments(etalon_frame::without_mark(text));
+    let strict: Strict = serde_json::from_str(&text)?;
     Ok(strict.0)
 }
 

@@ -8,6 +8,7 @@ mod blame;
 mod build;
 mod case;
 mod codes;
+mod comments;
 mod document;
 mod draw;
 mod each;

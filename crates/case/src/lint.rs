@@ -1,4 +1,4 @@
-//! Warnings on a case file that builds: names that are unused, and parameters that are used but not given.
+//! Warnings on a case file that builds: names that nothing uses, and parameters that are given or used in vain.
 //!
 //! They need no judge, so `--cases` can afford them. `etalon check` adds the warnings that need one.
 
@@ -6,20 +6,26 @@ use crate::error::{At, CaseError};
 use crate::file::{CaseFile, METHOD, Profile};
 use etalon_scene::Shader;
 use serde_json::Value;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// The maximum number of cases of a file whose draws are inspected.
+/// The maximum number of cases of a file whose draws are inspected for parameters that are not given.
 const LOOKED_AT: usize = 256;
+
+/// The maximum number of cases of a file that are inspected for parameters that no case uses.
+const LOOKED_AT_FOR_IGNORED: usize = 4096;
 
 /// The maximum number of warnings of a file; locating each one searches the whole text.
 const MOST: usize = 64;
 
 impl CaseFile {
-    /// Returns the first warnings; none of them is an error. They concern axes and derived values that
-    /// nothing uses, and draws whose shader reads a parameter that the file does not give.
+    /// Returns the first warnings; none of them is an error. They concern axes, derived values and counters
+    /// that nothing uses, draws whose shader reads a parameter that the file does not give, and parameters
+    /// that the shader ignores.
     pub fn warnings(&self) -> Vec<CaseError> {
         let mut warnings = self.unused();
+        warnings.extend(self.unnamed_counters());
         warnings.extend(self.missing_params());
+        warnings.extend(self.ignored_params());
         let located = warnings
             .into_iter()
             .map(|warning| warning.locate(self.name(), &self.text));
@@ -58,7 +64,7 @@ impl CaseFile {
             return Vec::new();
         };
         let mut used = BTreeSet::new();
-        for key in ["axes", "derived", "about", "spec"] {
+        for key in ["$schema", "axes", "derived", "about", "spec"] {
             file.remove(key);
         }
         for value in file.values() {
@@ -93,22 +99,43 @@ impl CaseFile {
         found
     }
 
+    /// Returns warnings about counters whose name occurs nowhere else in the file, so that no draw can name
+    /// them.
+    fn unnamed_counters(&self) -> Vec<At> {
+        let mut file = self.json();
+        let mut found = Vec::new();
+        for key in ["scene", "sequence"] {
+            let counters = file
+                .get_mut(key)
+                .and_then(|scene| scene.get_mut("counters"));
+            let Some(Value::Object(counters)) = counters.map(Value::take) else {
+                continue;
+            };
+            for name in counters.keys().filter(|name| !has_string(&file, name)) {
+                let message = format!(
+                    "no draw names this counter, so no query is made and the record says 0: name it in the \
+                     `counters` of the draws that it counts, as [\"{name}\"], or remove it"
+                );
+                found.push(At::new(message).key(name).key("counters").key(key));
+            }
+        }
+        found
+    }
+
+    /// Returns true if each draw of the cases is written in the file.
+    fn spells_draws_out(&self) -> bool {
+        !self.is_method() && self.wire.random.is_null() && self.wire.states.is_null()
+    }
+
     /// Returns warnings about draws whose shader reads a parameter that is not given and is therefore 0.
     fn missing_params(&self) -> Vec<At> {
         let mut found = Vec::new();
-        if self.is_method() || !self.wire.random.is_null() || !self.wire.states.is_null() {
+        if !self.spells_draws_out() {
             return found;
         }
         for case in self.cases(Profile::Full).take(LOOKED_AT) {
             let Ok(scene) = case.scene_value(&case.values()) else {
                 return found;
-            };
-            let list = |value: &Value, key: &str| -> Vec<Value> {
-                value
-                    .get(key)
-                    .and_then(Value::as_array)
-                    .cloned()
-                    .unwrap_or_default()
             };
             for (p, pass) in list(&scene, "passes").iter().enumerate() {
                 // Without a written colour, a parameter is visible only if the shader discards by it.
@@ -123,47 +150,148 @@ impl CaseFile {
                             "the shader {shader} reads `params.{name}`, which is not given and is therefore 0: give it, even if it is \
                              [0, 0, 0, 0]"
                         );
-                        let place = At::new(message);
-                        let place = if self.wire.sequence.is_null() {
-                            place
-                                .index(d)
-                                .key("draws")
-                                .index(p)
-                                .key("passes")
-                                .key("scene")
-                        } else {
-                            place.key("sequence")
-                        };
-                        found.push(place);
+                        found.push(self.at_draw([p, d], At::new(message)));
                     }
                 }
             }
         }
         found
     }
+
+    /// Returns warnings about parameters that are given to a draw whose shader reads them in no case.
+    fn ignored_params(&self) -> Vec<At> {
+        if !self.spells_draws_out() {
+            return Vec::new();
+        }
+        // The shader that ignores a parameter of a draw; `None` if a shader reads it in some case.
+        let mut given: BTreeMap<(&str, [usize; 2]), Option<Shader>> = BTreeMap::new();
+        for (index, case) in self.cases(Profile::Full).enumerate() {
+            if index >= LOOKED_AT_FOR_IGNORED {
+                return Vec::new();
+            }
+            if index >= LOOKED_AT && given.values().all(Option::is_none) {
+                break;
+            }
+            let Ok(scene) = case.scene_value(&case.values()) else {
+                return Vec::new();
+            };
+            for (p, pass) in list(&scene, "passes").iter().enumerate() {
+                for (d, draw) in list(pass, "draws").iter().enumerate() {
+                    let Some(shader) = shader_of(draw) else {
+                        continue;
+                    };
+                    for name in PARAMS.into_iter().filter(|name| gives(draw, name)) {
+                        let ignored = given.entry((name, [p, d])).or_insert(Some(shader));
+                        if reads(shader, name) {
+                            *ignored = None;
+                        }
+                    }
+                }
+            }
+        }
+        if given.values().all(Option::is_none) {
+            return Vec::new();
+        }
+        // Several draws can come from one place of the file, and some of their shaders can read the parameter.
+        let mut places: BTreeMap<(&str, String), Option<At>> = BTreeMap::new();
+        for ((name, draw), ignored) in given {
+            let warning = ignored.map(|shader| {
+                let message = format!(
+                    "the shader {shader} does not read `params.{name}`: remove it, or choose a shader that reads it"
+                );
+                self.at_draw(draw, At::new(message).key(name).key("params"))
+            });
+            places
+                .entry((name, self.key_of_draw(draw)))
+                .and_modify(|known| *known = known.take().filter(|_| warning.is_some()))
+                .or_insert(warning);
+        }
+        places.into_values().flatten().collect()
+    }
+
+    /// Returns the key of the item in the file that stands for a draw, given the indices of pass and draw. It
+    /// is the key of the whole list if an axis gives that, and of the sequence if there is one.
+    pub fn key_of_draw(&self, [pass, draw]: [usize; 2]) -> String {
+        let file = self.json();
+        let list = format!("/scene/passes/{pass}/draws");
+        let at = At::new("");
+        let at = if file
+            .pointer(&format!("{list}/{draw}"))
+            .is_some_and(Value::is_object)
+        {
+            at.index(draw).key("draws").index(pass).key("passes")
+        } else if file.pointer(&list).is_some() {
+            at.key("draws").index(pass).key("passes")
+        } else {
+            at.key("passes")
+        };
+        match self.scene_key() {
+            "scene" => at.key("scene").locate(self.name(), &self.text).key,
+            other => other.to_owned(),
+        }
+    }
+
+    /// Moves a place in a draw to the draw's place in the file, given the indices of pass and draw.
+    fn at_draw(&self, [pass, draw]: [usize; 2], at: At) -> At {
+        if self.wire.sequence.is_null() {
+            let at = at.index(draw).key("draws").index(pass);
+            at.key("passes").key("scene")
+        } else {
+            At::new(at.message).key("sequence")
+        }
+    }
+}
+
+/// The parameters of shaders.
+const PARAMS: [&str; 2] = ["color", "back_color"];
+
+/// Returns the items of a list in an object; none if there is no such list.
+fn list(value: &Value, key: &str) -> Vec<Value> {
+    let list = value.get(key).and_then(Value::as_array);
+    list.cloned().unwrap_or_default()
+}
+
+/// Returns true if a text occurs as a string in a value; keys do not count.
+fn has_string(value: &Value, text: &str) -> bool {
+    match value {
+        Value::String(string) => string == text,
+        Value::Array(list) => list.iter().any(|v| has_string(v, text)),
+        Value::Object(map) => map.values().any(|v| has_string(v, text)),
+        Value::Null | Value::Bool(_) | Value::Number(_) => false,
+    }
+}
+
+fn shader_of(draw: &Value) -> Option<Shader> {
+    let shader = draw.get("shader")?;
+    serde_json::from_value(shader.clone()).ok()
+}
+
+/// Returns true if a draw gives a parameter.
+fn gives(draw: &Value, name: &str) -> bool {
+    draw.get("params").is_some_and(|p| p.get(name).is_some())
+}
+
+/// Returns true if a shader reads a parameter.
+fn reads(shader: Shader, name: &str) -> bool {
+    let member = match name {
+        "color" => "params.color",
+        _ => "params.back_color",
+    };
+    shader.uses_params() && shader.wgsl().contains(member)
 }
 
 /// Returns the parameters that a draw's shader reads and the draw does not give.
 fn unset(draw: &Value) -> Vec<(Shader, &'static str)> {
-    let shader: Option<Shader> = draw
-        .get("shader")
-        .and_then(|s| serde_json::from_value(s.clone()).ok());
-    let Some(shader) = shader.filter(|s| s.uses_params()) else {
+    let Some(shader) = shader_of(draw) else {
         return Vec::new();
     };
-    let given = |name: &str| draw.get("params").is_some_and(|p| p.get(name).is_some());
     // Tiles give each of their draws a colour.
     let tiles = draw.get("tiles").is_some_and(|t| !t.is_null());
-    [
-        ("color", "params.color"),
-        ("back_color", "params.back_color"),
-    ]
-    .into_iter()
-    .filter(|(name, word)| {
-        shader.wgsl().contains(word) && !given(name) && !(tiles && *name == "color")
-    })
-    .map(|(name, _)| (shader, name))
-    .collect()
+    PARAMS
+        .into_iter()
+        .filter(|name| reads(shader, name) && !gives(draw, name) && !(tiles && *name == "color"))
+        .map(|name| (shader, name))
+        .collect()
 }
 
 /// Collects the names in `"$name"`.
@@ -206,6 +334,76 @@ mod tests {
             (9, "scene.passes[0].draws[1]"),
         ];
         assert_eq!(found, expected.map(|(line, key)| (line, key.to_owned())));
+    }
+
+    /// Returns line, key and message of the warnings on a file with this scene, from line 2 on.
+    fn warnings(axes: &str, scene: &str) -> Vec<(usize, String, String)> {
+        let text =
+            format!("{{ \"about\": \"t\", \"spec\": [\"t\"], \"axes\": {{ {axes} }},\n{scene} }}");
+        let file = CaseFile::parse("t.json", &text).expect("parses");
+        for case in file.cases(Profile::Full) {
+            case.build().expect("builds");
+        }
+        let warnings = file.warnings().into_iter();
+        warnings.map(|w| (w.line, w.key, w.message)).collect()
+    }
+
+    fn places(warnings: &[(usize, String, String)]) -> Vec<(usize, &str)> {
+        let places = warnings.iter();
+        places.map(|(line, key, _)| (*line, key.as_str())).collect()
+    }
+
+    #[test]
+    fn a_counter_that_no_draw_names_gives_a_warning() {
+        let scene = |counters: &str| {
+            format!(
+                r#""scene": {{ "attachments": {{ "c": {{ "format": "rgba8unorm" }} }},
+  "passes": [ {{ "color": ["c"], "draws": [ {{ "mesh": {{ "kind": "full" }}, "shader": "flat_color",
+    "counters": {counters} }} ] }} ], "read": ["c"],
+  "counters": {{ "passed": "samples-passed",
+    "runs": "fragment-invocations" }} }}"#
+            )
+        };
+        let one = warnings("", &scene(r#"["passed"]"#));
+        assert_eq!(places(&one), [(6, "scene.counters.runs")]);
+        assert!(one[0].2.contains("[\"runs\"]"), "{one:?}");
+        assert_eq!(warnings("", &scene(r#"["passed", "runs"]"#)), []);
+        let axis = r#""which": [{ "name": "a", "value": ["passed"] }, { "name": "b", "value": ["runs"] }]"#;
+        assert_eq!(warnings(axis, &scene(r#""$which""#)), []);
+    }
+
+    #[test]
+    fn a_parameter_that_the_shader_ignores_gives_a_warning() {
+        let drawn = |draws: &str| {
+            format!(
+                r#""scene": {{ "attachments": {{ "c": {{ "format": "rgba8unorm" }} }}, "passes": [ {{ "color": ["c"],
+  "draws": {draws} }} ], "read": ["c"] }}"#
+            )
+        };
+        let scene = |draw: &str| {
+            drawn(&format!(
+                r#"[ {{ "mesh": {{ "kind": "full" }}, "shader": "flat_color" }},
+    {draw} ]"#
+            ))
+        };
+        let ignored = r#"{ "mesh": { "kind": "full" }, "shader": "uniform_color",
+      "params": { "color": [1, 0, 0, 1],
+        "back_color": [0, 1, 0, 1] } }"#;
+        let one = warnings("", &scene(ignored));
+        let place = (6, "scene.passes[0].draws[1].params.back_color");
+        assert_eq!(places(&one), [place]);
+        assert!(one[0].2.contains("uniform_color"), "{one:?}");
+        // A shader on an axis, and items that come from one place, count together.
+        let some = r#""shader": ["uniform_color", "front_facing"]"#;
+        let axis = ignored.replace("\"uniform_color\"", "\"$shader\"");
+        assert_eq!(warnings(some, &scene(&axis)), []);
+        let each = axis.replacen('{', &format!("{{ \"each\": {{ {some} }},"), 1);
+        assert_eq!(warnings("", &scene(&each)), []);
+        let list = |draw: &str| format!(r#""list": [{{ "name": "a", "value": [{draw}] }}]"#);
+        assert_eq!(warnings(&list(&each), &drawn("\"$list\"")), []);
+        assert_eq!(warnings(&list(ignored), &drawn("\"$list\"")).len(), 1);
+        let none = r#""shader": ["uniform_color", "flat_color_depth"]"#;
+        assert_eq!(places(&warnings(none, &scene(&axis))), [place]);
     }
 
     #[test]

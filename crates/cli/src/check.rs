@@ -1,11 +1,12 @@
-//! Checks cases without drawing them: what they assert, how sharply, and which inputs leave a driver a
-//! choice.
+//! Checks cases without a driver: what they assert, how sharply, which inputs leave a driver a choice, and
+//! which draws and tests change nothing.
 //!
 //! Legal sets need no frame, so a case file can be checked before any driver sees it. The limits are those of
 //! the rasterizer with the coarsest vertex positions that an API allows: a value that they decide is decided
 //! on every driver.
 
 pub(crate) mod edges;
+mod idle;
 
 use crate::processors::processors;
 use edges::{Near, nearest};
@@ -16,6 +17,7 @@ use etalon_frame::threads::each;
 use etalon_frame::{Api, ApiVersion, Aspect, CodeInterval, LegalSet, Limits};
 use etalon_record::Assertion;
 use etalon_reference::{Judgement, Rules, judgements};
+use idle::idle;
 use std::collections::BTreeMap;
 
 /// The fewest sub-pixel bits that an API allows (Vulkan: Limits, `subPixelPrecisionBits`).
@@ -56,14 +58,22 @@ pub(crate) struct CheckedFile {
     pub(crate) all: usize,
 }
 
-/// Checks files: builds all of their cases, and judges those of the profile.
+/// Checks files: builds all of their cases, draws some of them on the rasterizer, and judges those of the profile.
 pub(crate) fn check(files: &[CaseFile], profile: Profile) -> Vec<CheckedFile> {
     let mut checked: Vec<CheckedFile> = Vec::new();
-    for (file, built) in files.iter().zip(each(processors(), files, build_all)) {
+    let looked_at = each(processors(), files, |file| {
+        let errors = build_all(file);
+        let mut warnings = file.warnings();
+        if errors.is_empty() {
+            warnings.extend(idle(file));
+        }
+        (errors, warnings)
+    });
+    for (file, (errors, warnings)) in files.iter().zip(looked_at) {
         checked.push(CheckedFile {
             name: file.name().to_owned(),
-            errors: built,
-            warnings: file.warnings(),
+            errors,
+            warnings,
             cases: Vec::new(),
             all: file.cases(Profile::Full).count(),
         });

@@ -16,6 +16,9 @@ use std::num::{NonZeroU32, NonZeroUsize};
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FileWire {
+    /// The location of the JSON schema, for editors.
+    #[serde(rename = "$schema")]
+    _schema: Option<String>,
     /// The purpose of the cases, in a sentence.
     pub(crate) about: String,
     /// The clauses of the specifications that bind the cases, each as `API: section`.

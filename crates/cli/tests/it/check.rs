@@ -162,3 +162,101 @@ fn a_folder_of_ones_own_warns_where_it_is_used() {
     let warns = contains("warning");
     etalon(&["list"]).assert().success().stderr(warns.not());
 }
+
+/// Returns line and key of the warnings on a file with a draw of these keys, onto blue, depth 1 and stencil 85.
+fn warnings_of(axes: &str, draw: &str) -> Vec<(u64, String)> {
+    let (_, json) = told(&format!(
+        r#"{{ "about": "t", "spec": ["t"], "axes": {{ {axes} }},
+  "scene": {{ "attachments": {{ "c": {{ "format": "rgba8unorm", "clear": [0, 0, 1, 1] }},
+      "d": {{ "format": "depth32float-stencil8", "clear": {{ "depth": 1, "stencil": 85 }} }} }},
+    "passes": [ {{ "color": ["c"], "depth_stencil": "d", "draws": [
+      {{ "shader": "uniform_color", {draw} }} ] }} ],
+    "read": ["c", "d"] }} }}"#
+    ));
+    assert_eq!(json["errors"], 0, "{json:#}");
+    let warnings = json["files"][0]["warnings"].as_array().unwrap().iter();
+    let place = |w: &Value| {
+        (
+            w["line"].as_u64().unwrap(),
+            w["key"].as_str().unwrap().to_owned(),
+        )
+    };
+    warnings.map(place).collect()
+}
+
+#[test]
+fn a_draw_that_no_case_shows_gives_a_warning() {
+    let full =
+        |color: &str| format!(r#""mesh": {{ "kind": "full" }}, "params": {{ "color": {color} }}"#);
+    let blue = "[0, 0, 1, 1]";
+    let place = || (5, "scene.passes[0].draws[0]".to_owned());
+    assert_eq!(warnings_of("", &full(blue)), [place()]);
+    assert_eq!(warnings_of("", &full("[1, 0, 0, 1]")), []);
+    let axis = format!(
+        r#""color": [{{ "name": "blue", "value": {blue} }}, {{ "name": "red", "value": [1, 0, 0, 1] }}]"#
+    );
+    assert_eq!(warnings_of(&axis, &full("\"$color\"")), []);
+    // A state that holds the draw back can be what the file asks about.
+    for more in [
+        r#""scissor": [0, 0, 0, 0]"#,
+        r#""write_mask": """#,
+        r#""depth": { "compare": "never", "write": true }"#,
+    ] {
+        assert_eq!(
+            warnings_of("", &format!("{}, {more}", full("[1, 0, 0, 1]"))),
+            [],
+            "{more}"
+        );
+    }
+    // Vertices given one by one can ask whether they cover nothing; a mesh that is made to cover cannot.
+    let outside = |mesh: &str| {
+        let viewport = r#""viewport": { "rect": [16, 0, 16, 16], "depth": [0, 1] }"#;
+        format!(r#""mesh": {mesh}, {viewport}, "params": {{ "color": [1, 0, 0, 1] }}"#)
+    };
+    let vertices = r#"{ "kind": "vertices", "positions": [[-1, -1, 0], [1, -1, 0], [-1, 1, 0]] }"#;
+    assert_eq!(warnings_of("", &outside(vertices)), []);
+    let cover = r#"{ "kind": "cover" }"#;
+    assert_eq!(warnings_of("", &outside(cover)), [place()]);
+}
+
+#[test]
+fn a_test_that_decides_nothing_gives_a_warning() {
+    let draw = |depth: &str, stencil: &str| {
+        format!(
+            r#""mesh": {{ "kind": "columns", "values": [0, 0], "z": [0.25, 0.75] }}, "write_mask": "",
+        "params": {{ "color": [1, 0, 0, 1] }},
+        "depth": {depth},
+        "stencil": {stencil}"#
+        )
+    };
+    let place = |line, test: &str| (line, format!("scene.passes[0].draws[0].{test}"));
+    // 85 inverted is 170, so both outcomes store the same.
+    let less = r#"{ "compare": "less", "write": false }"#;
+    let same = r#"{ "front": { "compare": "always", "pass_op": "replace", "depth_fail_op": "invert" }, "reference": 170 }"#;
+    assert_eq!(warnings_of("", &draw(less, same)), [place(7, "depth")]);
+    assert_eq!(
+        warnings_of("", &draw(less, &same.replace("invert", "zero"))),
+        []
+    );
+    let axis = r#""reference": [170, 171]"#;
+    assert_eq!(
+        warnings_of(axis, &draw(less, &same.replace("170", "\"$reference\""))),
+        []
+    );
+
+    let always = r#"{ "compare": "always", "write": false }"#;
+    let invert = r#"{ "front": { "compare": "equal", "fail_op": "invert", "pass_op": "invert" }, "reference": 9 }"#;
+    assert_eq!(
+        warnings_of("", &draw(always, invert)),
+        [place(8, "stencil")]
+    );
+    assert_eq!(
+        warnings_of("", &draw(always, &invert.replacen("invert", "keep", 1))),
+        []
+    );
+
+    // The depth test decides if the stencil test lets fragments through.
+    let rejected = r#"{ "front": { "compare": "never", "fail_op": "zero" } }"#;
+    let writing = less.replace("false", "true");
+    assert_eq!(warnings_of("", &draw(&writing, rejected)), []);
+}
