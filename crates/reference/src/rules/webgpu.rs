@@ -86,7 +86,7 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             true,
             false,
             Grade::Disputed,
-            "WebGPU: 10.3.6 Depth/Stencil StateNumber: stencilReadMask masks what is read; that the reference is masked too, as in Vulkan and OpenGL, no sentence says",
+            "WebGPU: 10.3.6 Depth/Stencil State: stencilReadMask masks what is read; that the reference is masked too, as in Vulkan and OpenGL, no sentence says",
         ),
         copies: permit(
             Copies::SameNumbers,
