@@ -331,16 +331,16 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             true,
             text.cite([
                 "OpenGL 3.3: 4.1.4 Stencil Test, 3.9.2 Shader Execution: points and lines are front-facing",
-                "OpenGL 4.5: 17.3.3 Stencil Test, 15.2.2 Shader SignatureInputs: points and lines are front-facing",
-                "OpenGL 4.6: 17.3.3 Stencil Test, 15.2.2 Shader SignatureInputs: points and lines are front-facing",
+                "OpenGL 4.5: 17.3.3 Stencil Test, 15.2.2 Shader Inputs: points and lines are front-facing",
+                "OpenGL 4.6: 17.3.3 Stencil Test, 15.2.2 Shader Inputs: points and lines are front-facing",
             ]),
         ),
         outlines_face_as_polygons: permit(
             true,
             text.cite([
                 "OpenGL 3.3: 3.9.2 Shader Execution, 4.1.4 Stencil Test: a triangle's fragments face by its area, also if it is drawn as points or lines",
-                "OpenGL 4.5: 15.2.2 Shader SignatureInputs, 17.3.3 Stencil Test: a triangle's fragments face by its area, also if it is drawn as points or lines",
-                "OpenGL 4.6: 15.2.2 Shader SignatureInputs, 17.3.3 Stencil Test: a triangle's fragments face by its area, also if it is drawn as points or lines",
+                "OpenGL 4.5: 15.2.2 Shader Inputs, 17.3.3 Stencil Test: a triangle's fragments face by its area, also if it is drawn as points or lines",
+                "OpenGL 4.6: 15.2.2 Shader Inputs, 17.3.3 Stencil Test: a triangle's fragments face by its area, also if it is drawn as points or lines",
             ]),
         ),
         early_updates: narrowed(
@@ -403,17 +403,17 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 OpenGlText::V46 => InputMask::OfAnyRun,
             },
             text.cite([
-                "OpenGL 3.3 with GL_ARB_gpu_shader5: 3.12.2 Shader SignatureInputs: a bit if its sample is covered for the run, of which 3.3.1 asks for a least number",
-                "OpenGL 4.5: 15.2.2 Shader SignatureInputs: the samples covered for the run, of which 14.3.1.1 asks for a least number; the current sample's bit alone where gl_SampleID asks for it",
-                "OpenGL 4.6: 15.2.2 Shader SignatureInputs: the samples covered for the run, of which 14.3.1.1 asks for a least number; the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
+                "OpenGL 3.3 with GL_ARB_gpu_shader5: 3.12.2 Shader Inputs: a bit if its sample is covered for the run, of which 3.3.1 asks for a least number",
+                "OpenGL 4.5: 15.2.2 Shader Inputs: the samples covered for the run, of which 14.3.1.1 asks for a least number; the current sample's bit alone where gl_SampleID asks for it",
+                "OpenGL 4.6: 15.2.2 Shader Inputs: the samples covered for the run, of which 14.3.1.1 asks for a least number; the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
             ]),
         ),
         input_mask_lacks_masked: permit(
             true,
             text.cite([
-                "OpenGL 3.3 with GL_ARB_gpu_shader5: 3.12.2 Shader SignatureInputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
-                "OpenGL 4.5: 15.2.2 Shader SignatureInputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
-                "OpenGL 4.6: 15.2.2 Shader SignatureInputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
+                "OpenGL 3.3 with GL_ARB_gpu_shader5: 3.12.2 Shader Inputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
+                "OpenGL 4.5: 15.2.2 Shader Inputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
+                "OpenGL 4.6: 15.2.2 Shader Inputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
             ]),
         ),
         mask_acts_first: permit(

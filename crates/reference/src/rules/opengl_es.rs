@@ -343,17 +343,17 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         input_mask: permit(
             InputMask::OfAnyRun,
             text.cite([
-                "OpenGL ES 3.0: OES_sample_variables, Shader SignatureInputs: the samples covered for the run, of which sample shading asks for a least number; the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
-                "OpenGL ES 3.1: OES_sample_variables, Shader SignatureInputs: the samples covered for the run, of which sample shading asks for a least number; the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
-                "OpenGL ES 3.2: 14.2.2 Shader SignatureInputs: the samples covered for the run, of which sample shading asks for a least number; the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
+                "OpenGL ES 3.0: OES_sample_variables, Shader Inputs: the samples covered for the run, of which sample shading asks for a least number; the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
+                "OpenGL ES 3.1: OES_sample_variables, Shader Inputs: the samples covered for the run, of which sample shading asks for a least number; the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
+                "OpenGL ES 3.2: 14.2.2 Shader Inputs: the samples covered for the run, of which sample shading asks for a least number; the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
             ]),
         ),
         input_mask_lacks_masked: permit(
             true,
             text.cite([
-                "OpenGL ES 3.0: OES_sample_variables, Shader SignatureInputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
-                "OpenGL ES 3.1: OES_sample_variables, Shader SignatureInputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
-                "OpenGL ES 3.2: 14.2.2 Shader SignatureInputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
+                "OpenGL ES 3.0: OES_sample_variables, Shader Inputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
+                "OpenGL ES 3.1: OES_sample_variables, Shader Inputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
+                "OpenGL ES 3.2: 14.2.2 Shader Inputs: no bits of samples that SAMPLE_COVERAGE or SAMPLE_MASK kills",
             ]),
         ),
         mask_acts_first: permit(
