@@ -95,9 +95,9 @@ pub fn bless(
             .filter(|id| expectations.names(number, id))
             .all(|id| drawn[number].contains(id.as_str()));
         if worse[number] == 0 && all_drawn && (one_adapter || all_adapters) {
-            blessing.removed.push(known.clone());
+            blessing.removed.push(Known::clone(known));
         } else {
-            blessing.to_narrow.push(known.clone());
+            blessing.to_narrow.push(Known::clone(known));
             keep(known);
         }
     }

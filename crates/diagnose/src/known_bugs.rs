@@ -155,7 +155,7 @@ impl<D: Driver> KnownBugs<D> {
         if !expectations.all().is_empty() {
             for (id, case) in cases {
                 let of_case = expectations.bad(adapter, &id);
-                let place = |known: &Known| expectations.all().iter().position(|k| k == known);
+                let place = |known: &Known| expectations.all().iter().position(|k| **k == *known);
                 let findings: Vec<usize> = of_case.filter_map(place).collect();
                 if !findings.is_empty()
                     && let Some(document) = driver.document(&case)
@@ -266,7 +266,7 @@ impl<D: Driver> KnownBugs<D> {
     /// Returns the first finding that names a case and excuses a verdict.
     fn finding(&self, number: usize, verdict: Verdict) -> Option<&Known> {
         let entries = self.expectations.all();
-        let mut findings = self.named[number].findings.iter().map(|f| &entries[*f]);
+        let mut findings = self.named[number].findings.iter().map(|f| &*entries[*f]);
         findings.find(|known| known.excuses(verdict))
     }
 

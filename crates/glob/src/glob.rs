@@ -3,16 +3,17 @@
 use crate::matching;
 use crate::parsing::{self, GlobError};
 use crate::step::MatchStep;
+use std::sync::Arc;
 
-/// A parsed glob.
+/// A parsed glob. Clones share its parts.
 #[derive(Clone, Debug)]
 pub struct Glob {
     /// The text with which everything that matches begins.
-    prefix: String,
+    prefix: Arc<str>,
     /// The steps between prefix and suffix.
-    steps: Vec<MatchStep>,
+    steps: Arc<[MatchStep]>,
     /// The text with which everything that matches ends.
-    suffix: String,
+    suffix: Arc<str>,
     /// True if a step is a jump.
     has_jumps: bool,
 }
@@ -23,6 +24,15 @@ impl Glob {
     /// # Errors
     /// If a bracket or a brace has no partner, a range is reversed, or a backslash ends the glob.
     pub fn new(glob: &str) -> Result<Self, GlobError> {
+        // Most globs of a long list are plain.
+        if !glob.contains(['*', '?', '[', ']', '{', '}', ',', '!', '^', '\\']) {
+            return Ok(Self {
+                prefix: Arc::from(glob),
+                steps: Arc::default(),
+                suffix: Arc::default(),
+                has_jumps: false,
+            });
+        }
         let mut steps = parsing::steps(glob)?;
         let plain = |step: &MatchStep| match step {
             MatchStep::Char(c) => Some(*c),
@@ -45,23 +55,23 @@ impl Glob {
         let suffix: Vec<char> = suffix.collect();
         steps.truncate(steps.len() - suffix.len());
         Ok(Self {
-            prefix,
+            prefix: prefix.into(),
             has_jumps: steps.iter().any(|step| matches!(step, MatchStep::Jump(_))),
-            steps,
-            suffix: suffix.into_iter().rev().collect(),
+            steps: steps.into(),
+            suffix: suffix.into_iter().rev().collect::<String>().into(),
         })
     }
 
     /// Returns true if a text that begins like this can match, by the glob's plain beginning: a quick test
     /// that rejects no match.
     pub fn can_begin_with(&self, start: &str) -> bool {
-        self.prefix.starts_with(start) || start.starts_with(&self.prefix)
+        self.prefix.starts_with(start) || start.starts_with(&*self.prefix)
     }
 
     /// Returns true if the whole text matches.
     pub fn is_match(&self, text: &str) -> bool {
-        let rest = text.strip_prefix(&self.prefix);
-        let middle = rest.and_then(|rest| rest.strip_suffix(&self.suffix));
+        let rest = text.strip_prefix(&*self.prefix);
+        let middle = rest.and_then(|rest| rest.strip_suffix(&*self.suffix));
         middle.is_some_and(|middle| {
             if self.has_jumps {
                 matching::is_match(&self.steps, middle)
@@ -74,7 +84,7 @@ impl Glob {
     /// Returns the only text that matches, if the glob has no wildcard.
     pub fn only_match(&self) -> Option<&str> {
         // Without a wildcard, all of the text is the prefix.
-        (self.steps.is_empty() && self.suffix.is_empty()).then_some(self.prefix.as_str())
+        (self.steps.is_empty() && self.suffix.is_empty()).then_some(&*self.prefix)
     }
 
     /// Returns the text with which everything that matches begins.
@@ -84,7 +94,7 @@ impl Glob {
 
     /// Returns texts that are in everything that matches.
     pub fn literals(&self) -> Vec<String> {
-        let mut literals = vec![self.prefix.clone()];
+        let mut literals = vec![self.prefix.to_string()];
         let mut run = String::new();
         // Steps before the last target of a jump can be left out.
         let mut joined = 0;

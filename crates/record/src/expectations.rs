@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// One entry of a list of expectations: a known verdict.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -195,10 +195,11 @@ impl Known {
 /// Expectations with their compiled globs.
 #[derive(Clone, Debug, Default)]
 pub struct Expectations {
-    all: Vec<Known>,
-    globs: Vec<EntryGlobs>,
-    /// The globs over case ids, made when the first case is looked up.
-    index: OnceLock<GlobIndex>,
+    all: Vec<Arc<Known>>,
+    globs: Vec<Arc<EntryGlobs>>,
+    /// The globs over case ids, made when the first case is looked up. Expectations that are all about one adapter share
+    /// it with those they were chosen from.
+    index: Arc<OnceLock<GlobIndex>>,
     /// The name of the only adapter that the expectations are about, if they were chosen for it.
     only: Option<String>,
     /// Expectations whose last day is before this day, as `2027-01-31`, have expired; if not set, none
@@ -319,15 +320,16 @@ impl Expectations {
         if text.trim().is_empty() {
             return Ok(expectations);
         }
-        // Errors in text that is not JSON are reported as errors of a list.
-        let value: serde_json::Value = serde_json::from_str(text).unwrap_or_default();
-        if value.get("title").is_some() && value.get("entries").is_none() {
-            expectations.add(Known::of_finding(Finding::parse(text, path)?, path), text)?;
-            return Ok(expectations);
-        }
-        let parsed = if value.is_array() {
+        // A long list is parsed once.
+        let parsed = if text.trim_start().starts_with('[') {
             serde_json::from_str(text)
         } else {
+            // Errors in text that is not JSON are reported as errors of a list.
+            let value: serde_json::Value = serde_json::from_str(text).unwrap_or_default();
+            if value.get("title").is_some() && value.get("entries").is_none() {
+                expectations.add(Known::of_finding(Finding::parse(text, path)?, path), text)?;
+                return Ok(expectations);
+            }
             serde_json::from_str(text).map(|written: WrittenList| written.entries)
         };
         let entries: Vec<Entry> = parsed.map_err(|e| RecordError::Parse {
@@ -421,9 +423,9 @@ impl Expectations {
             driver: build("driver", &known.driver)?,
             cases: each(keys[1], &known.cases)?,
         };
-        self.all.push(known);
-        self.globs.push(globs);
-        self.index = OnceLock::new();
+        self.all.push(Arc::new(known));
+        self.globs.push(Arc::new(globs));
+        self.index = Arc::default();
         Ok(())
     }
 
@@ -432,11 +434,16 @@ impl Expectations {
     pub fn about(&self, adapter: &AdapterRecord) -> Self {
         let entries = self.all.iter().zip(&self.globs);
         let about = entries.filter(|(_, globs)| globs.match_adapter(adapter));
-        let (all, globs) = about.map(|(k, g)| (k.clone(), g.clone())).unzip();
+        let (all, globs): (Vec<_>, Vec<_>) = about.map(|(k, g)| (k.clone(), g.clone())).unzip();
+        let index = if all.len() == self.all.len() {
+            self.index.clone()
+        } else {
+            Arc::default()
+        };
         Self {
             all,
             globs,
-            index: OnceLock::new(),
+            index,
             only: Some(adapter.name.clone()),
             today: self.today.clone(),
         }
@@ -456,8 +463,11 @@ impl Expectations {
     #[must_use]
     pub fn of_run(mut self, processor: &str, labels: &[String]) -> Self {
         for (known, globs) in self.all.iter().zip(&mut self.globs) {
-            globs.applies = matches_if_given(globs.processor.as_ref(), processor)
+            let applies = matches_if_given(globs.processor.as_ref(), processor)
                 && known.labels.iter().all(|label| labels.contains(label));
+            if globs.applies != applies {
+                Arc::make_mut(globs).applies = applies;
+            }
         }
         self
     }
@@ -467,7 +477,7 @@ impl Expectations {
     pub fn and(mut self, others: Self) -> Self {
         self.all.extend(others.all);
         self.globs.extend(others.globs);
-        self.index = OnceLock::new();
+        self.index = Arc::default();
         self.only = None;
         self
     }
@@ -497,7 +507,7 @@ impl Expectations {
         adapter: &'a AdapterRecord,
         case: &'a str,
     ) -> impl Iterator<Item = &'e Known> + use<'e, 'a> {
-        self.numbers(adapter, case).map(|number| &self.all[number])
+        self.numbers(adapter, case).map(|number| &*self.all[number])
     }
 
     /// Returns the numbers of the expectations that name a case on an adapter.
@@ -573,7 +583,7 @@ impl Expectations {
     }
 
     /// Returns all expectations, in the order of their files.
-    pub fn all(&self) -> &[Known] {
+    pub fn all(&self) -> &[Arc<Known>] {
         &self.all
     }
 
@@ -928,7 +938,7 @@ mod tests {
         }
         fs::write(folder.join("README.md"), "no finding").unwrap();
         let read = Expectations::read(folder).unwrap();
-        let places: Vec<String> = read.all().iter().map(Known::place).collect();
+        let places: Vec<String> = read.all().iter().map(|known| known.place()).collect();
         let expected = ["a.json", "b.json"].map(|name| folder.join(name).display().to_string());
         assert_eq!(places, expected);
         assert_eq!(read.all()[0].verdict, Verdict::Disputed);
