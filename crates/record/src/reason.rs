@@ -243,7 +243,7 @@ mod tests {
         };
         let text = super::Reason::Text("slot 3 is free".to_owned());
         let old = written(r#""message":"slot 3 is free""#).expect("it parses");
-        assert_eq!(old.reasons, [text.clone()]);
+        assert_eq!(old.reasons, [text]);
         assert_eq!(
             written(r#""reasons":[{"text":"slot 3 is free"}]"#).expect("it parses"),
             old

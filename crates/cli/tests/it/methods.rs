@@ -62,7 +62,7 @@ fn the_quick_methods_are_measured_on_a_rasterizer_and_a_driver() {
             ) || record.expected.is_some(),
             "{name}: {} {}",
             record.verdict,
-            message(&record)
+            message(record)
         );
         let measured = measured(record);
         let distance = &measured.distance;

@@ -73,7 +73,7 @@ fn what_came_through_a_wrong_read_back_is_blocked_and_the_rest_is_drawn() {
             assert_eq!(record.verdict, Verdict::Blocked, "{record:?}");
             assert_eq!(record.blocked_by, [TRIP]);
             let begin = format!("not drawn: {TRIP} is fail: texel 0,0 of color: channel 0 holds 1");
-            assert!(message(&record).starts_with(&begin), "{record:?}");
+            assert!(message(record).starts_with(&begin), "{record:?}");
             assert!(record.unexpected());
             assert_eq!(record.texels.total, 0, "it was not drawn");
         } else {
@@ -170,7 +170,7 @@ fn what_a_known_failure_blocks_is_expected_too() {
         } else {
             assert!(record.texels.total > 0, "{record:?}");
             let note = "the round trip of rgb10a2unorm was skipped and not checked (bug 12)";
-            assert!(message(&record).contains(note), "{record:?}");
+            assert!(message(record).contains(note), "{record:?}");
         }
     }
 }

@@ -92,7 +92,7 @@ fn every_selftest_fails_for_a_stated_reason() {
             assert_eq!(record.verdict, Verdict::Fail, "{record:?}");
             let counted = |c: &CounterOutcome| c.band == Some(Band::Fail);
             if record.texels.wrong == 0 && record.counters.iter().any(counted) {
-                assert!(message(&record).starts_with("counter "), "{record:?}");
+                assert!(message(record).starts_with("counter "), "{record:?}");
                 continue;
             }
             assert!(
@@ -100,7 +100,7 @@ fn every_selftest_fails_for_a_stated_reason() {
                 "{record:?}"
             );
             if record.case.starts_with("selftest/relation-") {
-                assert!(message(&record).contains(" differ from "), "{record:?}");
+                assert!(message(record).contains(" differ from "), "{record:?}");
                 continue;
             }
             let story = record.story.as_ref().unwrap();
@@ -435,7 +435,7 @@ fn a_worker_that_is_killed_once_makes_one_case_flaky() {
     let end = crashes[0].process.as_ref().unwrap();
     assert_eq!(end.signal, Some(9));
     assert!(
-        message(&crashes[0]).contains("signal 9 (SIGKILL)"),
+        message(crashes[0]).contains("signal 9 (SIGKILL)"),
         "{crashes:?}"
     );
     assert!(crashes[0].unexpected());
@@ -616,7 +616,7 @@ fn a_time_limit_leaves_cases_out_and_says_so() {
     }
     let skipped = run.records.iter().filter(|r| r.verdict == Verdict::Skipped);
     for record in skipped {
-        assert_eq!(message(&record), "not drawn within 0.6 s", "{record:?}");
+        assert_eq!(message(record), "not drawn within 0.6 s", "{record:?}");
         assert!(!record.unexpected());
     }
 }
@@ -733,7 +733,7 @@ fn what_a_version_requires_is_blocked_and_not_unsupported() {
     for record in blocked {
         assert!(record.unexpected(), "{record:?}");
         let words = "denies 4 samples per texel";
-        assert!(message(&record).contains(words), "{}", message(&record));
+        assert!(message(record).contains(words), "{}", message(record));
         assert!(!record.blocked_by.is_empty(), "{record:?}");
     }
     let drawn = run.records.iter().filter(|r| r.parts().area() == "depth");

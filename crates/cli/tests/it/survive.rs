@@ -52,7 +52,7 @@ fn lost(fault: &str, verdict: Verdict, kind: LossKind, more: &[&str]) -> Vec<Rec
         let end = record.process.as_ref().unwrap();
         assert_eq!(end.kind, kind, "{record:?}");
         assert!(end.seconds > 0.0 && end.seconds < 60.0, "{record:?}");
-        assert!(!message(&record).is_empty());
+        assert!(!message(record).is_empty());
     }
     records
 }
@@ -293,7 +293,7 @@ fn a_driver_that_does_not_start_has_a_record_for_every_case() {
         assert_eq!(record.verdict, Verdict::Crash, "{record:?}");
         let end = record.process.as_ref().unwrap();
         assert_eq!(end.kind, LossKind::NotStarted);
-        assert!(message(&record).contains("does not start"), "{record:?}");
+        assert!(message(record).contains("does not start"), "{record:?}");
     }
 }
 
@@ -326,7 +326,7 @@ fn a_verdict_that_changes_is_flaky_and_never_a_pass() {
         match record.verdict {
             Verdict::Flaky => {
                 flaky += 1;
-                assert!(message(&record).contains(", then "), "{record:?}");
+                assert!(message(record).contains(", then "), "{record:?}");
                 assert!(record.frame.is_some(), "the wrong frame is kept");
             }
             Verdict::Pass => assert!(all_pass, "{record:?}"),
@@ -367,7 +367,7 @@ fn a_case_that_fails_only_after_another_names_it() {
             assert_eq!(record.after.len(), 1, "{record:?}");
             assert_eq!(record.repeats, [Verdict::Pass]);
             assert!(
-                message(&record).starts_with("only after another case"),
+                message(record).starts_with("only after another case"),
                 "{record:?}"
             );
             let sentence = record
