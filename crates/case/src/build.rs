@@ -11,7 +11,7 @@ use crate::sequence;
 use crate::states;
 use crate::values::{substitute, typed};
 use crate::variants::{patch, read_again, variant_scene};
-use crate::wire::{ExpectWire, RandomWire};
+use crate::wire::{ExpectWire, RandomWire, SceneSource};
 use etalon_methods::{Method, MethodScene, MethodWire, Parameter};
 use etalon_scene::Scene;
 use serde_json::Value;
@@ -32,8 +32,8 @@ impl CaseRef<'_> {
     pub(crate) fn try_build(&self) -> Result<Case, At> {
         let wire = &self.file.wire;
         let values = self.values();
-        if self.file.is_method() {
-            return self.method_case(&values);
+        if let SceneSource::Method(method) = &self.file.source {
+            return self.method_case(method, &values);
         }
         if wire.parameter.is_some() {
             return Err(At::new("only methods have a parameter").key("parameter"));
@@ -76,22 +76,22 @@ impl CaseRef<'_> {
     }
 
     /// Returns the case of a scene drawn by a method.
-    pub(crate) fn method_case(&self, values: &BTreeMap<&str, &Value>) -> Result<Case, At> {
+    pub(crate) fn method_case(
+        &self,
+        method: &Value,
+        values: &BTreeMap<&str, &Value>,
+    ) -> Result<Case, At> {
         let wire = &self.file.wire;
-        let others = [
-            &wire.scene,
-            &wire.random,
-            &wire.states,
-            &wire.sequence,
-            &wire.relation,
-            &wire.expect,
-        ];
-        let alone = others.into_iter().all(Value::is_null)
+        let alone = [&wire.relation, &wire.expect]
+            .into_iter()
+            .all(Value::is_null)
             && wire.variants.is_empty()
             && wire.submissions.is_empty()
             && wire.judged_as.is_empty();
         if !alone {
-            return Err(At::new("`method` excludes a scene and relations").key("method"));
+            return Err(
+                At::new("`method` excludes variants, relations and literal values").key("method"),
+            );
         }
         let place: Vec<&str> = self.file.stem.split('/').collect();
         let ["methods", question, scene] = place[..] else {
@@ -115,7 +115,7 @@ impl CaseRef<'_> {
             }
         };
         let make = || -> Result<MethodScene, At> {
-            let wire: MethodWire = typed(&substitute(&wire.method, values)?)?;
+            let wire: MethodWire = typed(&substitute(method, values)?)?;
             etalon_methods::make(&wire).map_err(|e| At::new(e.message).key(&e.key))
         };
         let made = make().map_err(|e| e.key("method"))?;
@@ -141,33 +141,20 @@ impl CaseRef<'_> {
 
     /// Returns the scene with all values substituted.
     pub(crate) fn scene_value(&self, values: &BTreeMap<&str, &Value>) -> Result<Value, At> {
-        let wire = &self.file.wire;
-        let made = [
-            ("scene", &wire.scene),
-            ("random", &wire.random),
-            ("states", &wire.states),
-            ("sequence", &wire.sequence),
-        ];
-        let mut given = made.into_iter().filter(|(_, value)| !value.is_null());
-        let Some((key, value)) = given.next() else {
-            return Err(At::new("a case file needs a scene").key("scene"));
-        };
-        if let Some((other, _)) = given.next() {
-            return Err(At::new(format!("`{other}` excludes `{key}`")).key(other));
-        }
+        let source = &self.file.source;
         let make = || -> Result<Value, At> {
-            let value = substitute(value, values)?;
-            match key {
-                "random" => {
+            let value = substitute(source.value(), values)?;
+            match source {
+                SceneSource::Random(_) => {
                     let random: RandomWire = typed(&value)?;
                     Ok(random::scene(random.flavor, random.seed))
                 }
-                "states" => states::scene(&typed(&value)?),
-                "sequence" => sequence::scene(&typed(&value)?),
-                _ => Ok(value),
+                SceneSource::States(_) => states::scene(&typed(&value)?),
+                SceneSource::Sequence(_) => sequence::scene(&typed(&value)?),
+                SceneSource::Scene(_) | SceneSource::Method(_) => Ok(value),
             }
         };
-        make().map_err(|e| e.key(key))
+        make().map_err(|e| e.key(source.key()))
     }
 
     fn expect(&self, scene: &Scene, values: &BTreeMap<&str, &Value>) -> Result<Vec<Expect>, At> {

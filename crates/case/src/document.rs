@@ -8,6 +8,7 @@ use crate::error::{At, CaseError};
 use crate::file::{CaseFile, CaseRef, Profile};
 use crate::scene_json::scene_json;
 use crate::values::substitute;
+use crate::wire::SceneSource;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 
@@ -28,8 +29,8 @@ impl CaseRef<'_> {
         let mut document = Map::new();
         document.insert("about".to_owned(), json!(wire.about));
         document.insert("spec".to_owned(), json!(wire.spec));
-        if self.file.is_method() {
-            let scene = self.method_case(&values)?.scene;
+        if let SceneSource::Method(method) = &self.file.source {
+            let scene = self.method_case(method, &values)?.scene;
             let scene = scene_json(&scene).map_err(|e| At::new(e).key("method"))?;
             document.insert("scene".to_owned(), scene);
             return Ok(Value::Object(document));

@@ -17,7 +17,7 @@ impl CaseRef<'_> {
     /// If a name has no value.
     pub fn expanded(&self) -> Result<Value, CaseError> {
         let key = self.file.scene_key();
-        let value = substitute(self.file.scene_value(), &self.values());
+        let value = substitute(self.file.source.value(), &self.values());
         let value =
             value.map_err(|error| error.key(key).locate(self.file.name(), &self.file.text))?;
         Ok(json!({ key: value }))
@@ -46,21 +46,10 @@ impl CaseFile {
             "about": wire.about,
             "spec": wire.spec,
             "key": self.scene_key(),
-            "scene": self.scene_value(),
+            "scene": self.source.value(),
             "axes": axes,
             "derived": derived,
         })
-    }
-
-    fn scene_value(&self) -> &Value {
-        let wire = &self.wire;
-        match self.scene_key() {
-            "random" => &wire.random,
-            "states" => &wire.states,
-            "sequence" => &wire.sequence,
-            "method" => &wire.method,
-            _ => &wire.scene,
-        }
     }
 }
 

@@ -5,7 +5,7 @@ use crate::error::{At, CaseError};
 use crate::json::parse_json;
 use crate::pairwise::{self, Cover};
 use crate::values::{is_word, typed};
-use crate::wire::{AxisValue, FileWire, QuickWire};
+use crate::wire::{AxisValue, FileWire, QuickWire, SceneSource};
 use etalon_frame::without_mark;
 use serde_json::Value;
 use std::collections::{BTreeMap, HashSet};
@@ -36,6 +36,7 @@ pub struct CaseFile {
     pub(crate) stem: String,
     pub(crate) text: String,
     pub(crate) wire: FileWire,
+    pub(crate) source: SceneSource,
     count: usize,
 }
 
@@ -62,7 +63,7 @@ impl CaseFile {
             message: format!("not valid JSON: {e}"),
         })?;
         unroll(&mut value).map_err(fail)?;
-        let wire: FileWire = typed(&value).map_err(fail)?;
+        let mut wire: FileWire = typed(&value).map_err(fail)?;
         let stem = name.strip_suffix(".json").unwrap_or(name).to_owned();
         if !stem.split('/').all(is_word) {
             return Err(fail(At::new(
@@ -144,7 +145,8 @@ impl CaseFile {
         if let Some(error) = wrong {
             return Err(fail(error.key("quick")));
         }
-        if !wire.method.is_null()
+        let source = wire.take_source().map_err(fail)?;
+        if matches!(source, SceneSource::Method(_))
             && let Some(quick) = &wire.quick
             && !quick.takes_all_of(METHOD)
         {
@@ -157,6 +159,7 @@ impl CaseFile {
             stem,
             text: text.to_owned(),
             wire,
+            source,
             count,
         })
     }
@@ -171,7 +174,7 @@ impl CaseFile {
 
     /// Returns true if the cases draw by methods.
     pub(crate) fn is_method(&self) -> bool {
-        !self.wire.method.is_null()
+        matches!(self.source, SceneSource::Method(_))
     }
 
     /// Returns true if the cases exist to be measured: methods, and everything in the area `perf`.
@@ -276,5 +279,27 @@ impl CaseRef<'_> {
             values.insert(name, given.unwrap_or(&list[index].value));
         }
         values
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_has_one_source_of_scenes() {
+        let parsed = |sources: &str| {
+            let text = format!(r#"{{ "about": "a", "spec": []{sources} }}"#);
+            CaseFile::parse("a/b.json", &text).map(|file| file.source.key())
+        };
+        let refused = |sources| parsed(sources).expect_err("it is refused").message;
+        assert_eq!(parsed(r#", "states": {}"#).ok(), Some("states"));
+        assert_eq!(
+            parsed(r#", "scene": {}, "random": null"#).ok(),
+            Some("scene")
+        );
+        assert_eq!(refused(""), "a case file needs a scene");
+        let both = r#", "random": {}, "scene": {}"#;
+        assert_eq!(refused(both), "`random` excludes `scene`");
     }
 }

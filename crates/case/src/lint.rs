@@ -4,6 +4,7 @@
 
 use crate::error::{At, CaseError};
 use crate::file::{CaseFile, METHOD, Profile};
+use crate::wire::SceneSource;
 use etalon_scene::Shader;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -38,15 +39,7 @@ impl CaseFile {
 
     /// Returns the key of the scene, or of the value that it is made from.
     pub fn scene_key(&self) -> &'static str {
-        let wire = &self.wire;
-        let made = [
-            ("random", &wire.random),
-            ("states", &wire.states),
-            ("sequence", &wire.sequence),
-            ("method", &wire.method),
-        ];
-        let given = made.into_iter().find(|(_, value)| !value.is_null());
-        given.map_or("scene", |(key, _)| key)
+        self.source.key()
     }
 
     /// Returns a warning at a key of the file; numbers are indices into lists.
@@ -124,7 +117,10 @@ impl CaseFile {
 
     /// Returns true if each draw of the cases is written in the file.
     fn spells_draws_out(&self) -> bool {
-        !self.is_method() && self.wire.random.is_null() && self.wire.states.is_null()
+        matches!(
+            self.source,
+            SceneSource::Scene(_) | SceneSource::Sequence(_)
+        )
     }
 
     /// Returns warnings about draws whose shader reads a parameter that is not given and is therefore 0.
@@ -233,7 +229,7 @@ impl CaseFile {
 
     /// Moves a place in a draw to the draw's place in the file, given the indices of pass and draw.
     fn at_draw(&self, [pass, draw]: [usize; 2], at: At) -> At {
-        if self.wire.sequence.is_null() {
+        if !matches!(self.source, SceneSource::Sequence(_)) {
             let at = at.index(draw).key("draws").index(pass);
             at.key("passes").key("scene")
         } else {

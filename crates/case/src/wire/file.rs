@@ -2,6 +2,7 @@
 
 use super::axis::{Axis, DerivedWire};
 use super::scene::{AttachmentWire, DrawWire, SceneWire, all_channels};
+use crate::error::At;
 use crate::random::Flavor;
 use etalon_methods::MethodWire;
 use etalon_scene::Invariance;
@@ -34,24 +35,24 @@ pub(crate) struct FileWire {
     /// The scene.
     #[serde(default)]
     #[schemars(with = "SceneWire")]
-    pub(crate) scene: Value,
+    scene: Value,
     /// In place of `scene`: a scene that is made from a seed.
     #[serde(default)]
     #[schemars(with = "RandomWire")]
-    pub(crate) random: Value,
+    random: Value,
     /// In place of `scene`: many draws, each with a state of its own.
     #[serde(default)]
     #[schemars(with = "StatesWire")]
-    pub(crate) states: Value,
+    states: Value,
     /// In place of `scene`: draws that alternate between two states.
     #[serde(default)]
     #[schemars(with = "SequenceWire")]
-    pub(crate) sequence: Value,
+    sequence: Value,
     /// In place of `scene`: a scene that a rendering method draws, and whose picture is compared with the
     /// truth. The file must be `methods/<question>/<scene>.json` and have an axis `method`.
     #[serde(default)]
     #[schemars(with = "MethodWire")]
-    pub(crate) method: Value,
+    method: Value,
     /// For methods only: the numeric axis along which the methods' errors are plotted.
     pub(crate) parameter: Option<String>,
     /// Changed copies of the scene, all of them drawn too.
@@ -72,6 +73,73 @@ pub(crate) struct FileWire {
     #[serde(default)]
     #[schemars(with = "Vec<ExpectWire>")]
     pub(crate) expect: Value,
+}
+
+/// The key of a case file that its scenes are made from, with its value. Names of axes stand for their values.
+#[derive(Clone, Debug)]
+pub(crate) enum SceneSource {
+    /// A scene.
+    Scene(Value),
+    /// A [`RandomWire`].
+    Random(Value),
+    /// A [`StatesWire`].
+    States(Value),
+    /// A [`SequenceWire`].
+    Sequence(Value),
+    /// A [`MethodWire`].
+    Method(Value),
+}
+
+impl SceneSource {
+    /// Returns the key.
+    pub(crate) fn key(&self) -> &'static str {
+        match self {
+            Self::Scene(_) => "scene",
+            Self::Random(_) => "random",
+            Self::States(_) => "states",
+            Self::Sequence(_) => "sequence",
+            Self::Method(_) => "method",
+        }
+    }
+
+    /// Returns the value.
+    pub(crate) fn value(&self) -> &Value {
+        match self {
+            Self::Scene(value)
+            | Self::Random(value)
+            | Self::States(value)
+            | Self::Sequence(value)
+            | Self::Method(value) => value,
+        }
+    }
+}
+
+impl FileWire {
+    /// Takes the one source of the scenes.
+    ///
+    /// # Errors
+    /// If the file has none or several.
+    pub(crate) fn take_source(&mut self) -> Result<SceneSource, At> {
+        let mut given = [
+            SceneSource::Scene(self.scene.take()),
+            SceneSource::Random(self.random.take()),
+            SceneSource::States(self.states.take()),
+            SceneSource::Sequence(self.sequence.take()),
+            SceneSource::Method(self.method.take()),
+        ]
+        .into_iter()
+        .filter(|source| !source.value().is_null());
+        let source = given
+            .next()
+            .ok_or_else(|| At::new("a case file needs a scene").key("scene"))?;
+        match given.next() {
+            None => Ok(source),
+            Some(other) => {
+                let message = format!("`{}` excludes `{}`", other.key(), source.key());
+                Err(At::new(message).key(other.key()))
+            }
+        }
+    }
 }
 
 /// A scene that is made from a seed: the same in every run and every release.
