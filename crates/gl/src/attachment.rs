@@ -1,7 +1,7 @@
 //! The attachments of a scene and their initial contents.
 
 use crate::context::Context;
-use crate::pool::PassTarget;
+use crate::pool::PassFramebuffer;
 use crate::surface::{Surface, upload};
 use etalon_frame::TextureFormat;
 use glow::HasContext;
@@ -11,7 +11,7 @@ pub(crate) struct Attachment {
     pub(crate) format: TextureFormat,
     pub(crate) surface: Surface,
     /// The framebuffer with all layers, if passes have several.
-    pub(crate) layers: Option<PassTarget>,
+    pub(crate) layers: Option<PassFramebuffer>,
     /// The framebuffer of the last pass that draws to it, or else the surface's, and its attachment point
     /// there.
     pub(crate) drawn: (glow::Framebuffer, u32),

@@ -3,7 +3,7 @@
 //! The source is the framebuffer that was drawn to; its read buffer is the attachment. A colour attachment is
 //! copied to two draw buffers, and the second is read.
 
-use crate::pool::PassTarget;
+use crate::pool::PassFramebuffer;
 use crate::read::{ReadObjects, ReadSource, bits, spoil};
 use crate::state;
 use crate::surface::{Surface, SurfaceKind};
@@ -13,7 +13,7 @@ use glow::HasContext;
 
 /// The destination of blits: a framebuffer and its surfaces. The last surface is read.
 struct Destination {
-    target: PassTarget,
+    target: PassFramebuffer,
     surfaces: Vec<Surface>,
 }
 

@@ -3,7 +3,7 @@
 use crate::attachment::Attachment;
 use crate::clear::{ClearCall, discard};
 use crate::context::Context;
-use crate::pool::PassTarget;
+use crate::pool::PassFramebuffer;
 use crate::program::{PARAMS_BINDING, STORAGE_BINDING};
 use crate::query::Query;
 use crate::read::spoil;
@@ -50,7 +50,7 @@ impl Inputs {
 }
 
 pub(crate) struct Pass {
-    pub(crate) target: PassTarget,
+    pub(crate) target: PassFramebuffer,
     pub(crate) draws: Vec<DrawCall>,
     /// The clears of load operations.
     pub(crate) loads: Vec<ClearCall>,

@@ -18,7 +18,7 @@ const MAX_FREE_BUFFER: usize = 1 << 20;
 
 /// A pass's framebuffer, and the surfaces that it consists of.
 #[derive(Debug)]
-pub(crate) struct PassTarget {
+pub(crate) struct PassFramebuffer {
     pub(crate) framebuffer: glow::Framebuffer,
     key: TargetKey,
 }
@@ -92,14 +92,14 @@ impl Pool {
         color: &[Option<&Surface>],
         depth_stencil: Option<&Surface>,
         layered: bool,
-    ) -> Result<Option<PassTarget>, BackendError> {
+    ) -> Result<Option<PassFramebuffer>, BackendError> {
         let key = (
             color.iter().map(|s| s.map(|s| s.id)).collect::<Vec<_>>(),
             depth_stencil.map(|s| s.id),
             layered,
         );
         if let Some(framebuffer) = self.targets.get_mut(&key).and_then(Vec::pop) {
-            return Ok(Some(PassTarget { framebuffer, key }));
+            return Ok(Some(PassFramebuffer { framebuffer, key }));
         }
         let mut attachments = Vec::new();
         for (surface, point) in color.iter().zip(glow::COLOR_ATTACHMENT0..) {
@@ -110,7 +110,7 @@ impl Pool {
         }
         let (framebuffer, status) = framebuffer(context, &attachments, layered)?;
         if status == glow::FRAMEBUFFER_COMPLETE {
-            return Ok(Some(PassTarget { framebuffer, key }));
+            return Ok(Some(PassFramebuffer { framebuffer, key }));
         }
         // SAFETY: the context is current and owns the object.
         unsafe { context.gl.delete_framebuffer(framebuffer) };
@@ -118,7 +118,7 @@ impl Pool {
     }
 
     /// Returns a target to the pool. Its surfaces must be returned after it.
-    pub(crate) fn put_target(&mut self, context: &Context, target: PassTarget) {
+    pub(crate) fn put_target(&mut self, context: &Context, target: PassFramebuffer) {
         if self.targets.values().map(Vec::len).sum::<usize>() >= MAX_FREE {
             self.delete_targets(context);
         }
@@ -212,7 +212,7 @@ impl Pool {
     }
 }
 
-impl PassTarget {
+impl PassFramebuffer {
     /// Deletes the framebuffer.
     pub(crate) fn delete(self, context: &Context) {
         // SAFETY: the context is current and owns the object.

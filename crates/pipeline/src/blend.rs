@@ -19,7 +19,7 @@ pub struct BlendInput<R> {
 
 /// A factor before it is multiplied. Zero and one need no arithmetic: `0 * x = 0` is exact for finite `x`, and
 /// `1 * x = x` for every `x`, in every specification.
-enum BlendFactorValue<R> {
+enum UnmultipliedFactor<R> {
     Zero,
     One,
     Value(R),
@@ -95,12 +95,12 @@ fn side<A: Arithmetic>(
     a: &mut A,
     encoding: ChannelEncoding,
     operand: A::Real,
-    factor: BlendFactorValue<A::Real>,
+    factor: UnmultipliedFactor<A::Real>,
 ) -> A::Real {
     match factor {
-        BlendFactorValue::Zero => a.blend_zero(operand),
-        BlendFactorValue::One => operand,
-        BlendFactorValue::Value(value) => a.blend_product(encoding, operand, value),
+        UnmultipliedFactor::Zero => a.blend_zero(operand),
+        UnmultipliedFactor::One => operand,
+        UnmultipliedFactor::Value(value) => a.blend_product(encoding, operand, value),
     }
 }
 
@@ -111,11 +111,11 @@ fn factor<A: Arithmetic>(
     encoding: ChannelEncoding,
     input: &BlendInput<A::Real>,
     c: usize,
-) -> BlendFactorValue<A::Real> {
+) -> UnmultipliedFactor<A::Real> {
     let value = match factor {
-        BlendFactor::Zero => return BlendFactorValue::Zero,
-        BlendFactor::One => return BlendFactorValue::One,
-        BlendFactor::SrcAlphaSaturated if c == 3 => return BlendFactorValue::One,
+        BlendFactor::Zero => return UnmultipliedFactor::Zero,
+        BlendFactor::One => return UnmultipliedFactor::One,
+        BlendFactor::SrcAlphaSaturated if c == 3 => return UnmultipliedFactor::One,
         BlendFactor::SrcAlphaSaturated => {
             let rest = a.blend_complement(encoding, input.dst[3]);
             a.min(input.src[3], rest)
@@ -140,7 +140,7 @@ fn factor<A: Arithmetic>(
         | BlendFactor::OneMinusConstantAlpha => a.blend_complement(encoding, value),
         _ => value,
     };
-    BlendFactorValue::Value(a.blend_factor(encoding, value))
+    UnmultipliedFactor::Value(a.blend_factor(encoding, value))
 }
 
 #[cfg(test)]

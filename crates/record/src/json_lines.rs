@@ -36,7 +36,7 @@ pub(crate) struct Extent {
 }
 
 #[derive(Deserialize)]
-struct LineFormat {
+struct HeaderFormat {
     format: u32,
 }
 
@@ -113,7 +113,7 @@ impl JsonLines<'_> {
         };
         let line = line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line);
         // The format is read first, since other formats can have other fields.
-        let LineFormat { format } = serde_json::from_slice(line).map_err(wrong)?;
+        let HeaderFormat { format } = serde_json::from_slice(line).map_err(wrong)?;
         if format == 0 || format > self.format {
             return Err(RecordError::Format {
                 path: self.path.to_owned(),

@@ -32,7 +32,7 @@ pub(crate) struct Geometry {
 
 /// A geometry with everything that it was computed from.
 #[derive(Debug)]
-struct KeptPrimitives {
+struct KeptGeometry {
     scene: Scene,
     limits: Limits,
     texels: Texels,
@@ -43,7 +43,7 @@ struct KeptPrimitives {
 
 /// The geometries of the scenes judged last.
 #[derive(Debug, Default)]
-pub struct Geometries(Mutex<VecDeque<KeptPrimitives>>);
+pub struct Geometries(Mutex<VecDeque<KeptGeometry>>);
 
 impl Geometries {
     /// Returns the geometry of a scene: a kept one if nothing that it depends on differs.
@@ -60,7 +60,7 @@ impl Geometries {
                 strokes: Vec::new(),
             });
         }
-        let serves = |k: &KeptPrimitives| {
+        let serves = |k: &KeptGeometry| {
             k.texels == texels
                 && same_geometry((&k.scene, &k.limits), (scene, limits))
                 && rules.agree_on_asked(&k.rules)
@@ -75,7 +75,7 @@ impl Geometries {
                 let entry = match found {
                     // Strokes cost more than one picture saves, so only the second scene records them.
                     Some(found) => found.with_strokes(rules),
-                    None => KeptPrimitives::new(scene, limits, rules, texels),
+                    None => KeptGeometry::new(scene, limits, rules, texels),
                 };
                 kept = self.lock();
                 entry
@@ -88,12 +88,12 @@ impl Geometries {
         geometry
     }
 
-    fn lock(&self) -> MutexGuard<'_, VecDeque<KeptPrimitives>> {
+    fn lock(&self) -> MutexGuard<'_, VecDeque<KeptGeometry>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-impl KeptPrimitives {
+impl KeptGeometry {
     fn new(scene: &Scene, limits: &Limits, rules: &Rules, texels: Texels) -> Self {
         // A clone starts without recorded permissions, so it records only those of this computation.
         let asking = rules.clone();

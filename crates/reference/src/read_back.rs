@@ -72,7 +72,7 @@ pub(crate) fn as_read(
         }
         if aspect == Aspect::Depth && read == ReadPath::Shader {
             channels = vec![ChannelEncoding::Float32];
-            changes.push(CodeChange {
+            changes.push(ShaderDepth {
                 image,
                 stored: depth_encoding(scene, limits, index),
                 open: undefined.aspect(index, aspect),
@@ -104,14 +104,14 @@ pub(crate) fn as_read(
 }
 
 /// A depth that a shader reads.
-struct CodeChange<'s> {
+struct ShaderDepth<'s> {
     image: &'s ImageInfo,
     stored: ChannelEncoding,
     /// True if the depth's contents are undefined.
     open: bool,
 }
 
-impl CodeChange<'_> {
+impl ShaderDepth<'_> {
     fn apply(&self, rules: &Rules, set: &mut TexelSet) {
         for world in &mut set.worlds {
             let depth = &mut world.channels[self.image.first_channel];

@@ -15,19 +15,19 @@ const COPY_ALIGNMENT: usize = 4;
 
 /// The vertices, indices and arguments of a scene, each in one buffer.
 pub(crate) struct Geometry {
-    vertices: DrawInput,
-    indices: DrawInput,
-    arguments: DrawInput,
+    vertices: FilledBuffer,
+    indices: FilledBuffer,
+    arguments: FilledBuffer,
 }
 
 /// A buffer, if it has contents, and the contents.
-struct DrawInput {
+struct FilledBuffer {
     usage: u32,
     buffer: Option<usize>,
     bytes: Vec<u8>,
 }
 
-impl DrawInput {
+impl FilledBuffer {
     fn new(usage: u32) -> Self {
         Self {
             usage,
@@ -52,9 +52,9 @@ impl DrawInput {
 impl Geometry {
     pub(crate) fn new() -> Self {
         Self {
-            vertices: DrawInput::new(buffer_usage::VERTEX),
-            indices: DrawInput::new(buffer_usage::INDEX),
-            arguments: DrawInput::new(buffer_usage::INDIRECT),
+            vertices: FilledBuffer::new(buffer_usage::VERTEX),
+            indices: FilledBuffer::new(buffer_usage::INDEX),
+            arguments: FilledBuffer::new(buffer_usage::INDIRECT),
         }
     }
 

@@ -3,7 +3,7 @@
 use super::AREA;
 use super::fragments::Fragments;
 use super::lanes::{lanes, select};
-use super::layout::{TexelLayout, Words};
+use super::layout::{WordLayout, Words};
 use crate::lanes::LANES;
 use fearless_simd::Simd;
 
@@ -19,7 +19,7 @@ pub(crate) struct Bits {
 impl Bits {
     /// Returns the function that turns a texel of zeros into `of_zeros` and a texel of ones into `of_ones`.
     /// Each bit must depend only on itself.
-    pub(crate) fn new(layout: &TexelLayout, of_zeros: Words, of_ones: Words) -> Self {
+    pub(crate) fn new(layout: &WordLayout, of_zeros: Words, of_ones: Words) -> Self {
         let used = layout.texel(|_| u32::MAX);
         let mut and = [0; 4];
         for (word, and) in and.iter_mut().enumerate() {
@@ -42,7 +42,7 @@ impl Bits {
     }
 
     /// Returns true if each channel is either replaced or kept.
-    pub(crate) fn is_mask(&self, layout: &TexelLayout) -> bool {
+    pub(crate) fn is_mask(&self, layout: &WordLayout) -> bool {
         layout.fields().iter().all(|field| {
             let (and, xor) = (
                 field.code(self.and[field.word]),

@@ -1,7 +1,7 @@
 //! Attachments in memory, stored tile by tile.
 
 use super::layer::Tiles;
-use super::layout::{ChannelField, TexelLayout};
+use super::layout::{ChannelField, WordLayout};
 use super::threads::on_threads;
 use super::{AREA, TILE};
 use crate::steps::{Faithful, Steps};
@@ -26,7 +26,7 @@ pub(crate) struct Image {
     pub(crate) across: usize,
     pub(crate) samples: usize,
     /// The layout of a colour texel in words.
-    pub(crate) layout: TexelLayout,
+    pub(crate) layout: WordLayout,
     pub(crate) color: Tiles<u32>,
     pub(crate) depth: Tiles<u32>,
     pub(crate) stencil: Tiles<u8>,
@@ -40,7 +40,7 @@ impl Image {
         let samples = attachment.samples as usize;
         let tiles = across * down;
         let format = attachment.format;
-        let layout = TexelLayout::new(format.color_channels());
+        let layout = WordLayout::new(format.color_channels());
         let words = |has: bool| usize::from(has);
         Self {
             width,

@@ -9,7 +9,7 @@ pub(crate) type Words = [u32; 4];
 
 /// The number of words of a texel, and the position of each channel in them.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct TexelLayout {
+pub(crate) struct WordLayout {
     fields: [ChannelField; 4],
     channels: usize,
     pub(crate) words: usize,
@@ -23,7 +23,7 @@ pub(crate) struct ChannelField {
     mask: u32,
 }
 
-impl TexelLayout {
+impl WordLayout {
     /// Returns the layout of texels of these channels.
     pub(crate) fn new(encodings: &[ChannelEncoding]) -> Self {
         let mut fields = [ChannelField::default(); 4];
@@ -104,7 +104,7 @@ mod tests {
     fn channels_do_not_overlap_and_keep_their_codes() {
         for format in TextureFormat::ALL {
             let encodings = format.color_channels();
-            let layout = TexelLayout::new(encodings);
+            let layout = WordLayout::new(encodings);
             let bits: u32 = encodings.iter().map(|e| e.bits()).sum();
             assert_eq!(layout.words, bits.div_ceil(32) as usize, "{format}");
             let code = |c: usize| 0x9e37_79b9_u32.rotate_left(c as u32 * 7) & encodings[c].mask();
@@ -128,7 +128,7 @@ mod tests {
 
     #[test]
     fn channels_of_8_bits_are_bytes_in_memory() {
-        let layout = TexelLayout::new(TextureFormat::Rgba8Unorm.color_channels());
+        let layout = WordLayout::new(TextureFormat::Rgba8Unorm.color_channels());
         let [word, ..] = layout.texel(|c| c as u32 + 1);
         assert_eq!(word.to_ne_bytes(), [1, 2, 3, 4]);
     }

@@ -1,6 +1,6 @@
 //! Descriptions of a scene's kernels.
 
-use super::layout::TexelLayout;
+use super::layout::WordLayout;
 use super::paint::{Kernel, Paint};
 use super::plan::{KernelPlan, PassPlan, Shading};
 use etalon_scene::{Draw, Scene};
@@ -67,7 +67,7 @@ fn paint(draw: &Draw, shading: Shading, pass: &PassPlan) -> &'static str {
         Kernel::Keep => "not written",
         Kernel::Store(_) => "stored",
         Kernel::Bits(bits) if bits.replaces() => "stored",
-        Kernel::Bits(bits) if bits.is_mask(&TexelLayout::new(pass.channels)) => {
+        Kernel::Bits(bits) if bits.is_mask(&WordLayout::new(pass.channels)) => {
             "stored through a mask"
         }
         Kernel::Bits(_) => "a function of each code's bits",

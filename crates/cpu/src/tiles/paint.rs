@@ -12,7 +12,7 @@ use super::bits::Bits;
 use super::fragments::Fragments;
 use super::image::Texel;
 use super::lanes::{ALL, Mask, lanes, select};
-use super::layout::{TexelLayout, are_bytes};
+use super::layout::{WordLayout, are_bytes};
 use super::linear::{CODES, Linear};
 use super::plan::{PassPlan, Shading};
 use super::texels::Sources;
@@ -79,7 +79,7 @@ pub(crate) struct Blending {
     logic: Option<LogicOperation>,
     alpha_to_one: bool,
     channels: &'static [ChannelEncoding],
-    layout: TexelLayout,
+    layout: WordLayout,
     /// True if the second source's alpha is 1.
     second_alpha: bool,
 }
@@ -119,7 +119,7 @@ impl Paint {
                 logic: draw.logic.filter(|_| obeys),
                 alpha_to_one: draw.alpha_to_one(),
                 channels,
-                layout: TexelLayout::new(channels),
+                layout: WordLayout::new(channels),
                 second_alpha: state.alpha_to_one,
             };
             match shading {
@@ -568,7 +568,7 @@ impl Kernel {
 }
 
 /// Returns the bit function that equals the tables for all codes, if there is one.
-fn bits(tables: &[[u8; CODES]; 4], layout: &TexelLayout) -> Option<Bits> {
+fn bits(tables: &[[u8; CODES]; 4], layout: &WordLayout) -> Option<Bits> {
     let equal = |table: &[u8; CODES]| {
         let (and, xor) = (table[0] ^ table[CODES - 1], table[0]);
         let mut codes = table.iter().zip(0..=u8::MAX);

@@ -1,7 +1,7 @@
 //! The resolve of colours, which averages a texel's samples.
 
 use super::AREA;
-use super::layout::TexelLayout;
+use super::layout::WordLayout;
 use crate::lanes::{Codes, LANES};
 use etalon_frame::ChannelEncoding::{self, Srgb8, Unorm};
 use etalon_pipeline::{Arithmetic, Plain};
@@ -42,7 +42,7 @@ fn average(encoding: ChannelEncoding, samples: usize, codes: impl Fn(usize) -> C
 #[derive(Debug)]
 pub(crate) struct Resolve {
     channels: &'static [ChannelEncoding],
-    layout: TexelLayout,
+    layout: WordLayout,
     samples: usize,
     /// True if equal samples resolve to their own code.
     known: bool,
@@ -53,7 +53,7 @@ impl Resolve {
     pub(crate) fn new(channels: &'static [ChannelEncoding], samples: usize) -> Self {
         Self {
             channels,
-            layout: TexelLayout::new(channels),
+            layout: WordLayout::new(channels),
             samples,
             known: averages_are_codes(channels, samples),
         }

@@ -7,7 +7,7 @@
 use super::AREA;
 use super::fragments::Fragments;
 use super::lanes::{Mask, lanes, select};
-use super::layout::TexelLayout;
+use super::layout::WordLayout;
 use super::planes::{CodePlane, GROUPS, Plane, TEXELS, decode, encode};
 use super::texels::Sources;
 use crate::lanes::LANES;
@@ -27,7 +27,7 @@ pub(crate) struct Varying {
     /// True if the alpha of the first and of the second source is 1.
     pub(crate) opaque: [bool; 2],
     pub(crate) channels: &'static [ChannelEncoding],
-    pub(crate) layout: TexelLayout,
+    pub(crate) layout: WordLayout,
 }
 
 /// The inputs of a blend by channel: source, second source and destination.

@@ -47,7 +47,7 @@ pub(super) fn section(methods: &Methods<'_>, shown: &[ShownScene<'_, '_>]) -> Ma
                 (limit("most-error", "RMSE at most"))
             }
             div.cards {
-                @for (q, question) in methods.questions.iter().enumerate() { (card(methods, q, &ScatterAnswer::of(question, shown))) }
+                @for (q, question) in methods.questions.iter().enumerate() { (card(methods, q, &AnsweredQuestion::of(question, shown))) }
             }
         }
     }
@@ -64,14 +64,14 @@ fn limit(id: &str, name: &str) -> Markup {
 const ADAPTERS: usize = 4;
 
 /// A question's scenes, and the timed methods of each.
-struct ScatterAnswer<'s, 'a> {
+struct AnsweredQuestion<'s, 'a> {
     question: &'s Question<'a>,
     scenes: Vec<&'s ShownScene<'s, 'a>>,
     /// The timed methods, by scene.
     timed: Vec<Vec<TimedMethod<'a>>>,
 }
 
-impl<'s, 'a> ScatterAnswer<'s, 'a> {
+impl<'s, 'a> AnsweredQuestion<'s, 'a> {
     fn of(question: &'s Question<'a>, shown: &'s [ShownScene<'s, 'a>]) -> Self {
         let scenes = shown
             .iter()
@@ -97,7 +97,7 @@ impl<'s, 'a> ScatterAnswer<'s, 'a> {
 pub(super) fn lines(methods: &Methods<'_>, shown: &[ShownScene<'_, '_>]) -> Vec<String> {
     let mut lines = Vec::new();
     for question in &methods.questions {
-        let found = ScatterAnswer::of(question, shown);
+        let found = AnsweredQuestion::of(question, shown);
         let Some((scene, timed)) = found.fullest() else {
             lines.push(format!("{}: not timed", question.name));
             continue;
@@ -121,7 +121,7 @@ pub(super) fn lines(methods: &Methods<'_>, shown: &[ShownScene<'_, '_>]) -> Vec<
     lines
 }
 
-fn card(methods: &Methods<'_>, number: usize, found: &ScatterAnswer<'_, '_>) -> Markup {
+fn card(methods: &Methods<'_>, number: usize, found: &AnsweredQuestion<'_, '_>) -> Markup {
     let points: Vec<_> = found
         .timed
         .iter()

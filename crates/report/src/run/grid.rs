@@ -17,11 +17,11 @@ pub(crate) struct Grid<'a> {
     /// Adapter names: the header's, then any that only records name.
     pub(crate) adapters: Vec<&'a str>,
     /// Areas by name.
-    pub(crate) areas: Vec<AreaRecords<'a>>,
+    pub(crate) areas: Vec<AreaFiles<'a>>,
 }
 
 /// All case files of an area.
-pub(crate) struct AreaRecords<'a> {
+pub(crate) struct AreaFiles<'a> {
     pub(crate) name: &'a str,
     pub(crate) files: Vec<GridFile<'a>>,
 }
@@ -76,7 +76,7 @@ impl<'a> Grid<'a> {
         }
         let areas = sorted
             .into_iter()
-            .map(|(name, files)| AreaRecords {
+            .map(|(name, files)| AreaFiles {
                 name,
                 files: files
                     .into_iter()
@@ -118,7 +118,7 @@ impl<'a> Grid<'a> {
     }
 }
 
-impl AreaRecords<'_> {
+impl AreaFiles<'_> {
     /// The records on one adapter, in the order of case files and cases.
     pub(crate) fn on(&self, adapter: usize) -> impl Iterator<Item = usize> {
         self.files.iter().flat_map(move |f| f.on(adapter))

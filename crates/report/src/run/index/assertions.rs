@@ -2,7 +2,7 @@
 
 use crate::lists::grouped;
 use crate::numbers::{percent, percent_of, thousands};
-use crate::run::grid::{AreaRecords, Grid};
+use crate::run::grid::{AreaFiles, Grid};
 use crate::table::{Cell, Table};
 use etalon_frame::{Aspect, CounterKind};
 use etalon_record::Assertion;
@@ -72,7 +72,7 @@ struct SharedFigures<'a> {
 
 /// Grouped by the figures as they are shown: an adapter that lacks a case or two does not stand
 /// apart for that.
-fn figures<'a>(grid: &Grid<'a>, area: &AreaRecords<'a>) -> Vec<SharedFigures<'a>> {
+fn figures<'a>(grid: &Grid<'a>, area: &AreaFiles<'a>) -> Vec<SharedFigures<'a>> {
     let mut sums: BTreeMap<(Aspect, usize), Assertion> = BTreeMap::new();
     for column in 0..grid.adapters.len() {
         for assertion in area.on(column).flat_map(|i| &grid.record(i).assertions) {

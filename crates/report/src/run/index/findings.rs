@@ -5,7 +5,7 @@ use super::detail::{self, DetailBudget, DrawnFrame};
 use crate::mark::{class, mark};
 use crate::numbers::count;
 use crate::page::link;
-use crate::run::grid::{AreaRecords, Grid, GridFile, VerdictTally};
+use crate::run::grid::{AreaFiles, Grid, GridFile, VerdictTally};
 use crate::threads::on_threads;
 use crate::words::{self, Tone};
 use etalon_record::{Record, Verdict};
@@ -159,7 +159,7 @@ struct Section<'a> {
 }
 
 impl Section<'_> {
-    fn area(&mut self, a: usize, area: &AreaRecords<'_>) -> Markup {
+    fn area(&mut self, a: usize, area: &AreaFiles<'_>) -> Markup {
         let grid = self.grid;
         html! {
             h3 id={ "a" (a) } { (area.name) }
@@ -222,7 +222,7 @@ impl Section<'_> {
 }
 
 /// Returns the cases that the adapter cannot draw, counted by what is missing.
-fn not_supported(grid: &Grid<'_>, area: &AreaRecords<'_>, column: usize) -> Markup {
+fn not_supported(grid: &Grid<'_>, area: &AreaFiles<'_>, column: usize) -> Markup {
     let mut reasons: BTreeMap<String, u64> = BTreeMap::new();
     for index in area.on(column) {
         let record = grid.record(index);
