@@ -96,23 +96,22 @@ impl CaseFile {
     /// them.
     fn unnamed_counters(&self) -> Vec<At> {
         let mut file = self.json();
-        let mut found = Vec::new();
-        for key in ["scene", "sequence"] {
-            let counters = file
-                .get_mut(key)
-                .and_then(|scene| scene.get_mut("counters"));
-            let Some(Value::Object(counters)) = counters.map(Value::take) else {
-                continue;
-            };
-            for name in counters.keys().filter(|name| !has_string(&file, name)) {
-                let message = format!(
-                    "no draw names this counter, so no query is made and the record says 0: name it in the \
-                     `counters` of the draws that it counts, as [\"{name}\"], or remove it"
-                );
-                found.push(At::new(message).key(name).key("counters").key(key));
-            }
-        }
-        found
+        let key = self.source.key();
+        let counters = file
+            .get_mut(key)
+            .and_then(|scene| scene.get_mut("counters"));
+        let Some(Value::Object(counters)) = counters.map(Value::take) else {
+            return Vec::new();
+        };
+        let unnamed = counters.keys().filter(|name| !has_string(&file, name));
+        let warning = |name: &String| {
+            let message = format!(
+                "no draw names this counter, so no query is made and the record says 0: name it in the \
+                 `counters` of the draws that it counts, as [\"{name}\"], or remove it"
+            );
+            At::new(message).key(name).key("counters").key(key)
+        };
+        unnamed.map(warning).collect()
     }
 
     /// Returns true if each draw of the cases is written in the file.
