@@ -17,35 +17,28 @@ fn told(end: Option<&ProcessEnd>, reasons: &[Reason]) -> String {
     // Before format 6, the text names the end of the process too.
     let told_by_text = reasons.iter().any(|r| matches!(r, Reason::Text(_)));
     let end = end.filter(|_| !told_by_text).map(ProcessEnd::to_string);
-    let (circumstances, facts): (Vec<_>, Vec<_>) = reasons
-        .iter()
-        .partition(|reason| circumstance(reason).is_some());
-    let (verdicts, facts): (Vec<_>, Vec<_>) = facts
-        .into_iter()
-        .partition(|reason| matches!(reason, Reason::Flaky { .. }));
-    let said = |reasons: Vec<&Reason>| reasons.into_iter().map(fact).collect::<Vec<_>>();
-    let facts = [said(verdicts), end.into_iter().collect(), said(facts)].concat();
-    let mut parts: Vec<String> = circumstances.into_iter().filter_map(circumstance).collect();
-    if !facts.is_empty() {
-        parts.push(facts.join("; "));
+    let (mut circumstances, mut facts, mut others) = (Vec::new(), Vec::new(), Vec::new());
+    for reason in reasons {
+        let list = match reason {
+            Reason::Variant(_)
+            | Reason::AfterOthers(_)
+            | Reason::WhileTimed
+            | Reason::AfterLastCase
+            | Reason::WhenResumed => &mut circumstances,
+            Reason::Flaky { .. } => &mut facts,
+            _ => &mut others,
+        };
+        list.push(text(reason));
     }
-    parts.join(": ")
+    facts.extend(end);
+    facts.append(&mut others);
+    if !facts.is_empty() {
+        circumstances.push(facts.join("; "));
+    }
+    circumstances.join(": ")
 }
 
-/// Returns the circumstance of all other reasons; `None` if the reason is a fact of its own.
-fn circumstance(reason: &Reason) -> Option<String> {
-    Some(match reason {
-        Reason::Variant(name) => format!("variant {name}"),
-        Reason::AfterOthers(1) => "only after another case in the same process".to_owned(),
-        Reason::AfterOthers(n) => format!("only after {n} other cases in the same process"),
-        Reason::WhileTimed => "while its frames were timed".to_owned(),
-        Reason::AfterLastCase => "after its last case".to_owned(),
-        Reason::WhenResumed => "when the bench was resumed".to_owned(),
-        _ => return None,
-    })
-}
-
-fn fact(reason: &Reason) -> String {
+fn text(reason: &Reason) -> String {
     match reason {
         Reason::Text(text) | Reason::Unfit(text) => text.clone(),
         Reason::Skipped(reason) => format!("not drawn: {reason}"),
@@ -141,11 +134,12 @@ fn fact(reason: &Reason) -> String {
         Reason::PartsDisagree(first, other) => {
             format!("{} in one part, {} in another", first.name(), other.name())
         }
-        Reason::Variant(_)
-        | Reason::AfterOthers(_)
-        | Reason::WhileTimed
-        | Reason::AfterLastCase
-        | Reason::WhenResumed => circumstance(reason).unwrap_or_default(),
+        Reason::Variant(name) => format!("variant {name}"),
+        Reason::AfterOthers(1) => "only after another case in the same process".to_owned(),
+        Reason::AfterOthers(n) => format!("only after {n} other cases in the same process"),
+        Reason::WhileTimed => "while its frames were timed".to_owned(),
+        Reason::AfterLastCase => "after its last case".to_owned(),
+        Reason::WhenResumed => "when the bench was resumed".to_owned(),
     }
 }
 
