@@ -44,7 +44,7 @@ pub struct ProcessEnd {
     /// The memory that the process held, in MiB.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub held: Option<u64>,
-    /// What is wrong with the message for `Garbage`, and the error for `NotStarted`.
+    /// The fault of the message for `Garbage`, and the error for `NotStarted`.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub error: String,
     /// The end of the process's standard error.
@@ -54,7 +54,7 @@ pub struct ProcessEnd {
     pub seconds: f64,
 }
 
-/// How a process ended: by a signal, or with a status.
+/// The end of a process: by a signal, or with a status.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExitStatus {

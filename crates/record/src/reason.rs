@@ -1,4 +1,4 @@
-//! Why a record has its verdict, as facts; `report` has the words.
+//! The reasons of a verdict, as facts; `report` has the words.
 
 use crate::process_end::ProcessEnd;
 use crate::verdict::Verdict;
@@ -20,7 +20,7 @@ pub enum Reason {
     OutOfTime(f64),
     /// The adapter lacks what the case needs.
     Missing(Requirement),
-    /// What the adapter lacks is not required by this API and version.
+    /// This API and version do not require the thing that the adapter lacks.
     NotRequired(Api, ApiVersion),
     /// The adapter denies what the case needs, against its API.
     Denied(Denial),
@@ -94,7 +94,7 @@ pub enum Reason {
     Flaky {
         /// The verdicts in order.
         verdicts: Vec<Verdict>,
-        /// What was new for each of them.
+        /// The thing that was new for each of them.
         fresh: Fresh,
     },
     /// The verdict appears only after this number of other cases in the same process.
@@ -132,11 +132,11 @@ pub enum Reason {
     PartsDisagree(Verdict, Verdict),
 }
 
-/// What an adapter denies against its API.
+/// A denial of an adapter against its API.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Denial {
-    /// What is denied.
+    /// The requirement that it denies.
     pub needed: Requirement,
     /// The API.
     pub api: Api,
@@ -157,12 +157,12 @@ pub struct FailedRoundTrip {
     /// The first wrong texel.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wrong: Option<WrongTexel>,
-    /// What else is known, if no texel is wrong; of standard error only the last line.
+    /// The reasons, if no texel is wrong; of standard error only the last line.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub why: Vec<Reason>,
 }
 
-/// What a relation compares.
+/// The two sides that a relation compares.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ComparedPair {
@@ -172,7 +172,7 @@ pub enum ComparedPair {
     Attachments(String, String),
 }
 
-/// What is new for each of several drawings.
+/// The thing that is new for each of several drawings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Fresh {
@@ -193,12 +193,6 @@ impl Reason {
             Self::Process(end) => Some(&mut end.stderr),
             _ => None,
         }
-    }
-}
-
-impl From<String> for Reason {
-    fn from(text: String) -> Self {
-        Self::Text(text)
     }
 }
 

@@ -45,7 +45,7 @@ pub struct Record {
     /// True if the case is a selftest that must fail.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub due_fail: bool,
-    /// Why the record has this verdict, if no other field says it. Formats before 6 have a `message` instead.
+    /// The reasons for the verdict that no other field holds. Formats before 6 have a `message` instead.
     #[serde(
         default,
         alias = "message",

@@ -26,7 +26,7 @@ const MAX_FRAME_BYTES: u64 = 1 << 29;
 /// The indices of a pass and a draw.
 type DrawIndices = [usize; 2];
 
-/// What the cases have shown of a draw, by its place in the file.
+/// The effect of a draw, by its place in the file, in the cases so far.
 #[derive(Default)]
 struct DrawEffect {
     /// The draw in one of the cases.
@@ -41,7 +41,7 @@ struct DrawEffect {
     stencil: TestEffect,
 }
 
-/// What the cases have shown of a test.
+/// The effect of a test in the cases so far.
 #[derive(Default)]
 struct TestEffect {
     /// True if it can reject a fragment.

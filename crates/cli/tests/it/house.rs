@@ -52,7 +52,7 @@ fn folder(package: &Package) -> &str {
     package.manifest_path.parent().unwrap().file_name().unwrap()
 }
 
-/// What the crates of one row of the table in `crates/README.md` may use.
+/// A row of the table in `crates/README.md`.
 struct Row {
     crates: Vec<String>,
     /// The crates of the workspace; `None` for all.

@@ -37,7 +37,7 @@ pub struct Picture {
     pub verdict: Verdict,
     /// The fraction of asserted channels among all channels of all samples, 0 to 1.
     pub asserted: f64,
-    /// Why it has this verdict. Formats before 4 have a `message` instead.
+    /// The reasons for the verdict. Formats before 4 have a `message` instead.
     #[serde(
         default,
         alias = "message",
