@@ -61,15 +61,13 @@ impl CaseRef<'_> {
         let axis = wire.axes.get(&derived.axis)?;
         let index =
             (self.file.positions(self.index)[derived.axis.as_str()] + derived.shift) % axis.len();
-        let given = derived
-            .values
-            .as_ref()
-            .is_some_and(|values| index < values.len());
-        let path = ["derived", name, "values"].map(|key| Step::Key(key.to_owned()));
-        Some(if given {
-            path.into_iter().chain([Step::Index(index)]).collect()
-        } else {
-            self.value_of(&derived.axis, index)
+        let values = derived.values.as_ref();
+        Some(match values.and_then(|values| values.get(axis, index)) {
+            Some((_, step)) => {
+                let path = ["derived", name, "values"].map(|key| Step::Key(key.to_owned()));
+                path.into_iter().chain([step]).collect()
+            }
+            None => self.value_of(&derived.axis, index),
         })
     }
 

@@ -40,7 +40,14 @@ impl CaseFile {
         let derived: Map<String, Value> = wire
             .derived
             .iter()
-            .map(|(name, d)| (name.clone(), json!([d.axis, d.shift, d.values])))
+            .map(|(name, d)| {
+                let axis = &wire.axes[&d.axis];
+                let listed = d.values.as_ref().map(|values| {
+                    let each = (0..axis.len()).filter_map(|number| values.get(axis, number));
+                    each.map(|(value, _)| value).collect::<Vec<_>>()
+                });
+                (name.clone(), json!([d.axis, d.shift, listed]))
+            })
             .collect();
         json!({
             "about": wire.about,

@@ -117,13 +117,8 @@ impl CaseFile {
                 ));
             };
             let values = derived.values.as_ref();
-            if values.is_some_and(|list| list.len() != axis.len()) {
-                return Err(fail(
-                    At::new(format!("axis `{}` has {} values", derived.axis, axis.len()))
-                        .key("values")
-                        .key(name)
-                        .key("derived"),
-                ));
+            if let Some(misfit) = values.and_then(|values| values.misfit(&derived.axis, axis)) {
+                return Err(fail(At::new(misfit).key("values").key(name).key("derived")));
             }
         }
         let unknown = |chosen: &BTreeMap<String, String>| -> Option<At> {
@@ -275,8 +270,11 @@ impl CaseRef<'_> {
             let list = &wire.axes[&derived.axis];
             let index =
                 (positions[derived.axis.as_str()] + derived.shift % list.len()) % list.len();
-            let given = derived.values.as_ref().and_then(|values| values.get(index));
-            values.insert(name, given.unwrap_or(&list[index].value));
+            let given = derived
+                .values
+                .as_ref()
+                .and_then(|values| values.get(list, index));
+            values.insert(name, given.map_or(&list[index].value, |(value, _)| value));
         }
         values
     }

@@ -269,7 +269,14 @@ mod tests {
         let rows = file(rows).expect("parses");
         let quick: Vec<String> = rows.cases(Profile::Quick).map(|c| c.id()).collect();
         assert_eq!(quick, ["t/a=1/side=large", "t/a=2/side=small"]);
-        for case in good.cases(Profile::Full) {
+        let named = file(
+            r#""derived":{"rect":{"axis":"side","values":{"large":[0,0,4,4],"*":[0,0,2,2]}}}"#,
+        );
+        let named = named.expect("parses");
+        for case in [&good, &named]
+            .iter()
+            .flat_map(|file| file.cases(Profile::Full))
+        {
             let scene = case.build().expect("builds").scene;
             let expected = scene.attachments[0].size[0] / 2;
             assert_eq!(
@@ -284,6 +291,21 @@ mod tests {
                 r#""derived":{"rect":{"axis":"side","values":[[0,0,2,2]]}}"#,
                 "derived.rect.values",
                 "2 values",
+            ),
+            (
+                r#""derived":{"rect":{"axis":"side","values":{"large":[0,0,2,2]}}}"#,
+                "derived.rect.values",
+                "the value `small` of axis `side` has none",
+            ),
+            (
+                r#""derived":{"rect":{"axis":"side","values":{"tiny":[0,0,2,2],"*":null}}}"#,
+                "derived.rect.values",
+                "no axis `side` has a value `tiny`",
+            ),
+            (
+                r#""derived":{"rect":{"axis":"side","values":7}}"#,
+                "derived.rect.values",
+                "an object with a value by name",
             ),
             (
                 r#""quick":{"where":{"side":"tiny"}}"#,

@@ -1,8 +1,10 @@
 //! Axes, and values derived from them.
 
+use crate::place::Step;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
+use std::collections::BTreeMap;
 
 /// The values of an axis: a list, or `count` consecutive integers.
 #[derive(Clone, Debug)]
@@ -129,7 +131,7 @@ impl JsonSchema for AxisValue {
 }
 
 /// A value derived from an axis: the axis's own value some positions further on, so that two states differ in
-/// every case, or the corresponding value of a list.
+/// every case, or a value of its own for each value of the axis.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DerivedWire {
@@ -139,5 +141,54 @@ pub(crate) struct DerivedWire {
     #[serde(default)]
     pub(crate) shift: usize,
     /// One value for each value of the axis, used instead of it.
-    pub(crate) values: Option<Vec<Value>>,
+    pub(crate) values: Option<DerivedValues>,
+}
+
+/// The key of the value for all values of an axis that are not named.
+pub(crate) const OTHERS: &str = "*";
+
+/// A value for each value of an axis.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(
+    untagged,
+    expecting = "a list of values, or an object with a value by name"
+)]
+pub(crate) enum DerivedValues {
+    /// In the axis's order.
+    Listed(Vec<Value>),
+    /// By the names of the axis's values; the value of `*` is for all others.
+    Named(BTreeMap<String, Value>),
+}
+
+impl DerivedValues {
+    /// Returns the value for the axis's value of this number, and its place; `None` if there is none.
+    pub(crate) fn get(&self, axis: &[AxisValue], number: usize) -> Option<(&Value, Step)> {
+        match self {
+            Self::Listed(values) => Some((values.get(number)?, Step::Index(number))),
+            Self::Named(values) => {
+                let by_name = values.get_key_value(&axis.get(number)?.name);
+                let (name, value) = by_name.or_else(|| values.get_key_value(OTHERS))?;
+                Some((value, Step::Key(name.clone())))
+            }
+        }
+    }
+
+    /// Returns why these are not the values for an axis, if they are not.
+    pub(crate) fn misfit(&self, name: &str, axis: &[AxisValue]) -> Option<String> {
+        match self {
+            Self::Listed(values) => (values.len() != axis.len())
+                .then(|| format!("axis `{name}` has {} values", axis.len())),
+            Self::Named(values) => {
+                let is_known = |key: &str| key == OTHERS || axis.iter().any(|v| v.name == key);
+                if let Some(unknown) = values.keys().find(|key| !is_known(key)) {
+                    return Some(format!("no axis `{name}` has a value `{unknown}`"));
+                }
+                let without = (0..axis.len()).find(|number| self.get(axis, *number).is_none())?;
+                let value = &axis[without].name;
+                Some(format!(
+                    "the value `{value}` of axis `{name}` has none, and there is no `*`"
+                ))
+            }
+        }
+    }
 }
