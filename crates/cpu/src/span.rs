@@ -139,32 +139,6 @@ fn tests_early(draw: &Draw) -> bool {
     same || draw.early_tests == EarlyTests::Forced
 }
 
-/// Returns true if a shader can read its fragment's depth.
-fn reads_depth(shader: Shader) -> bool {
-    !matches!(
-        shader,
-        Shader::ExpensiveColor
-            | Shader::ExportedColor
-            | Shader::ExportedDiscard
-            | Shader::ExportedFacing
-            | Shader::ExportedSample
-            | Shader::FlatColor
-            | Shader::FragCoordColor
-            | Shader::InputMask
-            | Shader::InputMaskSample
-            | Shader::MaskedColor
-            | Shader::MaskedDiscard
-            | Shader::MaskedSample
-            | Shader::SampledColor
-            | Shader::SampledDiscard
-            | Shader::TexelColor
-            | Shader::TexelColorAll
-            | Shader::TexelDiscard
-            | Shader::UniformColor
-            | Shader::VertexOnly
-    )
-}
-
 /// Returns the window coordinates of one point of each texel of a span.
 fn window_position(span: &Span<'_>, point: Point) -> [Real; 2] {
     let within = |v: i64| v as f32 / UNITS as f32;
@@ -210,7 +184,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
             early: tests_early(draw),
             asks_depth: draw.depth.is_some()
                 || draw.depth_bounds.is_some()
-                || reads_depth(draw.shader),
+                || draw.shader.reads_depth(),
             surfaces: memory.surfaces,
             counters: memory.counters,
             lists: memory.lists,

@@ -559,6 +559,8 @@ mod tests {
             assert_eq!(linear, has("@interpolate(linear"), "{name}");
             assert_eq!(shader.flat_from_either(), has(", either)"), "{name}");
             assert_eq!(shader.reads_w(), has("position.w"), "{name}");
+            let z = has("position.z") || has("position.wz");
+            assert_eq!(shader.reads_depth(), z, "{name}");
             assert_eq!(
                 shader.runs_per_sample(),
                 has("@builtin(sample_index)") || sampling == InterpolationSampling::Sample,
