@@ -8,7 +8,7 @@ use crate::symptom::Symptom;
 use etalon_frame::AdapterName;
 use etalon_record::{
     AdapterRecord, Entry, Evidence, Expectation, Expectations, Finding, Grade, Known, Record, Run,
-    Source, Verdict, version_of,
+    Verdict, version_of,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -77,9 +77,7 @@ pub fn bless(
         }
     }
     let mut keep = |known: &Known| {
-        if let Source::Entry(entry) = &known.source {
-            blessing.entries.push(entry.clone());
-        }
+        blessing.entries.extend(known.entry());
     };
     for (number, known) in expectations.all().iter().enumerate() {
         // A flaky case passes sometimes, and a skipped case was not drawn.

@@ -4,8 +4,7 @@
 //! fewest globs are so far. Only globs under parts of the text are compared with it.
 
 use crate::glob::Glob;
-use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, Hasher};
+use foldhash::HashMap;
 
 /// The length in bytes of the longest part under which a glob is filed.
 const LONGEST: usize = 4;
@@ -15,7 +14,7 @@ const LONGEST: usize = 4;
 pub struct GlobIndex {
     globs: Vec<(usize, Glob)>,
     /// The places in `globs` by the part under which they are filed.
-    parts: HashMap<GlobPart, Vec<usize>, BuildHasherDefault<PartHasher>>,
+    parts: HashMap<GlobPart, Vec<usize>>,
     /// The places of globs that can match texts without a common part.
     others: Vec<usize>,
     /// The numbers of globs that match exactly one text, by this text.
@@ -26,27 +25,6 @@ pub struct GlobIndex {
 
 /// At most [`LONGEST`] bytes, after a 1 that marks their beginning.
 type GlobPart = u64;
-
-/// Mixes the bytes of a part. A lookup asks for hundreds of parts, and the usual hash takes longer than all else.
-#[derive(Clone, Debug, Default)]
-struct PartHasher(u64);
-
-impl Hasher for PartHasher {
-    fn write(&mut self, bytes: &[u8]) {
-        bytes
-            .iter()
-            .for_each(|byte| self.write_u64(u64::from(*byte)));
-    }
-
-    fn write_u64(&mut self, part: u64) {
-        let mixed = (self.0 ^ part).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        self.0 = mixed ^ mixed >> 32;
-    }
-
-    fn finish(&self) -> u64 {
-        self.0
-    }
-}
 
 fn part(bytes: &[u8]) -> GlobPart {
     let append = |part, byte: &u8| part << 8 | GlobPart::from(*byte);

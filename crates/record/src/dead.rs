@@ -5,9 +5,10 @@
 //! it may be alive.
 
 use crate::error::RecordError;
-use crate::expectations::{Expectations, Known};
+use crate::expectations::Expectations;
 use crate::folder::DEAD_FILE;
 use crate::json_file::read_json;
+use crate::known::Known;
 use crate::output_folder::OutputFolder;
 use crate::parts::Parts;
 use crate::run::Run;
@@ -20,6 +21,7 @@ use std::cell::{Cell, LazyCell, OnceCell};
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 use std::path::Path;
+use std::rc::Rc;
 
 state_enum! {
     /// The reason why an expectation is dead.
@@ -86,7 +88,7 @@ impl Expectations {
         described: &[String],
         sound: impl Fn(&Known) -> bool,
     ) -> DeadSearch {
-        let used = run.header.adapters.iter().map(|a| &a.name);
+        let used = run.header.adapters.iter().map(|a| &a.info.name);
         let mut names = SortedNames::new(used.chain(described));
         let ids = LazyCell::new(|| Ids::new(&ids()));
         let left = Cell::new(MOST_COMPARISONS);
@@ -103,8 +105,8 @@ impl Expectations {
                 });
             };
             if !sound(known) {
-                for glob in &known.cases {
-                    let parts = ids.parts_without(glob, &left).into_iter();
+                for (text, glob) in known.cases.iter().zip(self.case_globs(number)) {
+                    let parts = ids.parts_without(text, glob, &left).into_iter();
                     parts.for_each(|glob| part(DeadKind::NoCase, glob));
                 }
                 for glob in &known.adapters {
@@ -127,14 +129,14 @@ impl Expectations {
             let reach = if all_sound && !excuses.none(number, &adapters, run, &names.sorted) {
                 None
             } else {
-                let first = known.cases.iter().find_map(|glob| ids.first(glob, &left));
+                let first =
+                    (self.case_globs(number).iter()).find_map(|glob| ids.first(glob, &left));
                 let first = first.filter(|_| !adapters.is_empty());
                 first.map(|first| NamedPairs { first, adapters })
             };
             reaches.push(reach);
         }
-        // By an id: the expectations that name it.
-        let mut naming: HashMap<usize, Vec<usize>> = HashMap::new();
+        let naming = self.naming_first(&ids, &reaches, &left);
         for (number, known) in self.all().iter().enumerate() {
             let Some(reach) = &reaches[number] else {
                 continue;
@@ -143,34 +145,31 @@ impl Expectations {
                 let (Some(within), Some(around)) = (&reaches[one], &reaches[other]) else {
                     return false;
                 };
-                let cases = &self.all()[one].cases;
                 within.adapters.is_subset(&around.adapters)
-                    && (*cases == self.all()[other].cases
-                        || cases.iter().all(|glob| {
+                    && (self.all()[one].cases == self.all()[other].cases
+                        || self.case_globs(one).iter().all(|glob| {
                             ids.matching(glob, &left)
                                 .all(|id| self.names(other, &ids.sorted[id]))
                         }))
             };
-            let others = naming
-                .entry(reach.first)
-                .or_insert_with(|| self.naming(&ids.sorted[reach.first]));
-            let cover = others.iter().find(|other| {
-                let by = &self.all()[**other];
-                **other != number
+            let others = naming.get(&reach.first).into_iter().flatten();
+            let cover = others.copied().find(|other| {
+                let by = &self.all()[*other];
+                *other != number
                     && spend(&left)
                     && covers(by, known)
-                    && is_within(number, **other)
+                    && is_within(number, *other)
                     // Of two equal expectations, the second is dead.
-                    && (**other < number || !(covers(known, by) && is_within(**other, number)))
+                    && (*other < number || !(covers(known, by) && is_within(*other, number)))
             });
             let drawn = |adapter: &BTreeSet<&str>| {
-                known.cases.iter().all(|glob| {
+                self.case_globs(number).iter().all(|glob| {
                     ids.matching(glob, &left)
                         .all(|id| adapter.contains(ids.sorted[id].as_str()))
                 })
             };
             let kind = if let Some(other) = cover {
-                Some((DeadKind::Covered, self.all()[*other].place()))
+                Some((DeadKind::Covered, self.all()[other].place()))
             } else {
                 let is_none = excuses.none(number, &reach.adapters, run, &names.sorted);
                 let mut cases = excuses
@@ -195,6 +194,31 @@ impl Expectations {
             dead,
             is_complete: left.get() > 0,
         }
+    }
+
+    /// Returns the expectations that name the first case of one, by this case, as long as comparisons are left.
+    fn naming_first(
+        &self,
+        ids: &Ids,
+        reaches: &[Option<NamedPairs>],
+        left: &Cell<u64>,
+    ) -> HashMap<usize, Vec<usize>> {
+        let firsts: BTreeSet<usize> = reaches.iter().flatten().map(|reach| reach.first).collect();
+        let firsts: Vec<usize> = firsts.into_iter().collect();
+        // Both are in the order of the ids.
+        let named = Ids::new(firsts.iter().map(|first| &ids.sorted[*first]));
+        let mut naming: HashMap<usize, Vec<usize>> = HashMap::new();
+        for number in (0..reaches.len()).filter(|number| reaches[*number].is_some()) {
+            for glob in self.case_globs(number) {
+                for index in named.matching(glob, left) {
+                    let others = naming.entry(firsts[index]).or_default();
+                    if others.last() != Some(&number) {
+                        others.push(number);
+                    }
+                }
+            }
+        }
+        naming
     }
 }
 
@@ -238,7 +262,7 @@ impl<'r> Excuses<'r> {
     fn of(expectations: &Expectations, run: &'r Run) -> Self {
         let numbers: HashMap<&str, usize> = (0..)
             .zip(&run.header.adapters)
-            .map(|(number, adapter)| (adapter.name.as_str(), number))
+            .map(|(number, adapter)| (adapter.info.name.as_str(), number))
             .collect();
         let mut excuses = Self {
             recorded: vec![BTreeSet::new(); run.header.adapters.len()],
@@ -286,7 +310,7 @@ impl<'r> Excuses<'r> {
     fn none(&self, number: usize, adapters: &BTreeSet<usize>, run: &Run, names: &[String]) -> bool {
         let about = &self.adapters[number];
         let is_used = |name: &String| {
-            let mut used = about.iter().map(|n| &run.header.adapters[*n].name);
+            let mut used = about.iter().map(|n| &run.header.adapters[*n].info.name);
             used.any(|used| used == name)
         };
         let outcome = self.outcomes[number];
@@ -302,7 +326,7 @@ struct NamedPairs {
     /// The index of one of its cases.
     first: usize,
     /// The indices of its adapters.
-    adapters: BTreeSet<usize>,
+    adapters: Rc<BTreeSet<usize>>,
 }
 
 /// Returns true if an expectation excuses whatever another one excuses, for each driver and on each day.
@@ -334,23 +358,38 @@ fn is_pattern(glob: &str) -> bool {
 struct SortedNames {
     sorted: Vec<String>,
     matches: HashMap<String, Vec<usize>>,
+    /// What each list of globs reached so far.
+    reaches: HashMap<Vec<String>, Rc<BTreeSet<usize>>>,
+}
+
+/// Returns texts in their order, each once.
+fn sorted<'a>(texts: impl IntoIterator<Item = &'a String>) -> Vec<String> {
+    let mut sorted: Vec<&String> = texts.into_iter().collect();
+    sorted.sort_unstable();
+    sorted.dedup();
+    sorted.into_iter().cloned().collect()
 }
 
 impl SortedNames {
     fn new<'a>(names: impl IntoIterator<Item = &'a String>) -> Self {
-        let sorted: BTreeSet<&String> = names.into_iter().collect();
         Self {
-            sorted: sorted.into_iter().cloned().collect(),
+            sorted: sorted(names),
             matches: HashMap::new(),
+            reaches: HashMap::new(),
         }
     }
 
     /// Returns the indices of the names that one of the globs matches.
-    fn reach(&mut self, globs: &[String]) -> BTreeSet<usize> {
+    fn reach(&mut self, globs: &[String]) -> Rc<BTreeSet<usize>> {
+        if let Some(reach) = self.reaches.get(globs) {
+            return Rc::clone(reach);
+        }
         let mut reach = BTreeSet::new();
         for glob in globs {
             reach.extend(self.matches(glob));
         }
+        let reach = Rc::new(reach);
+        self.reaches.insert(globs.to_vec(), Rc::clone(&reach));
         reach
     }
 
@@ -400,9 +439,9 @@ struct Ids {
 const FEW: usize = 64;
 
 impl Ids {
-    fn new(ids: &[String]) -> Self {
+    fn new<'a>(ids: impl IntoIterator<Item = &'a String>) -> Self {
         Self {
-            sorted: SortedNames::new(ids).sorted,
+            sorted: sorted(ids),
             parts: OnceCell::new(),
         }
     }
@@ -410,12 +449,9 @@ impl Ids {
     /// Returns the indices of the ids that a glob matches, as long as comparisons are left.
     fn matching<'i>(
         &'i self,
-        glob: &str,
+        glob: &'i Glob,
         left: &'i Cell<u64>,
     ) -> Box<dyn Iterator<Item = usize> + 'i> {
-        let Ok(glob) = Glob::new(glob) else {
-            return Box::new(std::iter::empty());
-        };
         if let Some(id) = glob.only_match() {
             let found = self.sorted.binary_search_by(|other| other.as_str().cmp(id));
             return Box::new(found.ok().into_iter());
@@ -442,18 +478,18 @@ impl Ids {
     }
 
     /// Returns the index of the first id that a glob matches.
-    fn first(&self, glob: &str, left: &Cell<u64>) -> Option<usize> {
+    fn first(&self, glob: &Glob, left: &Cell<u64>) -> Option<usize> {
         self.matching(glob, left).next()
     }
 
     /// Returns the glob itself if it certainly matches no id; otherwise its [`alternatives`] that match none.
-    fn parts_without(&self, glob: &str, left: &Cell<u64>) -> Vec<String> {
-        let is_without = |glob: &str| self.first(glob, left).is_none() && left.get() > 0;
+    fn parts_without(&self, text: &str, glob: &Glob, left: &Cell<u64>) -> Vec<String> {
+        let is_without = |glob: &Glob| self.first(glob, left).is_none() && left.get() > 0;
         if is_without(glob) {
-            return vec![glob.to_owned()];
+            return vec![text.to_owned()];
         }
-        let mut parts = alternatives(glob);
-        parts.retain(|part| is_without(part));
+        let mut parts = alternatives(text);
+        parts.retain(|part| Glob::new(part).ok().is_none_or(|glob| is_without(&glob)));
         parts
     }
 }

@@ -5,7 +5,8 @@
 //! which people make their lists, with lines `name,status,seconds`. In all of them `#` begins a comment.
 
 use crate::adapter::AdapterRecord;
-use crate::expectations::{Entry, Expectations};
+use crate::expectations::Expectations;
+use crate::known::Entry;
 use crate::parts::Parts;
 use crate::verdict::Verdict;
 use etalon_frame::without_mark;

@@ -1,6 +1,6 @@
 //! Names by the parts of their texts.
 
-use std::collections::HashMap;
+use foldhash::HashMap;
 
 /// The length of a part in bytes.
 const LENGTH: usize = 3;
@@ -10,7 +10,7 @@ pub(crate) struct Parts(HashMap<[u8; LENGTH], Vec<usize>>);
 
 impl Parts {
     pub(crate) fn new(names: &[String]) -> Self {
-        let mut parts: HashMap<[u8; LENGTH], Vec<usize>> = HashMap::new();
+        let mut parts: HashMap<[u8; LENGTH], Vec<usize>> = HashMap::default();
         for (index, name) in names.iter().enumerate() {
             for part in name.as_bytes().array_windows() {
                 let indices = parts.entry(*part).or_default();

@@ -630,8 +630,8 @@ fn finding(adapter: &AdapterRecord, case: &str) -> Result<Option<Finding>, Failu
     Ok(findings
         .first_bad(adapter, case)
         .and_then(|known| match &known.source {
-            Source::Finding(finding) => Some(finding.clone()),
-            Source::Entry(_) => None,
+            Source::Finding(finding) => Some(Finding::clone(finding)),
+            Source::Entry { .. } => None,
         }))
 }
 

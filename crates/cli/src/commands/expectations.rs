@@ -159,7 +159,7 @@ fn import(arguments: &ImportArguments) -> Result<u8, Failure> {
 /// Returns the entries of a list.
 fn list(path: &Path) -> Result<Vec<Entry>, Failure> {
     let known = Expectations::read(path).map_err(Failure::usage)?;
-    let entries: Vec<Entry> = known.entries().into_iter().cloned().collect();
+    let entries = known.entries();
     if path.is_dir() || entries.len() < known.all().len() {
         return Err(Failure::usage(format!(
             "{} holds findings; name a list of expectations to add to",

@@ -27,7 +27,7 @@ fn findings() -> Vec<(String, Finding)> {
             panic!("{}: no finding", known.place());
         };
         let name = known.path.file_stem().unwrap().to_str().unwrap();
-        (name.to_owned(), finding.clone())
+        (name.to_owned(), Finding::clone(finding))
     });
     each.collect()
 }
