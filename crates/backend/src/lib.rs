@@ -30,37 +30,11 @@ pub use recording::{
     RecordedCounter, RecordedImage, Recording, VulkanNeeds,
 };
 
-use etalon_frame::{DeviceOffer, ErrorKind, Frame, Limits, Requirement};
+use etalon_frame::{AdapterInfo, ErrorKind, Frame, Limits, Requirement};
 use etalon_scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 use thiserror::Error;
-
-/// The identity of an adapter.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct AdapterInfo {
-    /// The adapter's name: `vulkan:lavapipe`, `gl:es:softpipe`, `cpu`.
-    pub name: String,
-    /// The backend: `cpu`, `vulkan`, `gl`, `wgpu`.
-    pub backend: String,
-    /// The device's name, as the driver reports it.
-    pub device: String,
-    /// The driver's name, as it reports itself.
-    pub driver: String,
-    /// The driver's version, if it reports one.
-    pub driver_version: String,
-    /// The driver's identity for programs: `VkDriverId` and PCI ids in Vulkan. Empty if the API reports none.
-    #[serde(default)]
-    pub driver_id: String,
-    /// The API's version.
-    pub api_version: String,
-    /// True for a software rasterizer.
-    pub software: bool,
-    /// What the device offers, in backend `webgpu`.
-    #[serde(default)]
-    pub offer: Option<DeviceOffer>,
-}
 
 /// An open connection to one driver.
 pub trait Backend {

@@ -3,10 +3,8 @@
 use crate::browser::Browser;
 use crate::server::Server;
 use crate::session::Session;
-use etalon_backend::{
-    AdapterInfo, Backend, BackendError, Fault, FrameTime, Prepared, Recording, Unavailable,
-};
-use etalon_frame::{Frame, Limits};
+use etalon_backend::{Backend, BackendError, Fault, FrameTime, Prepared, Recording, Unavailable};
+use etalon_frame::{AdapterInfo, Frame, Limits};
 use etalon_keeper::{Kept, token};
 use etalon_scene::Scene;
 use etalon_webgpu::message::{Request, Times, take_contents};

@@ -1,7 +1,7 @@
 //! The report that goes with a program. It answers a maintainer's first questions.
 
 use crate::language::Language;
-use etalon_backend::AdapterInfo;
+use etalon_frame::AdapterInfo;
 use std::fmt::Write;
 
 /// The facts of a report.

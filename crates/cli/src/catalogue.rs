@@ -31,7 +31,7 @@ impl Pictures {
     /// Takes the picture if the rasterizer drew it, without a planted fault.
     pub(crate) fn take(&self, adapter: &AdapterRecord, case: &Case, frame: &Frame) {
         // A file of adapters may give the name to any driver.
-        let is_reference = adapter.name == "cpu" && adapter.backend == "cpu";
+        let is_reference = adapter.info.name == "cpu" && adapter.info.backend == "cpu";
         if is_reference && !is_large(case) {
             let uri = self.uri(frame);
             let mut taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
@@ -58,7 +58,7 @@ impl Pictures {
 /// Returns true if a run draws built-in cases: the case files of a `--cases` folder need not be there any more.
 pub(crate) fn draws_built_in(header: &Header) -> bool {
     let names_folder = |word: &String| word == "--cases" || word.starts_with("--cases=");
-    !header.command.iter().any(names_folder)
+    !header.provenance.command.iter().any(names_folder)
 }
 
 /// Returns the catalogue of a recorded run's cases, from the built-in case files or those of a folder.
@@ -131,19 +131,17 @@ pub(crate) fn drawn(case: &Case) -> Option<Frame> {
 mod tests {
     use super::*;
     use etalon_case::Profile;
+    use etalon_frame::AdapterInfo;
 
     fn adapter(name: &str, backend: &str) -> AdapterRecord {
         AdapterRecord {
-            name: name.to_owned(),
-            backend: backend.to_owned(),
-            device: String::new(),
-            driver: String::new(),
-            driver_version: String::new(),
-            driver_id: String::new(),
-            api_version: String::new(),
-            software: true,
+            info: AdapterInfo {
+                name: name.to_owned(),
+                backend: backend.to_owned(),
+                software: true,
+                ..AdapterInfo::default()
+            },
             release: None,
-            offer: None,
             limits: CpuBackend::new("cpu").limits().clone(),
         }
     }

@@ -48,17 +48,17 @@ impl Looks<'_> {
         for adapter in &run.header.adapters {
             let seen = self.seen(&run.records, adapter);
             let of_adapter = |r: &&mut Record| {
-                r.adapter == adapter.name && r.unexpected() && r.verdict.is_violation()
+                r.adapter == adapter.info.name && r.unexpected() && r.verdict.is_violation()
             };
             let failing: Vec<&mut Record> = run.records.iter_mut().filter(of_adapter).collect();
             let mut launches = self.launches.iter();
-            if let Some(launch) = launches.find(|launch| launch.adapter == adapter.name)
+            if let Some(launch) = launches.find(|launch| launch.adapter == adapter.info.name)
                 && !failing.is_empty()
             {
                 let count = failing.len();
                 say!(
                     "{}: failures to compare with findings: {count}",
-                    adapter.name
+                    adapter.info.name
                 );
                 self.mark_all(failing, &cases, adapter, &seen, launch, built_in)?;
             }
@@ -69,9 +69,9 @@ impl Looks<'_> {
 
     /// Returns the names of the findings that records of an adapter show.
     fn seen(&self, records: &[Record], adapter: &AdapterRecord) -> BTreeSet<String> {
-        let records = records
-            .iter()
-            .filter(|r| r.adapter == adapter.name && r.verdict.is_bad() && r.expected.is_some());
+        let records = records.iter().filter(|r| {
+            r.adapter == adapter.info.name && r.verdict.is_bad() && r.expected.is_some()
+        });
         let names = records.filter_map(|record| {
             let shown = record.shown();
             match self
@@ -112,7 +112,7 @@ impl Looks<'_> {
         let numbers = numbers.collect::<Result<Vec<usize>, Failure>>()?;
         let mut bugs = known_bugs(self.expectations, adapter, built_in, reducer())?;
         let mut matches: Vec<Option<Match>> = Vec::new();
-        let name = &adapter.name;
+        let name = &adapter.info.name;
         for group in groups.iter_mut() {
             if let Some(case) = group.scene.take() {
                 let steady = confirm(launch, &case, &group.symptom, self.timeout);

@@ -1,15 +1,19 @@
 //! The origin of records: version, commit, machine, time and command.
 
 use crate::processors::processors;
-use etalon_record::Machine;
+use etalon_record::{Machine, Provenance};
 use std::time::SystemTime;
 
-/// The version of the suite.
-pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
-
-/// Returns the commit that the binary was built from, if it is known.
-pub(crate) fn commit() -> Option<String> {
-    option_env!("ETALON_COMMIT").map(str::to_owned)
+/// Returns the origin of what this process begins to record now.
+pub(crate) fn here() -> Provenance {
+    Provenance {
+        etalon: env!("CARGO_PKG_VERSION").to_owned(),
+        // Set by the build script if the commit is known.
+        commit: option_env!("ETALON_COMMIT").map(str::to_owned),
+        machine: machine(),
+        started: now(),
+        command: command(),
+    }
 }
 
 /// Returns the current time in UTC, such as `2027-01-31T12:00:00Z`.

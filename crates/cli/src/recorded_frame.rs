@@ -79,7 +79,7 @@ pub(crate) fn recorded_frame(
         counters: record.counters.iter().map(|c| c.actual).collect(),
     };
     Ok(RecordedFrame {
-        machine: recorded.header.machine.clone(),
+        machine: recorded.header.provenance.machine.clone(),
         adapter: adapter.clone(),
         frame,
     })

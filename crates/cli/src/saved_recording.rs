@@ -10,7 +10,7 @@ use etalon_webgpu::{adapter, lower, plant, recording};
 /// # Errors
 /// If the run does not state what the device offers, or the device cannot draw the scene.
 pub(crate) fn saved_recording(adapter: &AdapterRecord, scene: &Scene) -> Result<Recording, String> {
-    let Some(offer) = &adapter.offer else {
+    let Some(offer) = &adapter.info.offer else {
         return Err(
             "the run does not state what the device offers, so the calls are unknown; \
              `etalon bundle` without --run draws the case"
@@ -19,8 +19,14 @@ pub(crate) fn saved_recording(adapter: &AdapterRecord, scene: &Scene) -> Result<
     };
     let device = adapter::device(offer)?;
     let mut list = lower(&device, scene).map_err(|missing| missing.to_string())?;
-    if let Some((_, Fault::Call(fault))) = Fault::in_name(&adapter.name) {
+    if let Some((_, Fault::Call(fault))) = Fault::in_name(&adapter.info.name) {
         plant(fault, &mut list);
     }
-    recording(&list, "webgpu", &adapter.device, offer.features.clone()).map_err(|e| e.to_string())
+    recording(
+        &list,
+        "webgpu",
+        &adapter.info.device,
+        offer.features.clone(),
+    )
+    .map_err(|e| e.to_string())
 }

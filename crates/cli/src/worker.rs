@@ -258,7 +258,7 @@ fn browser(what: &Open) -> Result<Box<dyn Backend>, Unavailable> {
 
 /// Returns the hardware devices; software drivers are described in the data file.
 fn enumerate(backend: BackendName) -> Result<Vec<HardwareDevice>, Unavailable> {
-    let infos = |found: Vec<etalon_backend::AdapterInfo>| {
+    let infos = |found: Vec<etalon_frame::AdapterInfo>| {
         found
             .into_iter()
             .enumerate()

@@ -7,8 +7,8 @@
 use crate::checks::Check;
 use crate::known::Known;
 use crate::subject::CheckResult;
-use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared};
-use etalon_frame::Limits;
+use etalon_backend::{Backend, BackendError, Prepared};
+use etalon_frame::{AdapterInfo, Limits};
 use etalon_scene::Scene;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 

@@ -1,8 +1,8 @@
 //! An open backend under test: draws scenes, and records the scenes that its limits deny.
 
 use crate::scenes::scene;
-use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared};
-use etalon_frame::{Feature, Frame, Limits, PathValue, Requirement};
+use etalon_backend::{Backend, BackendError, Prepared};
+use etalon_frame::{AdapterInfo, Feature, Frame, Limits, PathValue, Requirement};
 use etalon_scene::Scene;
 use serde_json::Value;
 use std::cell::{Cell, RefCell};

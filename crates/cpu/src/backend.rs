@@ -13,10 +13,10 @@ use crate::raster::SAMPLES;
 use crate::steps::Faithful;
 use crate::surface::depth_encoding;
 use crate::tiles::{KernelPlan, Machine, TiledScene, lines};
-use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared};
+use etalon_backend::{Backend, BackendError, Prepared};
 use etalon_frame::{
-    Api, ApiVersion, Feature, FormatSupport, Limits, PathValue, Property, ReadPath, TextureFormat,
-    standard_sample_positions,
+    AdapterInfo, Api, ApiVersion, Feature, FormatSupport, Limits, PathValue, Property, ReadPath,
+    TextureFormat, standard_sample_positions,
 };
 use etalon_scene::Scene;
 use std::collections::BTreeSet;

@@ -125,14 +125,15 @@ fn entry(
         adapter: etalon_glob::escape(&record.adapter),
         driver: etalon_glob::escape(&adapter.driver_text()),
         // A browser is the driver by name, and the device below it is another's.
-        device: (adapter.backend == "webgpu").then(|| etalon_glob::escape(&adapter.device)),
+        device: (adapter.info.backend == "webgpu")
+            .then(|| etalon_glob::escape(&adapter.info.device)),
         version: version_of(adapter).map(|v| format!("={v}")),
         case: etalon_glob::escape(&record.case),
         verdict: record.verdict,
         reason: format!("Not explained yet; blessed on {today}."),
         evidence: format!(
             "The run of {}: {}: {seen}",
-            run.header.started, record.verdict
+            run.header.provenance.started, record.verdict
         ),
         grade: Some(Grade::Unread),
         link: None,
@@ -244,7 +245,8 @@ fn slug(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etalon_record::Header;
+    use etalon_frame::AdapterInfo;
+    use etalon_record::{Header, Provenance};
     use std::path::Path;
 
     fn run(verdicts: &[(&str, Verdict)], expectations: &Expectations) -> Run {
@@ -265,7 +267,10 @@ mod tests {
             beside: Vec::new(),
             truncated: false,
             header: Header {
-                started: "2026-01-01T00:00:00Z".to_owned(),
+                provenance: Provenance {
+                    started: "2026-01-01T00:00:00Z".to_owned(),
+                    ..Provenance::default()
+                },
                 ..Header::new(vec![adapter], verdicts.len() as u64)
             },
         }
@@ -319,7 +324,10 @@ mod tests {
         assert!(agrees("a/x=*") && agrees("a/z"));
         assert!(!agrees("a/x=1"), "a star in an id is no glob");
         let other = AdapterRecord {
-            driver_version: "Mesa 25.1".to_owned(),
+            info: AdapterInfo {
+                driver_version: "Mesa 25.1".to_owned(),
+                ..adapter.info.clone()
+            },
             ..adapter.clone()
         };
         let found = after.look_up(&other, "a/x=*", Verdict::Fail);

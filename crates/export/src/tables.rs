@@ -106,8 +106,8 @@ fn shared(history: &History, run: &RunInfo, adapter: &AdapterRun) -> [ByteArray;
         run.commit.clone().unwrap_or_default(),
         machine.unwrap_or_default(),
         labels,
-        adapter.adapter.name.clone(),
-        adapter.adapter.driver.clone(),
+        adapter.adapter.info.name.clone(),
+        adapter.adapter.info.driver.clone(),
         adapter.adapter.shown_version().to_owned(),
     ]
     .map(|text| text.into_bytes().into())

@@ -11,6 +11,7 @@
 )]
 
 mod accuracy;
+mod adapter_info;
 mod adapter_name;
 mod api;
 mod band;
@@ -44,6 +45,7 @@ mod version;
 mod work;
 
 pub use accuracy::Accuracy;
+pub use adapter_info::AdapterInfo;
 pub use adapter_name::AdapterName;
 pub use api::Api;
 pub use band::Band;

@@ -10,8 +10,8 @@ use crate::prepared::PreparedScene;
 use crate::probe::Probed;
 use crate::recording;
 use crate::state;
-use etalon_backend::{AdapterInfo, Backend, BackendError, Prepared, Recording, Unavailable};
-use etalon_frame::{Api, ApiVersion, Limits, Property, standard_sample_positions};
+use etalon_backend::{Backend, BackendError, Prepared, Recording, Unavailable};
+use etalon_frame::{AdapterInfo, Api, ApiVersion, Limits, Property, standard_sample_positions};
 use etalon_scene::Scene;
 use glow::HasContext;
 

@@ -12,7 +12,7 @@
     reason = "an example may end when something fails"
 )]
 
-use etalon_frame::{Aspect, TexelCounts};
+use etalon_frame::{AdapterInfo, Aspect, TexelCounts};
 use etalon_history::{
     Adapter, Added, Asserted, FrameTimes, History, HistoryError, Kind, Labels, Measures,
     MethodMeasures, NewAdapter, NewRun, Outcome, Writer, parse_time,
@@ -251,14 +251,16 @@ impl Matrix {
             let mut random = Rand64::new(self.random.rand_u64().into());
             let driver = &self.drivers[d];
             let mut made = NewAdapter::new(Adapter {
-                name: driver.name.clone(),
-                backend: driver.name.split(':').next().unwrap_or_default().to_owned(),
-                device: "a device".to_owned(),
-                driver: "a driver".to_owned(),
-                driver_version: format!("{}.0.{}", driver.version / 10, driver.version % 10),
-                driver_id: String::new(),
-                api_version: "1.3".to_owned(),
-                software: true,
+                info: AdapterInfo {
+                    name: driver.name.clone(),
+                    backend: driver.name.split(':').next().unwrap_or_default().to_owned(),
+                    device: "a device".to_owned(),
+                    driver: "a driver".to_owned(),
+                    driver_version: format!("{}.0.{}", driver.version / 10, driver.version % 10),
+                    api_version: "1.3".to_owned(),
+                    software: true,
+                    ..AdapterInfo::default()
+                },
                 line: String::new(),
                 version: String::new(),
             });

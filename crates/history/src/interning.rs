@@ -22,14 +22,14 @@ pub(crate) fn machine(connection: &Connection, machine: &Machine) -> rusqlite::R
 /// Returns the number of an adapter as a run found it.
 pub(crate) fn adapter(connection: &Connection, adapter: &Adapter) -> rusqlite::Result<u32> {
     let values = params![
-        adapter.name,
-        adapter.backend,
-        adapter.device,
-        adapter.driver,
-        adapter.driver_version,
-        adapter.driver_id,
-        adapter.api_version,
-        adapter.software,
+        adapter.info.name,
+        adapter.info.backend,
+        adapter.info.device,
+        adapter.info.driver,
+        adapter.info.driver_version,
+        adapter.info.driver_id,
+        adapter.info.api_version,
+        adapter.info.software,
         adapter.line,
         adapter.version
     ];

@@ -58,7 +58,7 @@ impl NewAdapter {
     /// Returns an adapter without records, whose timeline has the adapter's name.
     pub fn new(adapter: Adapter) -> Self {
         Self {
-            timeline: adapter.name.clone(),
+            timeline: adapter.info.name.clone(),
             adapter,
             outcomes: BTreeMap::new(),
             times: BTreeMap::new(),

@@ -3,6 +3,7 @@
 use crate::adapter::Adapter;
 use crate::error::HistoryError;
 use crate::outcome::Outcome;
+use etalon_frame::AdapterInfo;
 use etalon_record::Verdict;
 use rusqlite::Row;
 use std::path::Path;
@@ -19,14 +20,17 @@ pub(crate) fn verdict(path: &Path, name: &str) -> Result<Verdict, HistoryError> 
 /// api_version, software, line, version`, starting at column `from`.
 pub(crate) fn adapter(row: &Row<'_>, from: usize) -> rusqlite::Result<Adapter> {
     Ok(Adapter {
-        name: row.get(from)?,
-        backend: row.get(from + 1)?,
-        device: row.get(from + 2)?,
-        driver: row.get(from + 3)?,
-        driver_version: row.get(from + 4)?,
-        driver_id: row.get(from + 5)?,
-        api_version: row.get(from + 6)?,
-        software: row.get(from + 7)?,
+        info: AdapterInfo {
+            name: row.get(from)?,
+            backend: row.get(from + 1)?,
+            device: row.get(from + 2)?,
+            driver: row.get(from + 3)?,
+            driver_version: row.get(from + 4)?,
+            driver_id: row.get(from + 5)?,
+            api_version: row.get(from + 6)?,
+            software: row.get(from + 7)?,
+            offer: None,
+        },
         line: row.get(from + 8)?,
         version: row.get(from + 9)?,
     })

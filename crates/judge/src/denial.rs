@@ -29,7 +29,7 @@ pub fn denials(adapter: &AdapterRecord, expectations: &Expectations) -> Vec<Reco
     });
     let checked = denying.filter(|(case, _)| expectations.skips(adapter, &case.id).is_none());
     let records = checked.map(|(case, _)| {
-        let mut record = Record::new(&case.id, &adapter.name, Verdict::NotSupported);
+        let mut record = Record::new(&case.id, &adapter.info.name, Verdict::NotSupported);
         note_requirement(&mut record, case, limits);
         record.expect(expectations, adapter);
         record
@@ -72,7 +72,7 @@ pub(crate) fn note_denial(
     record.blocked_by = failing.iter().flatten().map(|c| c.id.clone()).collect();
     let reasons = failing.iter().map(|failing| {
         let case = (*failing)?;
-        let mut failed = Record::new(&case.id, &adapter.name, Verdict::NotSupported);
+        let mut failed = Record::new(&case.id, &adapter.info.name, Verdict::NotSupported);
         note_requirement(&mut failed, case, limits);
         failed.expect(expectations, adapter);
         Some(format!("{}: {}", case.id, failed.expected?.reason))
@@ -109,7 +109,7 @@ mod tests {
     use super::*;
     use etalon_backend::Backend;
     use etalon_cpu::CpuBackend;
-    use etalon_frame::{Api, ApiVersion, Feature};
+    use etalon_frame::{AdapterInfo, Api, ApiVersion, Feature};
     use std::path::Path;
 
     /// An adapter of OpenGL 3.3 with one sample.
@@ -120,16 +120,13 @@ mod tests {
             support.samples.retain(|n| *n == 1);
         }
         AdapterRecord {
-            name: "gl:test".to_owned(),
-            backend: "gl".to_owned(),
-            device: String::new(),
-            driver: String::new(),
-            driver_version: String::new(),
-            driver_id: String::new(),
-            api_version: String::new(),
-            software: true,
+            info: AdapterInfo {
+                name: "gl:test".to_owned(),
+                backend: "gl".to_owned(),
+                software: true,
+                ..AdapterInfo::default()
+            },
             release: None,
-            offer: None,
             limits,
         }
     }
@@ -141,7 +138,7 @@ mod tests {
             .and_then(|case| case.build().ok())
             .expect("a case");
         let expectations = Expectations::parse(expectations, Path::new("e.json"));
-        let mut record = Record::new(&case.id, &adapter.name, Verdict::NotSupported);
+        let mut record = Record::new(&case.id, &adapter.info.name, Verdict::NotSupported);
         note_denial(
             &mut record,
             &case,

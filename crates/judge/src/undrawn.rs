@@ -16,14 +16,14 @@ pub fn undrawn(
     round_trips: Option<&RoundTrips>,
 ) -> Option<Record> {
     let mut record = if let Some(entry) = expectations.skips(adapter, &case.id) {
-        let mut record = Record::new(&case.id, &adapter.name, Verdict::Skipped);
+        let mut record = Record::new(&case.id, &adapter.info.name, Verdict::Skipped);
         record.expected = Some(Expected {
             reason: entry.reason.clone(),
         });
         record.reasons = vec![Reason::Skipped(entry.reason.clone())];
         record
     } else if let Some(missing) = adapter.limits.missing(&case.requirements()) {
-        let mut record = Record::new(&case.id, &adapter.name, Verdict::NotSupported);
+        let mut record = Record::new(&case.id, &adapter.info.name, Verdict::NotSupported);
         record.reasons = vec![Reason::Missing(missing)];
         if case.is_requirement() {
             note_requirement(&mut record, case, &adapter.limits);
@@ -33,7 +33,7 @@ pub fn undrawn(
         record
     } else {
         let blocked = round_trips?.blocks(case)?;
-        let mut record = Record::new(&case.id, &adapter.name, Verdict::Blocked);
+        let mut record = Record::new(&case.id, &adapter.info.name, Verdict::Blocked);
         record.reasons = vec![blocked.reason];
         record.blocked_by = blocked.by;
         record.expected = blocked.expected.map(|reason| Expected { reason });

@@ -3,10 +3,10 @@
 use super::mutant::Mutant;
 use super::plant::{Plant, all_draws};
 use crate::mutants;
-use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
+use etalon_backend::{Backend, BackendError, FrameTime, Prepared};
 use etalon_cpu::steps::Faithful;
 use etalon_cpu::{CpuBackend, PreparedScene};
-use etalon_frame::{Frame, Limits};
+use etalon_frame::{AdapterInfo, Frame, Limits};
 use etalon_scene::{RESTART, Scene};
 use std::cell::RefCell;
 

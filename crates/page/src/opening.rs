@@ -2,11 +2,10 @@
 
 use crate::message::{Opened, Opening};
 use crate::session::Session;
-use etalon_backend::{AdapterInfo, Fault};
+use etalon_backend::Fault;
 use etalon_case::{Case, CaseRef, Library, Profile, left_out, select};
-use etalon_frame::Limits;
 use etalon_judge::{pictured, round_trips};
-use etalon_record::{AdapterRecord, Header, Settings, header_line, selection_digest};
+use etalon_record::{AdapterRecord, Header, Provenance, Settings, header_line, selection_digest};
 use etalon_webgpu::adapter;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
@@ -75,20 +74,28 @@ pub(crate) fn open(opening: Opening) -> Result<(Session, Opened), String> {
     let name = name_of(&opening.hello.browser.name, &opening.fault);
     let device = adapter::device(&opening.hello.offer)?;
     let info = adapter::info(&name, &opening.hello);
-    let record = record_of(&info, &device.limits);
+    let record = AdapterRecord {
+        info: info.clone(),
+        release: None,
+        limits: device.limits.clone(),
+    };
     let left_out = left_out(library, profile, &opening.globs, &ids).map_err(|e| e.to_string())?;
-    let mut header = Header::new(vec![record.clone()], ids.len() as u64);
-    env!("CARGO_PKG_VERSION").clone_into(&mut header.etalon);
-    header.commit = option_env!("ETALON_COMMIT").map(str::to_owned);
-    header.machine = opening.machine;
-    header.started.clone_from(&opening.started);
-    header.command = opening.command;
-    header.settings = Settings {
-        selection: selection_digest(ids.iter().map(String::as_str)),
-        profile: Some(opening.profile),
-        left_out: Some(left_out),
-        timeout: Some(TIMEOUT),
-        ..Settings::default()
+    let header = Header {
+        provenance: Provenance {
+            etalon: env!("CARGO_PKG_VERSION").to_owned(),
+            commit: option_env!("ETALON_COMMIT").map(str::to_owned),
+            machine: opening.machine,
+            started: opening.started.clone(),
+            command: opening.command,
+        },
+        settings: Settings {
+            selection: selection_digest(ids.iter().map(String::as_str)),
+            profile: Some(opening.profile),
+            left_out: Some(left_out),
+            timeout: Some(TIMEOUT),
+            ..Settings::default()
+        },
+        ..Header::new(vec![record.clone()], ids.len() as u64)
     };
     let line = header_line(&header).map_err(|error| error.to_string())?;
     let opened = Opened {
@@ -107,7 +114,7 @@ pub(crate) fn open(opening: Opening) -> Result<(Session, Opened), String> {
     let today: String = opening.started.chars().take(10).collect();
     let expectations = etalon_findings::findings().map_err(|error| error.to_string())?;
     let expectations = expectations
-        .of_run(&header.machine.cpu, &[])
+        .of_run(&header.provenance.machine.cpu, &[])
         .on(&today)
         .about(&record);
     Ok((
@@ -141,22 +148,6 @@ fn name_of(browser: &str, fault: &str) -> String {
     match fault {
         "" => name,
         fault => format!("{name}:{fault}"),
-    }
-}
-
-fn record_of(info: &AdapterInfo, limits: &Limits) -> AdapterRecord {
-    AdapterRecord {
-        name: info.name.clone(),
-        backend: info.backend.clone(),
-        device: info.device.clone(),
-        driver: info.driver.clone(),
-        driver_version: info.driver_version.clone(),
-        driver_id: info.driver_id.clone(),
-        api_version: info.api_version.clone(),
-        software: info.software,
-        release: None,
-        offer: info.offer.clone(),
-        limits: limits.clone(),
     }
 }
 

@@ -134,7 +134,7 @@ impl Session {
                 Ok(step)
             }
             Err(error) => {
-                let mut record = failed(&case, &self.adapter.name, &error);
+                let mut record = failed(&case, &self.adapter.info.name, &error);
                 record.due_fail = is_due_to_fail(&case, &self.adapter.limits);
                 self.recorded(number, Observation::of(record))
             }
@@ -307,7 +307,7 @@ impl Session {
         } = pending;
         let adapter = &self.adapter;
         let mut observed = if drawn.timeout {
-            let mut record = Record::new(&case.id, &adapter.name, Verdict::Timeout);
+            let mut record = Record::new(&case.id, &adapter.info.name, Verdict::Timeout);
             record.reasons = vec![NO_ANSWER];
             Observation {
                 ends_device: true,
@@ -316,8 +316,13 @@ impl Session {
         } else {
             match draw.frames(answers, self.fault) {
                 Ok(frames) => {
-                    let Judged { record, frame } =
-                        judge.judge(drawn.number, case, &adapter.name, &adapter.limits, &frames);
+                    let Judged { record, frame } = judge.judge(
+                        drawn.number,
+                        case,
+                        &adapter.info.name,
+                        &adapter.limits,
+                        &frames,
+                    );
                     let mut observed = Observation {
                         frame,
                         ..Observation::of(record)
@@ -329,7 +334,7 @@ impl Session {
                 }
                 Err(error) => Observation {
                     ends_device: error.ends_drawing(),
-                    ..Observation::of(failed(case, &adapter.name, &error))
+                    ..Observation::of(failed(case, &adapter.info.name, &error))
                 },
             }
         };

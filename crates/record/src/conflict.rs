@@ -16,14 +16,14 @@ impl Header {
         let text = |n: Option<u64>| n.map_or_else(|| "none".to_owned(), |n| n.to_string());
         differ(
             "the version of etalon",
-            self.etalon.clone(),
-            other.etalon.clone(),
+            self.provenance.etalon.clone(),
+            other.provenance.etalon.clone(),
         )
         .or_else(|| {
             differ(
                 "the commit of etalon",
-                self.commit.clone().unwrap_or_default(),
-                other.commit.clone().unwrap_or_default(),
+                self.provenance.commit.clone().unwrap_or_default(),
+                other.provenance.commit.clone().unwrap_or_default(),
             )
         })
         .or_else(|| {
@@ -50,16 +50,24 @@ impl AdapterRecord {
     /// Returns the first difference from another adapter with the same name; `None` if it is the same
     /// driver.
     pub fn conflict(&self, other: &Self) -> Option<String> {
-        let who = |a: &Self| format!("{}, {}, {}", a.device, a.driver_text(), a.api_version);
+        let who = |a: &Self| {
+            format!(
+                "{}, {}, {}",
+                a.info.device,
+                a.driver_text(),
+                a.info.api_version
+            )
+        };
         if who(self) != who(other) {
             return Some(format!(
                 "{} was {} there and is {} here",
-                self.name,
+                self.info.name,
                 who(self),
                 who(other)
             ));
         }
-        (self.limits != other.limits).then(|| format!("the limits of {} have changed", self.name))
+        (self.limits != other.limits)
+            .then(|| format!("the limits of {} have changed", self.info.name))
     }
 }
 
@@ -83,47 +91,52 @@ pub(crate) fn bench_conflict(there: &BenchHeader, here: &BenchHeader) -> Option<
             .within
             .map_or("none".to_owned(), |share| share.to_string())
     };
-    let commit = |h: &BenchHeader| h.commit.clone().unwrap_or_default();
-    let names =
-        |h: &BenchHeader| -> Vec<String> { h.adapters.iter().map(|a| a.name.clone()).collect() };
-    differ("the version of etalon", &there.etalon, &here.etalon)
-        .or_else(|| differ("the commit of etalon", &commit(there), &commit(here)))
-        .or_else(|| {
-            let (a, b) = (&there.settings.selection, &here.settings.selection);
-            differ("the selection of cases", a, b)
-        })
-        .or_else(|| differ("the shard", &shard(there), &shard(here)))
-        .or_else(|| {
-            differ(
-                "--rounds",
-                &there.rounds.to_string(),
-                &here.rounds.to_string(),
-            )
-        })
-        .or_else(|| differ("--seconds", &seconds(there), &seconds(here)))
-        .or_else(|| differ("--within", &within(there), &within(here)))
-        .or_else(|| {
-            differ(
-                "the shader cache",
-                there.shader_cache.name(),
-                here.shader_cache.name(),
-            )
-        })
-        .or_else(|| differ("the ruler", &there.ruler, &here.ruler))
-        .or_else(|| {
-            differ(
-                "the list of adapters",
-                &names(there).join(", "),
-                &names(here).join(", "),
-            )
-        })
-        .or_else(|| {
-            there
-                .adapters
-                .iter()
-                .zip(&here.adapters)
-                .find_map(|(a, b)| a.conflict(b))
-        })
+    let commit = |h: &BenchHeader| h.provenance.commit.clone().unwrap_or_default();
+    let names = |h: &BenchHeader| -> Vec<String> {
+        h.adapters.iter().map(|a| a.info.name.clone()).collect()
+    };
+    differ(
+        "the version of etalon",
+        &there.provenance.etalon,
+        &here.provenance.etalon,
+    )
+    .or_else(|| differ("the commit of etalon", &commit(there), &commit(here)))
+    .or_else(|| {
+        let (a, b) = (&there.settings.selection, &here.settings.selection);
+        differ("the selection of cases", a, b)
+    })
+    .or_else(|| differ("the shard", &shard(there), &shard(here)))
+    .or_else(|| {
+        differ(
+            "--rounds",
+            &there.rounds.to_string(),
+            &here.rounds.to_string(),
+        )
+    })
+    .or_else(|| differ("--seconds", &seconds(there), &seconds(here)))
+    .or_else(|| differ("--within", &within(there), &within(here)))
+    .or_else(|| {
+        differ(
+            "the shader cache",
+            there.shader_cache.name(),
+            here.shader_cache.name(),
+        )
+    })
+    .or_else(|| differ("the ruler", &there.ruler, &here.ruler))
+    .or_else(|| {
+        differ(
+            "the list of adapters",
+            &names(there).join(", "),
+            &names(here).join(", "),
+        )
+    })
+    .or_else(|| {
+        there
+            .adapters
+            .iter()
+            .zip(&here.adapters)
+            .find_map(|(a, b)| a.conflict(b))
+    })
 }
 
 /// Returns the first difference that prevents resuming the run of one header with the other, if any.
@@ -143,8 +156,8 @@ pub(crate) fn resume_conflict(there: &Header, here: &Header) -> Option<String> {
         return Some(format!("it is {} and not {}", shard(there), shard(here)));
     }
     for adapter in &there.adapters {
-        match here.adapter(&adapter.name) {
-            None => return Some(format!("{} was there and is not here", adapter.name)),
+        match here.adapter(&adapter.info.name) {
+            None => return Some(format!("{} was there and is not here", adapter.info.name)),
             Some(now) => {
                 if let Some(conflict) = adapter.conflict(now) {
                     return Some(conflict);
@@ -153,7 +166,7 @@ pub(crate) fn resume_conflict(there: &Header, here: &Header) -> Option<String> {
         }
     }
     let new = here.adapters.iter();
-    new.map(|a| &a.name)
+    new.map(|a| &a.info.name)
         .find(|name| there.adapter(name).is_none())
         .map(|name| format!("{name} is here and was not there"))
 }

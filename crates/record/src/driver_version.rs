@@ -8,7 +8,7 @@ use semver::Version;
 pub fn version_of(adapter: &AdapterRecord) -> Option<Version> {
     match &adapter.release {
         Some(release) => release_version(&release.version),
-        None => driver_version(&adapter.driver_version),
+        None => driver_version(&adapter.info.driver_version),
     }
 }
 

@@ -46,9 +46,9 @@ impl EntryGlobs {
     fn match_adapter(&self, adapter: &AdapterRecord) -> bool {
         let named = |name: &str| self.adapters.iter().any(|g| g.is_match(name));
         self.applies
-            && (named(&adapter.name) || named(adapter.without_release()))
+            && (named(&adapter.info.name) || named(adapter.without_release()))
             && self.driver.is_match(&adapter.driver_text())
-            && matches_if_given(self.device.as_ref(), &adapter.device)
+            && matches_if_given(self.device.as_ref(), &adapter.info.device)
             && self.version.as_ref().is_none_or(|range| {
                 version_of(adapter).is_some_and(|version| range.matches(&version))
             })
@@ -97,7 +97,7 @@ impl Expectations {
             all,
             globs,
             index,
-            only: Some(adapter.name.clone()),
+            only: Some(adapter.info.name.clone()),
             today: self.today.clone(),
         }
     }
@@ -169,7 +169,7 @@ impl Expectations {
         adapter: &'a AdapterRecord,
         case: &'a str,
     ) -> impl Iterator<Item = usize> + use<'e, 'a> {
-        let is_only = self.only.as_ref() == Some(&adapter.name);
+        let is_only = self.only.as_ref() == Some(&adapter.info.name);
         let named = self.naming(case).into_iter();
         named.filter(move |number| is_only || self.globs[*number].match_adapter(adapter))
     }
@@ -291,21 +291,20 @@ impl Expectations {
 mod tests {
     use super::*;
     use crate::adapter::Release;
-    use etalon_frame::{Api, Limits};
+    use etalon_frame::{AdapterInfo, Api, Limits};
     use std::path::Path;
 
     fn adapter(name: &str, driver: &str, version: &str) -> AdapterRecord {
         AdapterRecord {
-            name: name.to_owned(),
-            backend: "gl".to_owned(),
-            device: String::new(),
-            driver: driver.to_owned(),
-            driver_version: version.to_owned(),
-            driver_id: String::new(),
-            api_version: String::new(),
-            software: true,
+            info: AdapterInfo {
+                name: name.to_owned(),
+                backend: "gl".to_owned(),
+                driver: driver.to_owned(),
+                driver_version: version.to_owned(),
+                software: true,
+                ..AdapterInfo::default()
+            },
             release: None,
-            offer: None,
             limits: Limits {
                 api: Api::OpenGl,
                 version: etalon_frame::ApiVersion::UNKNOWN,
@@ -403,7 +402,7 @@ mod tests {
         let software = one(r#", "device": "a software rasterizer*""#, "fail");
         let found = |device: &str| {
             let mut adapter = adapter("webgpu:firefox", "Firefox", "153.0");
-            device.clone_into(&mut adapter.device);
+            device.clone_into(&mut adapter.info.device);
             software.look_up(&adapter, "a/b", Verdict::Fail) != Expectation::None
         };
         assert!(found("a software rasterizer without a name"));

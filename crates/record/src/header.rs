@@ -1,7 +1,7 @@
 //! The first line of a run.
 
 use crate::adapter::{AbsentAdapter, AdapterRecord};
-use crate::machine::Machine;
+use crate::provenance::Provenance;
 use crate::shader_cache::ShaderCache;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -18,17 +18,9 @@ pub const FORMAT: u32 = 6;
 pub struct Header {
     /// The format of the run folder: [`FORMAT`].
     pub format: u32,
-    /// The suite's version.
-    pub etalon: String,
-    /// The commit that the suite was built from, if known.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub commit: Option<String>,
-    /// The machine.
-    pub machine: Machine,
-    /// When the run began, RFC 3339 in UTC.
-    pub started: String,
-    /// The command line, program first.
-    pub command: Vec<String>,
+    /// The suite, machine, time and command.
+    #[serde(flatten)]
+    pub provenance: Provenance,
     /// The number of selected cases; a complete run has one record per case and adapter.
     pub cases: u64,
     /// The settings that the cases were drawn with.
@@ -45,11 +37,7 @@ impl Header {
     pub fn new(adapters: Vec<AdapterRecord>, cases: u64) -> Self {
         Self {
             format: FORMAT,
-            etalon: String::new(),
-            commit: None,
-            machine: Machine::default(),
-            started: String::new(),
-            command: Vec::new(),
+            provenance: Provenance::default(),
             cases,
             settings: Settings::default(),
             adapters,
@@ -64,7 +52,7 @@ impl Header {
 
     /// Returns the adapter with this name.
     pub fn adapter(&self, name: &str) -> Option<&AdapterRecord> {
-        self.adapters.iter().find(|a| a.name == name)
+        self.adapters.iter().find(|a| a.info.name == name)
     }
 }
 

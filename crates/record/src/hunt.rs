@@ -5,9 +5,9 @@ use crate::folder::HUNT_FILE;
 use crate::json::json_line;
 use crate::json_lines::JsonLines;
 use crate::line_writer::put;
-use crate::machine::Machine;
 use crate::output_folder::OutputFolder;
 use crate::paths::open_below;
+use crate::provenance::Provenance;
 use crate::verdict::Verdict;
 use etalon_frame::{WrongTexel, state_enum};
 use schemars::JsonSchema;
@@ -154,17 +154,9 @@ impl MutantRecord {
 pub struct Hunt {
     /// The format: [`HUNT_FORMAT`].
     pub format: u32,
-    /// The suite's version.
-    pub etalon: String,
-    /// The commit that the suite was built from, if known.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub commit: Option<String>,
-    /// The machine.
-    pub machine: Machine,
-    /// When the hunt began, RFC 3339 in UTC.
-    pub started: String,
-    /// The command line, program first.
-    pub command: Vec<String>,
+    /// The suite, machine, time and command.
+    #[serde(flatten)]
+    pub provenance: Provenance,
     /// Wall time in seconds.
     pub seconds: f64,
     /// The number of cases.

@@ -49,6 +49,7 @@ mod output_folder;
 mod parts;
 mod paths;
 mod process_end;
+mod provenance;
 mod reason;
 mod record;
 mod run;
@@ -96,6 +97,7 @@ pub use merge::{Merge, Merged};
 pub use output_folder::OutputFolder;
 pub use paths::open_below;
 pub use process_end::{ExitStatus, LossKind, ProcessEnd};
+pub use provenance::Provenance;
 pub use reason::{ComparedPair, Denial, FailedRoundTrip, Fresh, Reason};
 pub use record::{
     Assertion, Expected, MAX_LINE, MAX_VALIDATION, MAX_WRONG_TEXELS, Record, Seconds,

@@ -102,7 +102,8 @@ impl Merge {
 
     fn take(&mut self, folder: &Path, run: Run) -> Result<(), RecordError> {
         let cases: HashMap<&str, usize> = places(self.ids.iter());
-        let adapters: HashMap<&str, usize> = places(self.header.adapters.iter().map(|a| &a.name));
+        let adapters: HashMap<&str, usize> =
+            places(self.header.adapters.iter().map(|a| &a.info.name));
         for record in run.records {
             let (Some(adapter), Some(case)) = (
                 adapters.get(record.adapter.as_str()),
@@ -156,7 +157,9 @@ impl Merge {
         for (a, adapter) in self.header.adapters.iter().enumerate() {
             for (c, case) in self.ids.iter().enumerate() {
                 let Some((mut record, folder)) = self.records.remove(&(a, c)) else {
-                    merged.missing.push((adapter.name.clone(), case.clone()));
+                    merged
+                        .missing
+                        .push((adapter.info.name.clone(), case.clone()));
                     continue;
                 };
                 if let Some(frame) = &mut record.frame {
@@ -247,18 +250,21 @@ fn header(first: &Path, parts: &[(&PathBuf, Run)]) -> Result<Header, RecordError
             };
             return Err(apart(first, reason));
         }
-        if header.started < merged.started {
-            merged.started.clone_from(&header.started);
+        if header.provenance.started < merged.provenance.started {
+            merged
+                .provenance
+                .started
+                .clone_from(&header.provenance.started);
         }
         for adapter in &header.adapters {
-            match merged.adapter(&adapter.name) {
+            match merged.adapter(&adapter.info.name) {
                 None => {
-                    seen.insert(adapter.name.clone(), folder);
+                    seen.insert(adapter.info.name.clone(), folder);
                     merged.adapters.push(adapter.clone());
                 }
                 Some(known) => {
                     if let Some(reason) = known.conflict(adapter) {
-                        let folder = seen.get(&adapter.name).copied().unwrap_or(first);
+                        let folder = seen.get(&adapter.info.name).copied().unwrap_or(first);
                         return Err(apart(folder, reason));
                     }
                 }
@@ -269,21 +275,35 @@ fn header(first: &Path, parts: &[(&PathBuf, Run)]) -> Result<Header, RecordError
                 merged.absent.push(absent.clone());
             }
         }
-        if header.machine != merged.machine {
+        if header.provenance.machine != merged.provenance.machine {
             let join = |list: &mut String, name: &str| {
                 if !list.split("; ").any(|known| known == name) {
                     *list = format!("{list}; {name}");
                 }
             };
-            join(&mut merged.machine.os, &header.machine.os);
-            join(&mut merged.machine.cpu, &header.machine.cpu);
-            merged.machine.cores = merged.machine.cores.max(header.machine.cores);
+            join(
+                &mut merged.provenance.machine.os,
+                &header.provenance.machine.os,
+            );
+            join(
+                &mut merged.provenance.machine.cpu,
+                &header.provenance.machine.cpu,
+            );
+            merged.provenance.machine.cores = merged
+                .provenance
+                .machine
+                .cores
+                .max(header.provenance.machine.cores);
         }
     }
     let mut merged = merged.ok_or_else(|| RecordError::NoRun {
         path: first.to_owned(),
     })?;
-    let here: BTreeSet<String> = merged.adapters.iter().map(|a| a.name.clone()).collect();
+    let here: BTreeSet<String> = merged
+        .adapters
+        .iter()
+        .map(|a| a.info.name.clone())
+        .collect();
     merged.absent.retain(|a| !here.contains(&a.name));
     let digest = &merged.settings.selection;
     let count = digest.split('-').next().and_then(|n| n.parse().ok());

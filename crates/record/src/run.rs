@@ -144,7 +144,7 @@ impl Run {
             .filter(|record| record.is_drawn())
             .map(|record| record.adapter.as_str())
             .collect();
-        let names = self.header.adapters.iter().map(|a| a.name.as_str());
+        let names = self.header.adapters.iter().map(|a| a.info.name.as_str());
         names.filter(|name| !drawn.contains(name)).collect()
     }
 

@@ -44,7 +44,7 @@ fn add_named(folder: &Path, files: &mut HashSet<String>) {
         }
     };
     for adapter in &run.header.adapters {
-        let name: String = adapter.name.chars().map(plain).collect();
+        let name: String = adapter.info.name.chars().map(plain).collect();
         files.insert(format!("results/{name}.csv"));
     }
     let scripts = fs::read_dir(folder.join("cases"));

@@ -7,9 +7,9 @@ use crate::error::RecordError;
 use crate::folder::VERSIONS_FILE;
 use crate::json::json_line;
 use crate::json_lines::JsonLines;
-use crate::machine::Machine;
 use crate::output_folder::OutputFolder;
 use crate::paths::open_below;
+use crate::provenance::Provenance;
 use crate::verdict::Verdict;
 use etalon_stats::Standing;
 use serde::{Deserialize, Serialize};
@@ -27,17 +27,9 @@ const MAX_LINE: u64 = 1 << 20;
 pub struct VersionsHeader {
     /// The format: [`VERSIONS_FORMAT`].
     pub format: u32,
-    /// The suite's version.
-    pub etalon: String,
-    /// The commit that the suite was built from, if known.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub commit: Option<String>,
-    /// The machine.
-    pub machine: Machine,
-    /// When the first case was drawn, RFC 3339 in UTC.
-    pub started: String,
-    /// The command line, program first.
-    pub command: Vec<String>,
+    /// The suite, machine, time and command.
+    #[serde(flatten)]
+    pub provenance: Provenance,
     /// The line of releases: `swiftshader`.
     pub line: String,
     /// The line's releases, oldest first.
@@ -231,11 +223,12 @@ mod tests {
         let versions = Versions {
             header: VersionsHeader {
                 format: VERSIONS_FORMAT,
-                etalon: "0".to_owned(),
-                commit: None,
-                machine: Machine::default(),
-                started: "2027-01-31T12:00:00Z".to_owned(),
-                command: vec!["etalon".to_owned()],
+                provenance: Provenance {
+                    etalon: "0".to_owned(),
+                    started: "2027-01-31T12:00:00Z".to_owned(),
+                    command: vec!["etalon".to_owned()],
+                    ..Provenance::default()
+                },
                 line: "swiftshader".to_owned(),
                 releases: releases(),
             },

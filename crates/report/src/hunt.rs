@@ -76,7 +76,7 @@ fn html(hunt: &Hunt) -> String {
         (all(hunt))
     };
     Page::new(
-        &format!("etalon mutants {}", hunt.started),
+        &format!("etalon mutants {}", hunt.provenance.started),
         "mutants.json in this folder",
         &main,
     )
@@ -115,7 +115,7 @@ fn head(hunt: &Hunt) -> Markup {
                 } }
             }
             dl.facts {
-                (origin!(hunt))
+                (origin(&hunt.provenance))
                 dt { "Scope" } dd {
                     (count(hunt.mutants.len() as u64, "planted bug")) ", "
                     (count(hunt.cases, "case")) ", " (duration(hunt.seconds))

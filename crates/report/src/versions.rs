@@ -138,7 +138,7 @@ fn head(versions: &Versions, groups: &[CaseGroup<'_>]) -> Markup {
                  two with the same standing are assumed to share it; one in the middle is checked."
             }
             dl.facts {
-                (origin!(header))
+                (origin(&header.provenance))
                 dt { "Scope" } dd {
                     (count(versions.cases.len() as u64, "case")) ", " (count(header.releases.len() as u64, "release"))
                 }

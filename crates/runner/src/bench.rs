@@ -266,7 +266,10 @@ impl RunningBench<'_, '_> {
         let mut pairs = Vec::new();
         for (number, case) in self.cases.iter().enumerate() {
             for index in 0..self.adapters.len() {
-                let key = (case.id.clone(), self.adapters[index].record.name.clone());
+                let key = (
+                    case.id.clone(),
+                    self.adapters[index].record.info.name.clone(),
+                );
                 let known = self.before.remove(&key);
                 if let Some(known) = &known
                     && !self.lacks_rounds(known)
@@ -332,7 +335,7 @@ impl RunningBench<'_, '_> {
     /// Returns true if the instructions of a case on an adapter must still be counted.
     fn lacks_count(&self, known: &BenchRecord, adapter: usize) -> bool {
         self.counter.is_some()
-            && self.adapters[adapter].record.software
+            && self.adapters[adapter].record.info.software
             && known.picture.may_be_timed()
             && known.counted.is_none()
     }
@@ -349,7 +352,7 @@ impl RunningBench<'_, '_> {
             }
             let case = &self.cases[pair.case];
             let adapter = &self.adapters[pair.adapter];
-            let names = [case.id.as_str(), adapter.record.name.as_str()];
+            let names = [case.id.as_str(), adapter.record.info.name.as_str()];
             let (launch, scene) = (&adapter.launch, &case.scene);
             let counted = instructions::count(counter, launch, names, scene, self.timeout);
             let failed = match counted {
@@ -362,7 +365,7 @@ impl RunningBench<'_, '_> {
             };
             (self.events)(BenchEvent::Counted {
                 case: case.id.clone(),
-                adapter: adapter.record.name.clone(),
+                adapter: adapter.record.info.name.clone(),
                 failed,
             });
         }
@@ -409,7 +412,7 @@ impl RunningBench<'_, '_> {
     ) -> (Record, Option<u64>) {
         let adapter = &mut self.adapters[index];
         let limits: Limits = adapter.record.limits.clone();
-        let name = adapter.record.name.clone();
+        let name = adapter.record.info.name.clone();
         let undrawn = |mut record: Record| {
             record.due_fail = case.judged_as.is_some();
             (record, None)
@@ -449,7 +452,7 @@ impl RunningBench<'_, '_> {
                 if adapter.is_spent(self.limit) {
                     return Some(Enough::Limit);
                 }
-                let narrow = |share| is_narrow(pair, pairs, adapter.record.software, share);
+                let narrow = |share| is_narrow(pair, pairs, adapter.record.info.software, share);
                 within
                     .filter(|share| narrow(*share))
                     .map(|_| Enough::Within)
@@ -505,7 +508,7 @@ impl RunningBench<'_, '_> {
             let began_at = self.offset + self.start.elapsed().as_secs_f64();
             let case = &self.cases[pair.case];
             let adapter = &mut self.adapters[pair.adapter];
-            let name = adapter.record.name.clone();
+            let name = adapter.record.info.name.clone();
             let measured = match adapter.supervisor.worker() {
                 Ok(worker) => worker.round(&case.scene, self.budget, self.timeout),
                 Err(loss) => Err(Failure::Lost(loss)),

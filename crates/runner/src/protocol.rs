@@ -1,7 +1,7 @@
 //! The protocol between parent and worker: length-prefixed binary messages over two pipes.
 
-use etalon_backend::{AdapterInfo, BackendError, FrameTime, Recording, Unavailable};
-use etalon_frame::{Frame, Limits};
+use etalon_backend::{BackendError, FrameTime, Recording, Unavailable};
+use etalon_frame::{AdapterInfo, Frame, Limits};
 use etalon_scene::Scene;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};

@@ -43,7 +43,7 @@ impl BadEnds {
     pub(crate) fn take(&self, adapter: &AdapterRecord, expectations: &Expectations) -> Vec<Record> {
         let ends = std::mem::take(&mut *lock(&self.0)).into_iter();
         let records = ends.map(|end| {
-            let mut record = Record::new(WORKER_END, &adapter.name, Verdict::Crash);
+            let mut record = Record::new(WORKER_END, &adapter.info.name, Verdict::Crash);
             record.reasons = vec![Reason::AfterLastCase];
             record.process = Some(end);
             record.expect(expectations, adapter);

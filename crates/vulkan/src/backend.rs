@@ -7,10 +7,8 @@ use crate::instance::{INSTANCE_VERSION, Instance};
 use crate::planted;
 use crate::prepared::PreparedScene;
 use crate::recording;
-use etalon_backend::{
-    AdapterInfo, Backend, BackendError, Fault, Phase, Prepared, Recording, Unavailable,
-};
-use etalon_frame::Limits;
+use etalon_backend::{Backend, BackendError, Fault, Phase, Prepared, Recording, Unavailable};
+use etalon_frame::{AdapterInfo, Limits};
 use etalon_scene::Scene;
 use std::rc::Rc;
 

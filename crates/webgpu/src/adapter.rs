@@ -3,8 +3,7 @@
 use crate::device::{Abilities, Device};
 use crate::message::Hello;
 use crate::offer::{DeviceLimits, Level, Offer, standard_formats};
-use etalon_backend::AdapterInfo;
-use etalon_frame::{DeviceOffer, Feature};
+use etalon_frame::{AdapterInfo, DeviceOffer, Feature};
 use std::collections::BTreeSet;
 
 /// Words in the names of software rasterizers.

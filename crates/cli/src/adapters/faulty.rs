@@ -3,10 +3,10 @@
 
 use crate::output::say;
 use etalon_backend::{
-    AdapterInfo, Backend, BackendError, Fault, FaultyScenes, FrameTime, Prepared, ProcessFault,
+    Backend, BackendError, Fault, FaultyScenes, FrameTime, Prepared, ProcessFault,
 };
 use etalon_cpu::CpuBackend;
-use etalon_frame::{Frame, Limits, TextureFormat};
+use etalon_frame::{AdapterInfo, Frame, Limits, TextureFormat};
 use etalon_scene::Scene;
 use std::cell::{Cell, RefCell};
 use std::fs::File;

@@ -2,7 +2,7 @@
 
 use super::backend_name::BackendName;
 use super::discovery::Adapters;
-use etalon_frame::{Api, Limits};
+use etalon_frame::{AdapterInfo, Api, Limits};
 use etalon_record::{AbsentAdapter, AdapterRecord};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -22,16 +22,13 @@ pub(crate) fn take_unstarted(adapters: &mut Adapters) -> Vec<(AdapterRecord, Str
             BackendName::Webgpu => ("webgpu", Api::WebGpu),
         };
         let adapter = AdapterRecord {
-            name: absent.name,
-            backend: backend.to_owned(),
-            device: String::new(),
-            driver: String::new(),
-            driver_version: String::new(),
-            driver_id: String::new(),
-            api_version: String::new(),
-            software: false,
+            info: AdapterInfo {
+                name: absent.name,
+                backend: backend.to_owned(),
+                software: false,
+                ..AdapterInfo::default()
+            },
             release: None,
-            offer: None,
             limits: Limits {
                 api,
                 version: etalon_frame::ApiVersion::UNKNOWN,
@@ -49,7 +46,7 @@ pub(crate) fn take_unstarted(adapters: &mut Adapters) -> Vec<(AdapterRecord, Str
         (adapter, absent.reason)
     };
     let dead: Vec<(AdapterRecord, String)> = adapters.dead.drain(..).map(record).collect();
-    let is_dead = |name: &str| dead.iter().any(|(adapter, _)| adapter.name == name);
+    let is_dead = |name: &str| dead.iter().any(|(adapter, _)| adapter.info.name == name);
     adapters.absent.retain(|absent| !is_dead(&absent.name));
     dead
 }

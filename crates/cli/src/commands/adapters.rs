@@ -74,8 +74,8 @@ fn usable(adapters: &[&AdapterRecord]) -> String {
         let widths = adapters.iter().map(|adapter| text(adapter).chars().count());
         widths.max().unwrap_or(0)
     };
-    let name = widest(|adapter| adapter.name.clone());
-    let device = widest(|adapter| adapter.device.clone());
+    let name = widest(|adapter| adapter.info.name.clone());
+    let device = widest(|adapter| adapter.info.device.clone());
     let driver = widest(AdapterRecord::driver_text);
     let mut groups: BTreeMap<Api, String> = BTreeMap::new();
     for adapter in adapters {
@@ -85,10 +85,10 @@ fn usable(adapters: &[&AdapterRecord]) -> String {
             .or_insert_with(|| format!("By the rules of {}\n", api_name(api)));
         *group += &format!(
             "  {:name$}  {:device$}  {:driver$}  {}\n",
-            adapter.name,
-            adapter.device,
+            adapter.info.name,
+            adapter.info.device,
             adapter.driver_text(),
-            adapter.api_version
+            adapter.info.api_version
         );
     }
     groups.into_values().collect::<Vec<_>>().join("\n")

@@ -183,11 +183,7 @@ fn names(adapters: &Adapters) -> Result<BTreeSet<String>, Failure> {
 fn header(arguments: &Arguments, selected: &BenchCases, adapters: &Adapters) -> BenchHeader {
     BenchHeader {
         format: BENCH_FORMAT,
-        etalon: provenance::VERSION.to_owned(),
-        commit: provenance::commit(),
-        machine: provenance::machine(),
-        started: provenance::now(),
-        command: provenance::command(),
+        provenance: provenance::here(),
         profile: arguments.selection.profile.name().to_owned(),
         cases: selected.cases.len() as u64,
         rounds: arguments.rounds,

@@ -231,11 +231,7 @@ fn header(
 ) -> VersionsHeader {
     VersionsHeader {
         format: VERSIONS_FORMAT,
-        etalon: provenance::VERSION.to_owned(),
-        commit: provenance::commit(),
-        machine: provenance::machine(),
-        started: provenance::now(),
-        command: provenance::command(),
+        provenance: provenance::here(),
         line: arguments.line.clone(),
         releases: releases
             .iter()
@@ -346,11 +342,7 @@ impl ReleaseSearch<'_> {
             expectations: &Expectations::default(),
             folder: self.folder,
             header: Header {
-                etalon: provenance::VERSION.to_owned(),
-                commit: provenance::commit(),
-                machine: provenance::machine(),
-                started: provenance::now(),
-                command: provenance::command(),
+                provenance: provenance::here(),
                 ..Header::new(vec![drawn.adapter.clone()], cases.len() as u64)
             },
             resume: false,

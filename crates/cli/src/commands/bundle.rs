@@ -15,7 +15,7 @@ use crate::reducing::{Failing, FailingArguments, started};
 use crate::saved_recording::saved_recording;
 use crate::saved_run::UnpackArguments;
 use clap::Args;
-use etalon_backend::{AdapterInfo, Recording};
+use etalon_backend::Recording;
 use etalon_bundle::{
     Checks, Due, DueChannel, DueCounter, DueTexel, Expected, File, Head, Language, Program, Report,
     Trim, Versions, Written,
@@ -300,7 +300,7 @@ impl Bundled<'_> {
         let judged = self.judged(&recorded.frame)?;
         let demanded = self.due(&recorded.frame, &judged.record)?;
         let Some(recording) = recorded.recording else {
-            let backend = &self.adapter.backend;
+            let backend = &self.adapter.info.backend;
             return Err(self.refused(&format!("calls of backend {backend} are not recorded")));
         };
         let newest = self.arguments.latest.as_ref();
@@ -326,7 +326,7 @@ impl Bundled<'_> {
     fn title(&self, finding: Option<&Finding>) -> String {
         match finding {
             Some(finding) => finding.title.clone(),
-            None => format!("{}: wrong {}", self.adapter.device, self.symptom),
+            None => format!("{}: wrong {}", self.adapter.info.device, self.symptom),
         }
     }
 
@@ -394,7 +394,7 @@ impl Bundled<'_> {
             title: self.title(finding),
             sentence: described.sentence(),
             clause: known.or_else(|| described.clause()),
-            device: info(self.adapter),
+            device: self.adapter.info.clone(),
             machine: {
                 let known = [self.machine.os.as_str(), self.machine.cpu.as_str()];
                 let known = known.into_iter().filter(|text| !text.is_empty());
@@ -438,7 +438,7 @@ impl Bundled<'_> {
         match recorded.messages.into_iter().next() {
             None => Ok(Checks::Clean),
             // wgpu itself refuses invalid calls, so the message is about the native calls that wgpu makes.
-            Some(message) if self.adapter.backend == "wgpu" => Ok(Checks::Below(message)),
+            Some(message) if self.adapter.info.backend == "wgpu" => Ok(Checks::Below(message)),
             Some(message) => Err(self.refused(&format!(
                 "the case does not keep to the rules of the API: {message}"
             ))),
@@ -551,7 +551,7 @@ impl Bundled<'_> {
     /// Returns the number of processes in which the case fails with its symptom, and the number of all
     /// processes.
     fn frequency(&self, driver: ReadyDriver<'_>) -> Result<[u32; 2], Failure> {
-        let (runs, at_once) = if self.adapter.backend == "webgpu" {
+        let (runs, at_once) = if self.adapter.info.backend == "webgpu" {
             (BROWSERS, 1)
         } else {
             (RUNS, processors().min(AT_ONCE))
@@ -635,21 +635,6 @@ fn finding(adapter: &AdapterRecord, case: &str) -> Result<Option<Finding>, Failu
         }))
 }
 
-/// Returns the adapter of a record as its backend describes it.
-fn info(adapter: &AdapterRecord) -> AdapterInfo {
-    AdapterInfo {
-        name: adapter.name.clone(),
-        backend: adapter.backend.clone(),
-        device: adapter.device.clone(),
-        driver: adapter.driver.clone(),
-        driver_version: adapter.driver_version.clone(),
-        driver_id: adapter.driver_id.clone(),
-        api_version: adapter.api_version.clone(),
-        software: adapter.software,
-        offer: adapter.offer.clone(),
-    }
-}
-
 fn versions(finding: Option<&Finding>, newest: Option<(String, bool)>) -> Option<Versions> {
     let range = finding.and_then(|f| f.versions.clone());
     if range.is_none() && newest.is_none() {
@@ -708,7 +693,12 @@ fn expected(record: &Record) -> Vec<Expected> {
 
 /// Returns search words under which a bug tracker might list the bug.
 fn search(adapter: &AdapterRecord, symptom: &Symptom) -> Vec<String> {
-    let driver = adapter.device.split([' ', '(']).next().unwrap_or_default();
+    let driver = adapter
+        .info
+        .device
+        .split([' ', '('])
+        .next()
+        .unwrap_or_default();
     let mut words = vec![driver.to_owned()];
     let operations = symptom.operations.iter().chain(&symptom.last);
     words.extend(operations.map(|o| o.name().to_owned()));

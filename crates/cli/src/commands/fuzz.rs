@@ -363,12 +363,13 @@ fn joined<T>(thread: ScopedJoinHandle<'_, T>) -> T {
 
 /// Writes a line about the search, a line about each adapter, then the groups.
 fn write(arguments: &Arguments, tallies: &[SceneTally], interrupted: bool) -> Result<(), Failure> {
+    let origin = provenance::here();
     let mut lines = vec![json!({
         "fuzz": 1,
-        "etalon": provenance::VERSION,
-        "commit": provenance::commit(),
-        "machine": provenance::machine(),
-        "command": provenance::command(),
+        "etalon": origin.etalon,
+        "commit": origin.commit,
+        "machine": origin.machine,
+        "command": origin.command,
         "seed": arguments.seed,
         "interrupted": interrupted,
     })];

@@ -46,7 +46,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let folders = arguments.unpack.folders(&arguments.folders)?;
     let mut merge = Merge::read(&folders).map_err(Failure::usage)?;
     let built_in = draws_built_in(merge.header_mut());
-    merge.header_mut().command = provenance::command();
+    merge.header_mut().provenance.command = provenance::command();
     let claim = Out {
         folder: out,
         kind: FolderKind::Run,

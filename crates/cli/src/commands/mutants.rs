@@ -19,7 +19,9 @@ use etalon_frame::Limits;
 use etalon_frame::threads::each;
 use etalon_judge::Judge;
 use etalon_mutants::{MutantBackend, mutants};
-use etalon_record::{Catch, FolderKind, HUNT_FORMAT, Hunt, MutantInfo, MutantRecord, OutputFolder};
+use etalon_record::{
+    Catch, FolderKind, HUNT_FORMAT, Hunt, MutantInfo, MutantRecord, OutputFolder, Provenance,
+};
 use etalon_runner::HuntPlan;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -198,11 +200,10 @@ fn hunted(
 ) -> Hunt {
     Hunt {
         format: HUNT_FORMAT,
-        etalon: provenance::VERSION.to_owned(),
-        commit: provenance::commit(),
-        machine: provenance::machine(),
-        started,
-        command: provenance::command(),
+        provenance: Provenance {
+            started,
+            ..provenance::here()
+        },
         seconds: start.elapsed().as_secs_f64(),
         cases,
         full: arguments.full,

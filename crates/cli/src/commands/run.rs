@@ -145,7 +145,7 @@ pub(crate) enum KeepFrames {
 fn verdicts(run: &Run) -> BTreeMap<&str, BTreeMap<&str, u64>> {
     let mut counts: BTreeMap<&str, BTreeMap<&str, u64>> = BTreeMap::new();
     for adapter in &run.header.adapters {
-        counts.entry(&adapter.name).or_default();
+        counts.entry(&adapter.info.name).or_default();
     }
     for record in &run.records {
         let of_adapter = counts.entry(&record.adapter).or_default();
@@ -204,7 +204,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let resume = claim.resume;
     let _lock = claim.take()?;
     let header = header(arguments, &selected, &adapters, &dead);
-    let adapter_names = header.adapters.iter().map(|a| a.name.clone()).collect();
+    let adapter_names = header
+        .adapters
+        .iter()
+        .map(|a| a.info.name.clone())
+        .collect();
     let pictures = Pictures::default();
     let mut summary = draw(Plan {
         cases: &selected.cases,
@@ -350,7 +354,7 @@ fn start(arguments: &Arguments) -> Result<(Adapters, Vec<(AdapterRecord, String)
     })?;
     let dead = take_unstarted(&mut adapters);
     for (adapter, how) in &dead {
-        say!("{} does not start: {how}", adapter.name);
+        say!("{} does not start: {how}", adapter.info.name);
     }
     refuse_absent(&arguments.adapters, &adapters.absent)?;
     if adapters.ready.is_empty() && dead.is_empty() {
@@ -506,7 +510,7 @@ impl<'a> Results<'a> {
 /// Returns the error for a run that lacks records.
 fn incomplete(run: &Run, interrupted: bool) -> Failure {
     let interrupted = if interrupted { "interrupted: " } else { "" };
-    let names = run.header.adapters.iter().map(|a| a.name.as_str());
+    let names = run.header.adapters.iter().map(|a| a.info.name.as_str());
     let undrawn = names.filter(|name| run.records.iter().all(|r| r.adapter != *name));
     let undrawn: String = undrawn
         .map(|name| format!("{name} has no record; "))
@@ -571,11 +575,7 @@ fn header(
 ) -> Header {
     Header {
         format: etalon_record::FORMAT,
-        etalon: provenance::VERSION.to_owned(),
-        commit: provenance::commit(),
-        machine: provenance::machine(),
-        started: provenance::now(),
-        command: provenance::command(),
+        provenance: provenance::here(),
         cases: selected.cases.len() as u64,
         settings: Settings {
             selection: selection_digest(selected.ids.iter().map(String::as_str)),

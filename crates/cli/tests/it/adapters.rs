@@ -117,10 +117,13 @@ fn a_users_own_adapter_runs_beside_the_built_in_one_and_is_named() {
         .header
         .adapters
         .iter()
-        .map(|a| a.name.as_str())
+        .map(|a| a.info.name.as_str())
         .collect();
     assert_eq!(header, names);
-    assert_eq!(run.header.adapters[0].device, run.header.adapters[1].device);
+    assert_eq!(
+        run.header.adapters[0].info.device,
+        run.header.adapters[1].info.device
+    );
     let verdicts: BTreeSet<_> = run
         .records
         .iter()
@@ -150,8 +153,8 @@ fn a_users_own_adapter_runs_beside_the_built_in_one_and_is_named() {
 fn an_entry_takes_the_place_of_the_built_in_one_of_its_name() {
     let (_folder, path) = file(r#"[{ "name": "gl:llvmpipe", "backend": "cpu" }]"#);
     let run = run(&path, &["gl:llvmpipe"]);
-    assert_eq!(run.header.adapters[0].name, "gl:llvmpipe");
-    assert_eq!(run.header.adapters[0].backend, "cpu");
+    assert_eq!(run.header.adapters[0].info.name, "gl:llvmpipe");
+    assert_eq!(run.header.adapters[0].info.backend, "cpu");
 }
 
 #[test]

@@ -84,9 +84,9 @@ fn a_slower_rasterizer_answers_as_cpu_and_is_not_listed() {
     bench(cases.path(), out.path(), &slower).code(0);
     let bench_of = Bench::read(out.path()).unwrap();
     let adapter = &bench_of.header.adapters[0];
-    assert_eq!(adapter.name, "cpu");
+    assert_eq!(adapter.info.name, "cpu");
     assert!(
-        adapter.driver_version.ends_with("slower by 50 %"),
+        adapter.info.driver_version.ends_with("slower by 50 %"),
         "{adapter:?}"
     );
     assert_eq!(bench_of.header.shader_cache, ShaderCache::Cold);

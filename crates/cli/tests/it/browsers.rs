@@ -103,7 +103,7 @@ fn a_browser_and_its_profile_end_with_the_run() {
             .iter()
             .all(|record| record.verdict == Verdict::Pass)
     );
-    assert_eq!(run.header.adapters[0].driver, "Chromium");
+    assert_eq!(run.header.adapters[0].info.driver, "Chromium");
     nothing_is_left(folder.path());
 }
 

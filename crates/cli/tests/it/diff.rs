@@ -4,7 +4,7 @@
 use assert_cmd::Command;
 use etalon_record::{
     AdapterRecord, BENCH_FORMAT, BenchHeader, BenchLine, BenchWriter, Expectations, Header,
-    Machine, Picture, Record, Round, RunWriter, ShaderCache, Verdict,
+    Picture, Provenance, Record, Round, RunWriter, ShaderCache, Verdict,
 };
 use predicates::prelude::*;
 use predicates::str::contains;
@@ -29,11 +29,12 @@ fn adapter(name: &str) -> AdapterRecord {
 fn bench(folder: &Path, seconds: f64) {
     let header = BenchHeader {
         format: BENCH_FORMAT,
-        etalon: "0.1.0".to_owned(),
-        commit: None,
-        machine: Machine::default(),
-        started: "2026-01-01T00:00:00Z".to_owned(),
-        command: vec!["etalon".to_owned(), "bench".to_owned()],
+        provenance: Provenance {
+            etalon: "0.1.0".to_owned(),
+            started: "2026-01-01T00:00:00Z".to_owned(),
+            command: vec!["etalon".to_owned(), "bench".to_owned()],
+            ..Provenance::default()
+        },
         profile: "quick".to_owned(),
         cases: 1,
         rounds: 9,
@@ -112,9 +113,12 @@ fn a_slower_bench_gives_one_and_any_other_nothing() {
 /// Writes a run of one adapter with one case per verdict.
 fn run(folder: &Path, name: &str, verdicts: &[Verdict]) {
     let header = Header {
-        etalon: "0.1.0".to_owned(),
-        started: "2026-01-01T00:00:00Z".to_owned(),
-        command: vec!["etalon".to_owned(), "run".to_owned()],
+        provenance: Provenance {
+            etalon: "0.1.0".to_owned(),
+            started: "2026-01-01T00:00:00Z".to_owned(),
+            command: vec!["etalon".to_owned(), "run".to_owned()],
+            ..Provenance::default()
+        },
         ..Header::new(vec![adapter(name)], verdicts.len() as u64)
     };
     let mut writer = RunWriter::create(folder, &header).unwrap();

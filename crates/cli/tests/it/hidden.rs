@@ -104,11 +104,11 @@ fn names_in_records_lists_and_commands_are_printable() {
         ]);
         let mut run = Run::read(out.as_ref()).unwrap();
         let adapter = &mut run.header.adapters[0];
-        adapter.device = EVIL.repeat(100);
-        adapter.driver = EVIL.to_owned();
-        adapter.driver_version = EVIL.to_owned();
-        run.header.machine.cpu = EVIL.to_owned();
-        run.header.command.push(EVIL.to_owned());
+        adapter.info.device = EVIL.repeat(100);
+        adapter.info.driver = EVIL.to_owned();
+        adapter.info.driver_version = EVIL.to_owned();
+        run.header.provenance.machine.cpu = EVIL.to_owned();
+        run.header.provenance.command.push(EVIL.to_owned());
         for (number, record) in run.records.iter_mut().enumerate() {
             *record = Record::new(&record.case, "cpu", Verdict::Crash);
             record.reasons = vec![Reason::Text(EVIL.repeat(3))];

@@ -4,8 +4,8 @@
 use crate::etalon::{BINARY, etalon};
 use assert_cmd::assert::Assert;
 use etalon_record::{
-    AdapterRecord, BENCH_FORMAT, BenchHeader, BenchLine, BenchWriter, FORMAT, Header, Machine,
-    Picture, Record, Round, Settings, ShaderCache, Verdict,
+    AdapterRecord, BENCH_FORMAT, BenchHeader, BenchLine, BenchWriter, FORMAT, Header, Picture,
+    Provenance, Record, Round, Settings, ShaderCache, Verdict,
 };
 use predicates::prelude::*;
 use predicates::str::contains;
@@ -71,11 +71,13 @@ impl Place {
         let folder = self.path(&format!("bench-{night}"));
         let header = BenchHeader {
             format: BENCH_FORMAT,
-            etalon: "0.1.0".to_owned(),
-            commit: Some(format!("{night:040x}")),
-            machine: Machine::default(),
-            started: started(night),
-            command: vec!["etalon".to_owned()],
+            provenance: Provenance {
+                etalon: "0.1.0".to_owned(),
+                commit: Some(format!("{night:040x}")),
+                started: started(night),
+                command: vec!["etalon".to_owned()],
+                ..Provenance::default()
+            },
             profile: "quick".to_owned(),
             cases: 1,
             rounds: 7,
@@ -165,11 +167,13 @@ fn adapter(version: &str) -> AdapterRecord {
 fn header(day: u32, version: &str, cases: u64) -> Header {
     Header {
         format: FORMAT,
-        etalon: "0.1.0".to_owned(),
-        commit: Some(format!("{day:040x}")),
-        machine: Machine::default(),
-        started: started(day),
-        command: vec!["etalon".to_owned()],
+        provenance: Provenance {
+            etalon: "0.1.0".to_owned(),
+            commit: Some(format!("{day:040x}")),
+            started: started(day),
+            command: vec!["etalon".to_owned()],
+            ..Provenance::default()
+        },
         cases,
         settings: Settings {
             profile: Some("quick".to_owned()),

@@ -145,7 +145,7 @@ fn one_record_per_case_and_adapter() {
         .header
         .adapters
         .iter()
-        .map(|a| a.name.as_str())
+        .map(|a| a.info.name.as_str())
         .collect();
     assert_eq!(found, adapters.into());
     assert_eq!(run.records.len(), 3 * count(&["depth"]));

@@ -1,7 +1,7 @@
 //! Runs made by hand, the history that holds them, and the files of a folder.
 
 use etalon_export::{Format, Selection, export};
-use etalon_frame::Aspect;
+use etalon_frame::{AdapterInfo, Aspect};
 use etalon_history::{
     Adapter, Asserted, FrameTimes, History, Kind, Labels, MethodMeasures, NewAdapter, NewRun,
     Outcome, Writer, parse_time,
@@ -25,14 +25,14 @@ pub(crate) const FORMATS: [Format; 4] = [
 /// An adapter of this name and version, without records.
 pub(crate) fn adapter(name: &str, version: &str) -> NewAdapter {
     NewAdapter::new(Adapter {
-        name: name.to_owned(),
-        backend: "vulkan".to_owned(),
-        device: String::new(),
-        driver: "a driver".to_owned(),
-        driver_version: version.to_owned(),
-        driver_id: String::new(),
-        api_version: String::new(),
-        software: true,
+        info: AdapterInfo {
+            name: name.to_owned(),
+            backend: "vulkan".to_owned(),
+            driver: "a driver".to_owned(),
+            driver_version: version.to_owned(),
+            software: true,
+            ..AdapterInfo::default()
+        },
         line: String::new(),
         version: String::new(),
     })

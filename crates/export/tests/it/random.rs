@@ -118,7 +118,7 @@ pub(crate) fn runs() -> impl Strategy<Value = Vec<NewRun>> {
             let named = |parts: BTreeMap<&str, NewAdapter>| -> Vec<NewAdapter> {
                 let each = parts.into_iter().map(|(name, mut part)| {
                     name.clone_into(&mut part.timeline);
-                    part.adapter.name = format!("{name}@1");
+                    part.adapter.info.name = format!("{name}@1");
                     part
                 });
                 each.collect()

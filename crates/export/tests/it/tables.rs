@@ -40,8 +40,8 @@ fn shared(run: &NewRun, part: &NewAdapter) -> Row {
         ("commit", text(run.commit.as_deref().unwrap_or_default())),
         ("machine", text(&machine(run))),
         ("labels", text(&serde_json::to_string(&run.labels).unwrap())),
-        ("name", text(&part.adapter.name)),
-        ("driver", text(&part.adapter.driver)),
+        ("name", text(&part.adapter.info.name)),
+        ("driver", text(&part.adapter.info.driver)),
         ("version", text(part.adapter.shown_version())),
     ])
 }

@@ -26,7 +26,7 @@ pub(super) fn read(path: &Path, mut text: Digesting<impl Read>) -> Result<NewRun
     for record in &bench.records {
         let name = &record.picture.adapter;
         // The reader has already refused pictures of other adapters.
-        let Some(adapter) = adapters.iter_mut().find(|a| a.adapter.name == *name) else {
+        let Some(adapter) = adapters.iter_mut().find(|a| a.adapter.info.name == *name) else {
             continue;
         };
         let case = record.picture.case.clone();
@@ -42,12 +42,12 @@ pub(super) fn read(path: &Path, mut text: Digesting<impl Read>) -> Result<NewRun
         digest,
         header: header_digest,
         kind: Kind::Bench,
-        started: started(path, &header.started)?,
+        started: started(path, &header.provenance.started)?,
         released: None,
         missing,
-        etalon: header.etalon,
-        commit: header.commit,
-        machine: header.machine,
+        etalon: header.provenance.etalon,
+        commit: header.provenance.commit,
+        machine: header.provenance.machine,
         profile: Some(header.profile),
         ruler: Some(header.ruler),
         labels: Labels::new(),

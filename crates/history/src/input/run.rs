@@ -29,7 +29,7 @@ impl RunAssembly {
             .iter()
             .map(|a| NewAdapter::new(Adapter::from(a)))
             .collect();
-        let names = header.adapters.iter().map(|a| a.name.clone());
+        let names = header.adapters.iter().map(|a| a.info.name.clone());
         let places = names.zip(0..).collect();
         Self {
             header,
@@ -68,12 +68,12 @@ pub(super) fn read(path: &Path, mut text: Digesting<impl Read>) -> Result<NewRun
         digest,
         header: header_digest,
         kind: Kind::Run,
-        started: started(path, &header.started)?,
+        started: started(path, &header.provenance.started)?,
         released: None,
         missing: header.expected_records().saturating_sub(records),
-        etalon: header.etalon,
-        commit: header.commit,
-        machine: header.machine,
+        etalon: header.provenance.etalon,
+        commit: header.provenance.commit,
+        machine: header.provenance.machine,
         profile: header.settings.profile,
         ruler: None,
         labels: Labels::new(),

@@ -13,7 +13,7 @@ use crate::kind::Kind;
 use crate::labels::Labels;
 use crate::new_run::{NewAdapter, NewRun};
 use crate::outcome::Outcome;
-use etalon_frame::AdapterName;
+use etalon_frame::{AdapterInfo, AdapterName};
 use etalon_record::{CaseVersions, ReleaseRecord, Verdict, Versions};
 use std::io::Read;
 use std::path::Path;
@@ -25,7 +25,7 @@ pub(super) fn read(
 ) -> Result<Vec<NewRun>, HistoryError> {
     let Versions { header, cases } = Versions::parse(path, &mut text)?;
     let (digest, header_digest) = text.digests();
-    let started = started(path, &header.started)?;
+    let started = started(path, &header.provenance.started)?;
     let mut runs = Vec::with_capacity(header.releases.len());
     for release in &header.releases {
         let version = &release.version;
@@ -33,9 +33,9 @@ pub(super) fn read(
             digest: of_parts(&[&digest, version.as_bytes()]),
             header: of_parts(&[&header_digest, version.as_bytes()]),
             kind: Kind::Release,
-            etalon: header.etalon.clone(),
-            commit: header.commit.clone(),
-            machine: header.machine.clone(),
+            etalon: header.provenance.etalon.clone(),
+            commit: header.provenance.commit.clone(),
+            machine: header.provenance.machine.clone(),
             started,
             released: dates.of(&header.line, version),
             profile: None,
@@ -59,14 +59,13 @@ fn adapter(line: &str, release: &ReleaseRecord) -> NewAdapter {
     let name = &release.adapter;
     let parts = AdapterName::new(name);
     let adapter = Adapter {
-        name: name.clone(),
-        backend: parts.backend().to_owned(),
-        device: String::new(),
-        driver: release.driver.clone(),
-        driver_version: release.version.clone(),
-        driver_id: String::new(),
-        api_version: String::new(),
-        software: false,
+        info: AdapterInfo {
+            name: name.clone(),
+            backend: parts.backend().to_owned(),
+            driver: release.driver.clone(),
+            driver_version: release.version.clone(),
+            ..AdapterInfo::default()
+        },
         line: line.to_owned(),
         version: release.version.clone(),
     };

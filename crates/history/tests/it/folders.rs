@@ -1,11 +1,11 @@
 //! Folders that `etalon run`, `bench` and `bisect` wrote.
 
-use etalon_frame::{Api, ApiVersion, Limits};
+use etalon_frame::{AdapterInfo, Api, ApiVersion, Limits};
 use etalon_history::{
     FrameTimes, History, HistoryError, Kind, NewRun, ReleaseDates, Writer, read_runs,
 };
 use etalon_record::{
-    AdapterRecord, Bench, Header, Machine, Measured, Record, Release, Run, Times, Verdict,
+    AdapterRecord, Bench, Header, Measured, Provenance, Record, Release, Run, Times, Verdict,
 };
 use flate2::Compression;
 use flate2::write::GzEncoder;
@@ -20,27 +20,30 @@ fn read(path: &Path) -> Result<Vec<NewRun>, HistoryError> {
 fn header(cases: u64) -> Header {
     Header {
         format: 3,
-        etalon: "0.1.0".to_owned(),
-        commit: Some("abc".to_owned()),
-        machine: Machine::default(),
-        started: "2026-11-23T06:09:58Z".to_owned(),
-        command: vec!["etalon".to_owned()],
+        provenance: Provenance {
+            etalon: "0.1.0".to_owned(),
+            commit: Some("abc".to_owned()),
+            started: "2026-11-23T06:09:58Z".to_owned(),
+            command: vec!["etalon".to_owned()],
+            ..Provenance::default()
+        },
         cases,
         settings: Default::default(),
         adapters: vec![AdapterRecord {
-            name: "vulkan:a@2".to_owned(),
-            backend: "vulkan".to_owned(),
-            device: "device".to_owned(),
-            driver: "driver".to_owned(),
-            driver_version: "1.2.3".to_owned(),
-            driver_id: String::new(),
-            api_version: "1.3".to_owned(),
-            software: true,
+            info: AdapterInfo {
+                name: "vulkan:a@2".to_owned(),
+                backend: "vulkan".to_owned(),
+                device: "device".to_owned(),
+                driver: "driver".to_owned(),
+                driver_version: "1.2.3".to_owned(),
+                api_version: "1.3".to_owned(),
+                software: true,
+                ..AdapterInfo::default()
+            },
             release: Some(Release {
                 line: "a".to_owned(),
                 version: "2".to_owned(),
             }),
-            offer: None,
             limits: Limits {
                 api: Api::OpenGlEs,
                 version: ApiVersion::new(3, 2),
@@ -161,7 +164,7 @@ fn damage_is_named_with_its_line() {
     let mut other = records();
     other[1].adapter = "gl:none".to_owned();
     let mut timeless = header(2);
-    timeless.started = "soon".to_owned();
+    timeless.provenance.started = "soon".to_owned();
     for (text, expected) in [
         (
             lines(&header(2), &other),
@@ -281,7 +284,7 @@ fn the_reader_of_benches_is_that_of_records() {
     };
     let run = header(2);
     let head = serde_json::json!({
-        "format": 1, "etalon": "0.1.0", "machine": run.machine, "started": run.started, "command": run.command,
+        "format": 1, "etalon": "0.1.0", "machine": run.provenance.machine, "started": run.provenance.started, "command": run.provenance.command,
         "profile": "quick", "cases": 2, "rounds": 2, "shader_cache": "warm", "ruler": "sums", "adapters": run.adapters,
         "absent": [],
     });

@@ -1,5 +1,6 @@
 //! Runs made by hand.
 
+use etalon_frame::AdapterInfo;
 use etalon_history::{Adapter, FrameTimes, Kind, Labels, NewAdapter, NewRun, Outcome, parse_time};
 use etalon_record::{Machine, Verdict};
 use std::collections::BTreeMap;
@@ -7,14 +8,16 @@ use std::collections::BTreeMap;
 /// An adapter of this name and version, without records.
 pub(crate) fn adapter(name: &str, version: &str) -> NewAdapter {
     NewAdapter::new(Adapter {
-        name: name.to_owned(),
-        backend: name.split(':').next().unwrap().to_owned(),
-        device: "a device".to_owned(),
-        driver: "a driver".to_owned(),
-        driver_version: version.to_owned(),
-        driver_id: String::new(),
-        api_version: "1.3".to_owned(),
-        software: true,
+        info: AdapterInfo {
+            name: name.to_owned(),
+            backend: name.split(':').next().unwrap().to_owned(),
+            device: "a device".to_owned(),
+            driver: "a driver".to_owned(),
+            driver_version: version.to_owned(),
+            api_version: "1.3".to_owned(),
+            software: true,
+            ..AdapterInfo::default()
+        },
         line: String::new(),
         version: String::new(),
     })

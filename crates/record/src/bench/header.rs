@@ -2,7 +2,7 @@
 
 use crate::adapter::{AbsentAdapter, AdapterRecord};
 use crate::header::Shard;
-use crate::machine::Machine;
+use crate::provenance::Provenance;
 use crate::shader_cache::ShaderCache;
 use serde::{Deserialize, Serialize};
 
@@ -16,17 +16,9 @@ pub const BENCH_FORMAT: u32 = 4;
 pub struct BenchHeader {
     /// The format of the bench folder: [`BENCH_FORMAT`].
     pub format: u32,
-    /// The suite's version.
-    pub etalon: String,
-    /// The commit that the suite was built from, if known.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub commit: Option<String>,
-    /// The machine.
-    pub machine: Machine,
-    /// When the bench began, RFC 3339 in UTC.
-    pub started: String,
-    /// The command line, program first.
-    pub command: Vec<String>,
+    /// The suite, machine, time and command.
+    #[serde(flatten)]
+    pub provenance: Provenance,
     /// The profile of the cases: `quick` or `full`.
     pub profile: String,
     /// The number of selected cases.
@@ -90,6 +82,6 @@ pub struct BenchSettings {
 impl BenchHeader {
     /// Returns the adapter with this name.
     pub fn adapter(&self, name: &str) -> Option<&AdapterRecord> {
-        self.adapters.iter().find(|a| a.name == name)
+        self.adapters.iter().find(|a| a.info.name == name)
     }
 }

@@ -2,7 +2,7 @@
 
 use etalon_record::{
     BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchWriter, Done, Ended, Enough, FolderKind,
-    Machine, OutputFolder, Picture, Reason, RecordError, Round, ShaderCache, Time, Verdict,
+    OutputFolder, Picture, Provenance, Reason, RecordError, Round, ShaderCache, Time, Verdict,
 };
 use serde_json::{Value, json};
 use std::fs;
@@ -17,11 +17,12 @@ fn header() -> BenchHeader {
     });
     BenchHeader {
         format: BENCH_FORMAT,
-        etalon: "0.1.0".to_owned(),
-        commit: None,
-        machine: Machine::default(),
-        started: "2026-01-01T00:00:00Z".to_owned(),
-        command: vec!["etalon".to_owned(), "bench".to_owned()],
+        provenance: Provenance {
+            etalon: "0.1.0".to_owned(),
+            started: "2026-01-01T00:00:00Z".to_owned(),
+            command: vec!["etalon".to_owned(), "bench".to_owned()],
+            ..Provenance::default()
+        },
         profile: "quick".to_owned(),
         cases: 1,
         rounds: 3,

@@ -1,15 +1,15 @@
 //! Run folders: written and read, cut off, resumed and replaced.
 
 use etalon_frame::{
-    Accuracy, Api, ApiVersion, Aspect, Band, ChannelEncoding, ChannelMismatch, CounterKind,
-    CounterOutcome, DepthTest, Distance, Effect, ErrorKind, Event, Limits, Origin, Rejection,
-    Requirement, SceneName, Step, Story, TexelCounts, TextureFormat, ToldLine, ValueRange,
-    WrongTexel,
+    Accuracy, AdapterInfo, Api, ApiVersion, Aspect, Band, ChannelEncoding, ChannelMismatch,
+    CounterKind, CounterOutcome, DepthTest, Distance, Effect, ErrorKind, Event, Limits, Origin,
+    Rejection, Requirement, SceneName, Step, Story, TexelCounts, TextureFormat, ToldLine,
+    ValueRange, WrongTexel,
 };
 use etalon_record::{
     AdapterRecord, Assertion, Bench, ComparedPair, Content, Dead, Denial, ExitStatus, Expected,
     FORMAT, FailedRoundTrip, FolderKind, FrameFile, FrameImage, Fresh, Header, Hunt, MAX_LINE,
-    MAX_WRONG_TEXELS, Machine, Measured, OutputFolder, Parameter, ProcessEnd, Reason, Record,
+    MAX_WRONG_TEXELS, Measured, OutputFolder, Parameter, ProcessEnd, Provenance, Reason, Record,
     RecordError, Run, RunWriter, Seconds, Settings, Shard, Times, Verdict, Versions, beside,
     read_cases, selection_digest,
 };
@@ -20,24 +20,27 @@ use std::path::Path;
 fn header() -> Header {
     Header {
         format: FORMAT,
-        etalon: "0.1.0".to_owned(),
-        commit: None,
-        machine: Machine::default(),
-        started: "2026-01-02T03:04:05Z".to_owned(),
-        command: vec!["etalon".to_owned(), "run".to_owned()],
+        provenance: Provenance {
+            etalon: "0.1.0".to_owned(),
+            started: "2026-01-02T03:04:05Z".to_owned(),
+            command: vec!["etalon".to_owned(), "run".to_owned()],
+            ..Provenance::default()
+        },
         cases: 3,
         settings: Settings::default(),
         adapters: vec![AdapterRecord {
-            name: "gl:es:soft".to_owned(),
-            backend: "gl".to_owned(),
-            device: "d".to_owned(),
-            driver: "Mesa".to_owned(),
-            driver_version: "25".to_owned(),
-            driver_id: "7".to_owned(),
-            api_version: "3.2".to_owned(),
-            software: true,
+            info: AdapterInfo {
+                name: "gl:es:soft".to_owned(),
+                backend: "gl".to_owned(),
+                device: "d".to_owned(),
+                driver: "Mesa".to_owned(),
+                driver_version: "25".to_owned(),
+                driver_id: "7".to_owned(),
+                api_version: "3.2".to_owned(),
+                software: true,
+                ..AdapterInfo::default()
+            },
             release: None,
-            offer: None,
             limits: Limits {
                 api: Api::OpenGlEs,
                 version: etalon_frame::ApiVersion::new(3, 2),
@@ -297,12 +300,12 @@ fn only_the_same_run_goes_on() {
         refused(&|h| h.settings.shuffle = Some(7)).contains("--shuffle was none there and is 7")
     );
     assert!(refused(&|h| h.settings.validate = true).contains("--validate"));
-    assert!(refused(&|h| h.adapters[0].driver_version = "26".to_owned()).contains("Mesa 26"));
+    assert!(refused(&|h| h.adapters[0].info.driver_version = "26".to_owned()).contains("Mesa 26"));
     assert!(refused(&|h| h.adapters[0].limits.sub_pixel_bits = 4).contains("limits"));
     assert!(refused(&|h| h.adapters.clear()).contains("is not here"));
-    assert!(refused(&|h| h.etalon = "0.2.0".to_owned()).contains("0.2.0"));
+    assert!(refused(&|h| h.provenance.etalon = "0.2.0".to_owned()).contains("0.2.0"));
     let mut later = header();
-    later.started = "2027-01-01T00:00:00Z".to_owned();
+    later.provenance.started = "2027-01-01T00:00:00Z".to_owned();
     later.settings.timeout = Some(1.0);
     RunWriter::resume(folder.path(), &later).unwrap();
     assert_eq!(fs::read(folder.path().join("run.jsonl")).unwrap(), before);
@@ -706,6 +709,35 @@ fn a_broken_header_is_no_line_to_remove() {
 
 /// A link in a folder from somebody else can lead to any file of the machine.
 #[cfg(unix)]
+#[test]
+fn a_key_that_nothing_reads_is_refused_wherever_it_stands_in_a_header() {
+    let folder = tempfile::tempdir().unwrap();
+    RunWriter::create(folder.path(), &header()).unwrap();
+    let path = folder.path().join("run.jsonl");
+    let line = fs::read_to_string(&path).unwrap();
+    let parsed: serde_json::Value = serde_json::from_str(&line).unwrap();
+    for place in [
+        "",
+        "/machine",
+        "/settings",
+        "/adapters/0",
+        "/adapters/0/limits",
+    ] {
+        let mut changed = parsed.clone();
+        changed.pointer_mut(place).unwrap()["later"] = true.into();
+        fs::write(&path, format!("{changed}\n")).unwrap();
+        let error = Run::read(folder.path()).unwrap_err().to_string();
+        assert!(error.contains("later"), "{place}: {error}");
+    }
+    for key in ["etalon", "machine", "started", "command"] {
+        let mut changed = parsed.clone();
+        changed.as_object_mut().unwrap().remove(key);
+        fs::write(&path, format!("{changed}\n")).unwrap();
+        let error = Run::read(folder.path()).unwrap_err().to_string();
+        assert!(error.contains(key), "{key}: {error}");
+    }
+}
+
 #[test]
 fn no_file_of_a_folder_is_read_through_a_link() {
     type Reading = fn(&Path) -> Option<RecordError>;

@@ -14,7 +14,7 @@ pub(crate) const KINDS: [(bool, &str); 2] = [(true, "Software"), (false, "Hardwa
 /// Returns true if the adapter draws with the processor. An adapter that no header names counts as hardware,
 /// which is compared without the ruler.
 pub(crate) fn software(adapter: Option<&AdapterRecord>) -> bool {
-    adapter.is_some_and(|a| a.software)
+    adapter.is_some_and(|a| a.info.software)
 }
 
 /// The figures of one case.

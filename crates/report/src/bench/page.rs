@@ -34,7 +34,7 @@ pub(super) fn page(bench: &Bench, figures: &[CaseFigures<'_>]) -> String {
         (adapters(&bench.header.adapters, &bench.header.absent))
     };
     Page::new(
-        &format!("etalon bench {}", bench.header.started),
+        &format!("etalon bench {}", bench.header.provenance.started),
         "bench.jsonl in this folder",
         &main,
     )
@@ -59,7 +59,7 @@ fn head(bench: &Bench, figures: &[CaseFigures<'_>]) -> Markup {
                 }
             }
             dl.facts {
-                (origin!(h))
+                (origin(&h.provenance))
                 dt { "Scope" } dd {
                     (count(h.cases, "case")) " (" (h.profile) ") on " (count(h.adapters.len() as u64, "adapter"))
                     ", " (count(u64::from(h.rounds), "round")) " each"

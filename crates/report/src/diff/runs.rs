@@ -205,7 +205,7 @@ fn warnings(runs: &[Run; 2], same_selection: bool) -> Vec<String> {
         );
     }
     let [before, after] = [&runs[0].header, &runs[1].header];
-    if before.machine != after.machine {
+    if before.provenance.machine != after.provenance.machine {
         warnings.push("The machines differ, so times do not compare the drivers.".to_owned());
     }
     warnings

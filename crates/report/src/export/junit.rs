@@ -22,11 +22,11 @@ pub(crate) fn xml(run: &Run, grid: &Grid<'_>) -> Result<String, SerializeError> 
     let mut report = Report::new("etalon");
     for (column, adapter) in grid.adapters.iter().enumerate() {
         let mut suite = TestSuite::new(*adapter);
-        suite.add_property(("started", run.header.started.as_str()));
+        suite.add_property(("started", run.header.provenance.started.as_str()));
         if let Some(facts) = run.header.adapter(adapter) {
-            suite.add_property(("device", facts.device.as_str()));
+            suite.add_property(("device", facts.info.device.as_str()));
             suite.add_property(("driver", facts.driver_text().as_str()));
-            suite.add_property(("api", facts.api_version.as_str()));
+            suite.add_property(("api", facts.info.api_version.as_str()));
         }
         suite.add_test_cases(grid.on(column).map(test_case));
         let beside = run.beside.iter().filter(|r| r.adapter == *adapter);

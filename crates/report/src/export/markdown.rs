@@ -122,9 +122,13 @@ fn head(text: &mut MarkdownText, run: &Run, news: Option<&News>) {
             count(better, "improvement")
         ));
     }
-    let commit = h.commit.as_deref().map_or(String::new(), |commit| {
-        format!(", commit {}", code(commit, 100))
-    });
+    let commit = h
+        .provenance
+        .commit
+        .as_deref()
+        .map_or(String::new(), |commit| {
+            format!(", commit {}", code(commit, 100))
+        });
     let shard = h
         .settings
         .shard
@@ -134,13 +138,16 @@ fn head(text: &mut MarkdownText, run: &Run, news: Option<&News>) {
         count(h.cases, "case"),
         count(h.adapters.len() as u64, "adapter"),
         count(run.records.len() as u64, "record"),
-        code(&h.started, 60),
-        escaped(&h.etalon, 60),
-        escaped(&h.machine.cpu, 200),
-        count(u64::from(h.machine.cores), "core"),
-        escaped(&h.machine.os, 200),
+        code(&h.provenance.started, 60),
+        escaped(&h.provenance.etalon, 60),
+        escaped(&h.provenance.machine.cpu, 200),
+        count(u64::from(h.provenance.machine.cores), "core"),
+        escaped(&h.provenance.machine.os, 200),
     ));
-    text.line(&format!("{}\n", code(&h.command.join(" "), 2000)));
+    text.line(&format!(
+        "{}\n",
+        code(&h.provenance.command.join(" "), 2000)
+    ));
 }
 
 /// Writes the news, then the runs with which this run was compared.
@@ -178,7 +185,7 @@ fn adapters(text: &mut MarkdownText, run: &Run) {
         records_of.entry(&record.adapter).or_default().push(record);
     }
     for adapter in &run.header.adapters {
-        records_of.entry(&adapter.name).or_default();
+        records_of.entry(&adapter.info.name).or_default();
     }
     let rows: Vec<(&str, VerdictTally)> = records_of
         .into_iter()

@@ -60,8 +60,8 @@ pub(super) fn runs(model: &Model<'_>) -> Value {
                 let a = &run.part.adapter;
                 let driver = drivers.place([
                     a.shown_version().to_owned(),
-                    a.driver.clone(),
-                    a.device.clone(),
+                    a.info.driver.clone(),
+                    a.info.device.clone(),
                 ]);
                 json!([run.place, u8::from(run.whole), driver, run.part.records])
             });

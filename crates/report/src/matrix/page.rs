@@ -52,7 +52,7 @@ pub(crate) fn page(matrix: &Matrix<'_>) -> String {
         (script(SCRIPT))
     };
     Page::new(
-        &format!("etalon matrix {}", matrix.bench.header.started),
+        &format!("etalon matrix {}", matrix.bench.header.provenance.started),
         "bench.jsonl in this folder",
         &main,
     )
@@ -74,7 +74,7 @@ fn head(matrix: &Matrix<'_>) -> Markup {
             p.lead { "Rates of fixed-function work, of pictures that were judged right." }
             (incomplete(matrix.bench))
             dl.facts {
-                (origin!(h))
+                (origin(&h.provenance))
                 dt { "Scope" } dd {
                     (count(matrix.cells.len() as u64, "cell")) " (" (h.profile) ") on "
                     (count(matrix.adapters.len() as u64, "adapter")) ", up to " (count(u64::from(h.rounds), "round")) " each"

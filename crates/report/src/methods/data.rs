@@ -42,7 +42,7 @@ impl DeviceKind {
     /// Returns the kind of an adapter of a run.
     pub(crate) fn of(run: &Run, adapter: &str) -> Self {
         match run.header.adapter(adapter) {
-            Some(a) if a.software => Self::Software,
+            Some(a) if a.info.software => Self::Software,
             Some(_) => Self::Hardware,
             None => Self::Unknown,
         }
@@ -302,7 +302,7 @@ impl<'a> Methods<'a> {
         if measured.is_empty() {
             return None;
         }
-        let from_header = run.header.adapters.iter().map(|a| a.name.as_str());
+        let from_header = run.header.adapters.iter().map(|a| a.info.name.as_str());
         let names = from_header.chain(measured.iter().map(|(r, _)| r.adapter.as_str()));
         let drew = |name: &&str| measured.iter().any(|(r, _)| r.adapter == *name);
         let adapters = distinct(names)

@@ -129,7 +129,7 @@ pub(crate) fn section(grid: &Grid<'_>) -> Option<Markup> {
             }
             details open[rows.len() <= 12] {
                 summary { "Table and command" }
-                p.again { "Drawn by " code { (grid.run.header.command.join(" ")) } }
+                p.again { "Drawn by " code { (grid.run.header.provenance.command.join(" ")) } }
                 p.note {
                     "The mean / the largest distance of legal frames in codes, and below as shares of the range. An ideal value "
                     "halfway between two codes is half a code away from both. In brackets, if there "

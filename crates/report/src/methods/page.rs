@@ -39,7 +39,7 @@ pub(crate) fn page(folder: &Path, run: &Run, methods: &Methods<'_>) -> String {
         (page::script(SCRIPT))
     };
     Page::new(
-        &format!("etalon methods {}", run.header.started),
+        &format!("etalon methods {}", run.header.provenance.started),
         "run.jsonl and pictures/ in this folder",
         &main,
     )
@@ -106,10 +106,10 @@ fn head(run: &Run, methods: &Methods<'_>) -> Markup {
                 "Cost and error of rendering methods, and the parameter at which each breaks."
             }
             dl.facts {
-                dt { "Run" } dd { a href="index.html" { "verdicts and findings" } ", " (h.started) }
+                dt { "Run" } dd { a href="index.html" { "verdicts and findings" } ", " (h.provenance.started) }
                 dt { "Profile" } dd { (profile(run)) }
-                dt { "Command" } dd { code { (h.command.join(" ")) } }
-                dt { "Machine" } dd { (words::machine(&h.machine)) }
+                dt { "Command" } dd { code { (h.provenance.command.join(" ")) } }
+                dt { "Machine" } dd { (words::machine(&h.provenance.machine)) }
                 dt { "Scope" } dd {
                     (count(scenes, "scene")) ", " (count(records as u64, "record")) " on "
                     @for (i, adapter) in methods.adapters.iter().enumerate() {
@@ -282,7 +282,7 @@ fn in_scene(run: &Run, pictures: &mut Pictures<'_>, shown: &ShownScene<'_, '_>) 
             }
             details {
                 summary { "Table and command" }
-                p.again { "Drawn by " code { (run.header.command.join(" ")) } "; this scene alone by "
+                p.again { "Drawn by " code { (run.header.provenance.command.join(" ")) } "; this scene alone by "
                     code { "etalon run " (quoted(&format!("methods/{}/{}/*", scene.question, scene.name))) } }
                 (table(methods, scene))
             }

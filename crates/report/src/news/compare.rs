@@ -24,16 +24,16 @@ impl<'r> Now<'r> {
     fn new(run: &'r Run) -> Self {
         Self {
             run,
-            started: parse_time(&run.header.started).unwrap_or(i64::MAX),
+            started: parse_time(&run.header.provenance.started).unwrap_or(i64::MAX),
         }
     }
 
     /// True if the history's run is this run, or an earlier state of it, before it was resumed.
     fn is(&self, info: &RunInfo) -> bool {
         let header = &self.run.header;
-        format_time(info.started) == header.started
-            && info.commit == header.commit
-            && info.etalon == header.etalon
+        format_time(info.started) == header.provenance.started
+            && info.commit == header.provenance.commit
+            && info.etalon == header.provenance.etalon
     }
 
     /// True if the history's run came before this one.
@@ -56,11 +56,11 @@ impl News {
             let records: Vec<&Record> = run
                 .records
                 .iter()
-                .filter(|r| r.adapter == adapter.name)
+                .filter(|r| r.adapter == adapter.info.name)
                 .collect();
-            let before = last(history, &now, &adapter.name, &records, labels)?;
+            let before = last(history, &now, &adapter.info.name, &records, labels)?;
             news.since.push(Since {
-                adapter: adapter.name.clone(),
+                adapter: adapter.info.name.clone(),
                 run: before.map(|(info, part)| told(info, part)),
             });
             let old: HashMap<Rc<str>, Rc<Outcome>> = match before {

@@ -45,16 +45,20 @@ fn absent_table<'a>() -> Table<'a, &'a AbsentAdapter> {
 }
 
 fn details(a: &AdapterRecord) -> Markup {
-    let kind = if a.software { "software" } else { "hardware" };
+    let kind = if a.info.software {
+        "software"
+    } else {
+        "hardware"
+    };
     let l = &a.limits;
     html! {
         details {
-            summary { code { (a.name) } " " small { (a.device) ", " (a.driver_text()) ", " (kind) } }
+            summary { code { (a.info.name) } " " small { (a.info.device) ", " (a.driver_text()) ", " (kind) } }
             dl.facts {
-                dt { "Backend" } dd { (a.backend) }
-                dt { "Device" } dd { (a.device) " (" (kind) ")" }
+                dt { "Backend" } dd { (a.info.backend) }
+                dt { "Device" } dd { (a.info.device) " (" (kind) ")" }
                 dt { "Driver" } dd { (a.driver_text()) }
-                dt { "API version" } dd { (a.api_version) }
+                dt { "API version" } dd { (a.info.api_version) }
                 dt { "Rules" } dd { (l.api.name()) }
                 dt { "Sub-pixel bits" } dd { (l.sub_pixel_bits) }
                 dt { "Largest attachment" } dd { (l.max_size) " texels a side" }

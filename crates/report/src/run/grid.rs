@@ -43,7 +43,7 @@ impl<'a> Grid<'a> {
     pub(crate) fn new(run: &'a Run) -> Self {
         let mut adapters: Vec<&str> = Vec::new();
         let mut column: HashMap<&str, usize> = HashMap::new();
-        let from_header = run.header.adapters.iter().map(|a| a.name.as_str());
+        let from_header = run.header.adapters.iter().map(|a| a.info.name.as_str());
         for name in from_header.chain(run.records.iter().map(|r| r.adapter.as_str())) {
             column.entry(name).or_insert_with(|| {
                 match adapters.len() {

@@ -101,8 +101,8 @@ pub(crate) fn page(
 
 fn title(run: &Run) -> String {
     match run.unexpected() {
-        0 => format!("etalon {}", run.header.started),
-        n => format!("{n} unexpected – etalon {}", run.header.started),
+        0 => format!("etalon {}", run.header.provenance.started),
+        n => format!("{n} unexpected – etalon {}", run.header.provenance.started),
     }
 }
 
@@ -113,7 +113,7 @@ fn head(run: &Run, dead: &[Dead], news: Option<&News>, methods: bool, drivers: b
             h1 { "etalon" }
             p.lead {
                 (count(h.cases, "case")) " on " (count(h.adapters.len() as u64, "adapter"))
-                ", " (count(run.records.len() as u64, "record")) ", started " (h.started)
+                ", " (count(run.records.len() as u64, "record")) ", started " (h.provenance.started)
             }
             (state(run, dead, news))
             @if !run.records.is_empty() {
@@ -194,7 +194,7 @@ fn about(run: &Run) -> Markup {
         section id="about" {
             h2 { "About the run" }
             dl.facts {
-                (origin!(run.header))
+                (origin(&run.header.provenance))
                 @if !settings.is_empty() { dt { "Settings" } dd { (settings.join(", ")) } }
             }
         }

@@ -74,12 +74,12 @@ fn reasons(run: &Run, reason: impl Fn(&Record) -> Option<String>) -> Vec<Reason>
         let Some(reason) = reason(record) else {
             continue;
         };
-        let place = adapters.iter().position(|a| a.name == record.adapter);
+        let place = adapters.iter().position(|a| a.info.name == record.adapter);
         let counts = found.entry((record.verdict, reason)).or_default();
         *counts.entry(place.unwrap_or(usize::MAX)).or_default() += 1;
     }
     let named = |(place, n): (usize, u64)| {
-        let name = adapters.get(place).map_or("?", |a| &a.name);
+        let name = adapters.get(place).map_or("?", |a| &a.info.name);
         (name.to_owned(), n)
     };
     let found = found.into_iter();

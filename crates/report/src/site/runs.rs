@@ -110,7 +110,7 @@ fn write_pages(
             FolderFacts {
                 drawn: scope(run.header.cases, &run.header.adapters),
                 result: result(&run),
-                started: run.header.started,
+                started: run.header.provenance.started,
                 index: "conformance",
             }
         }
@@ -121,7 +121,7 @@ fn write_pages(
             FolderFacts {
                 drawn: scope(header.cases, &header.adapters),
                 result: html! { "frame times" },
-                started: header.started,
+                started: header.provenance.started,
                 index: "frame times",
             }
         }
@@ -129,7 +129,7 @@ fn write_pages(
             let versions = Versions::read(folder)?;
             write_versions_page(to, &versions)?;
             FolderFacts {
-                started: versions.header.started,
+                started: versions.header.provenance.started,
                 ..FolderFacts::default()
             }
         }
@@ -137,7 +137,7 @@ fn write_pages(
             let hunt = Hunt::read(folder)?;
             write_hunt_page(to, &hunt)?;
             FolderFacts {
-                started: hunt.started,
+                started: hunt.provenance.started,
                 ..FolderFacts::default()
             }
         }
@@ -153,7 +153,7 @@ fn scope(cases: u64, adapters: &[AdapterRecord]) -> String {
         1 => "1 case".to_owned(),
         n => format!("{} cases", thousands(n)),
     };
-    let names: Vec<&str> = adapters.iter().map(|a| a.name.as_str()).collect();
+    let names: Vec<&str> = adapters.iter().map(|a| a.info.name.as_str()).collect();
     match names.len() {
         0..=3 => format!("{cases} on {}", names.join(", ")),
         many => format!("{cases} on {many} adapters"),

@@ -4,7 +4,7 @@ use crate::synthetic::adapter;
 use etalon_frame::Api;
 use etalon_record::{
     BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchWriter, Ended, Machine, Picture,
-    ProcessorLimits, Reason, Round, ShaderCache, Time, Verdict,
+    ProcessorLimits, Provenance, Reason, Round, ShaderCache, Time, Verdict,
 };
 use etalon_report::{TableOptions, bench_table, diff, diff_table, write_bench, write_diff};
 use etalon_stats::Conclusion;
@@ -16,18 +16,20 @@ use std::path::{Path, PathBuf};
 
 pub(crate) fn header() -> BenchHeader {
     let mut card = adapter("vulkan:card", Api::Vulkan);
-    card.software = false;
+    card.info.software = false;
     BenchHeader {
         format: BENCH_FORMAT,
-        etalon: "0.1.0".to_owned(),
-        commit: Some("abc".to_owned()),
-        machine: Machine {
-            os: "Linux".to_owned(),
-            cpu: "A processor".to_owned(),
-            cores: 2,
+        provenance: Provenance {
+            etalon: "0.1.0".to_owned(),
+            commit: Some("abc".to_owned()),
+            machine: Machine {
+                os: "Linux".to_owned(),
+                cpu: "A processor".to_owned(),
+                cores: 2,
+            },
+            started: "2026-01-01T00:00:00Z".to_owned(),
+            command: vec!["etalon".to_owned(), "bench".to_owned()],
         },
-        started: "2026-01-01T00:00:00Z".to_owned(),
-        command: vec!["etalon".to_owned(), "bench".to_owned()],
         profile: "quick".to_owned(),
         cases: 2,
         rounds: 9,
@@ -272,7 +274,7 @@ fn a_diff_tells_what_is_worse() {
     assert_eq!(unchanged.counts(), [0, 0, 8]);
 
     let mut other = header();
-    other.adapters[1].driver_version = "26.0.0".to_owned();
+    other.adapters[1].info.driver_version = "26.0.0".to_owned();
     other.ruler = "another".to_owned();
     let after = write(folders[2].path(), &other, 2.2e-3, Verdict::Fail);
     let found = diff(&before, &after, Time::Wall);

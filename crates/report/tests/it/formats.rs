@@ -19,10 +19,10 @@ const HOSTILE: &str = "\"><script>alert(1)</script>|`a`|![x](http://a.b/c)@me #1
 /// A run whose every text is hostile.
 fn hostile(folder: &Path) {
     let mut header = header(3, vec![adapter(HOSTILE, Api::Vulkan)]);
-    header.started = HOSTILE.to_owned();
-    header.command = vec![HOSTILE.to_owned()];
-    header.commit = Some(HOSTILE.to_owned());
-    header.machine.cpu = HOSTILE.to_owned();
+    header.provenance.started = HOSTILE.to_owned();
+    header.provenance.command = vec![HOSTILE.to_owned()];
+    header.provenance.commit = Some(HOSTILE.to_owned());
+    header.provenance.machine.cpu = HOSTILE.to_owned();
     header.absent[0].remedy = HOSTILE.to_owned();
     let mut record = Record::new(format!("{HOSTILE}/{HOSTILE}"), HOSTILE, Verdict::Crash);
     record.reasons = vec![Reason::Text(HOSTILE.to_owned())];
@@ -359,7 +359,7 @@ fn files_of_a_huge_run_keep_their_limits() {
     let adapters: Vec<_> = (0..10)
         .map(|i| adapter(&format!("a:{i}"), Api::Vulkan))
         .collect();
-    let names: Vec<String> = adapters.iter().map(|a| a.name.clone()).collect();
+    let names: Vec<String> = adapters.iter().map(|a| a.info.name.clone()).collect();
     let mut writer = RunWriter::create(folder.path(), &header(8000, adapters)).unwrap();
     for case in 0..8000 {
         for (index, name) in names.iter().enumerate() {

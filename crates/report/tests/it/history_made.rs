@@ -1,5 +1,6 @@
 //! A history of five nights on two adapters, and twenty benches.
 
+use etalon_frame::AdapterInfo;
 use etalon_history::{
     Adapter, FrameTimes, Kind, Labels, NewAdapter, NewRun, Outcome, Step, Subject, TriageEntry,
     TriageState, Writer, parse_labels, parse_time,
@@ -31,14 +32,16 @@ pub(crate) const HOSTILE: [&str; 4] = [
 
 fn adapter(name: &str, version: &str) -> NewAdapter {
     NewAdapter::new(Adapter {
-        name: name.to_owned(),
-        backend: "vulkan".to_owned(),
-        device: HOSTILE[1].to_owned(),
-        driver: "a driver".to_owned(),
-        driver_version: version.to_owned(),
-        driver_id: String::new(),
-        api_version: "1.3".to_owned(),
-        software: true,
+        info: AdapterInfo {
+            name: name.to_owned(),
+            backend: "vulkan".to_owned(),
+            device: HOSTILE[1].to_owned(),
+            driver: "a driver".to_owned(),
+            driver_version: version.to_owned(),
+            api_version: "1.3".to_owned(),
+            software: true,
+            ..AdapterInfo::default()
+        },
         line: String::new(),
         version: String::new(),
     })

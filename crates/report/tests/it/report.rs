@@ -168,8 +168,8 @@ fn hostile_names_stay_text() {
     let folder = tempfile::tempdir().unwrap();
     let hostile = "\"><script>alert(1)</script><i class='x' onload=\"y\">&amp;]]>\u{1b}[2J\u{7}";
     let mut header = header(1, vec![adapter(hostile, Api::Vulkan)]);
-    header.started = hostile.to_owned();
-    header.command = vec![hostile.to_owned()];
+    header.provenance.started = hostile.to_owned();
+    header.provenance.command = vec![hostile.to_owned()];
     header.absent[0].remedy = hostile.to_owned();
     let mut writer = RunWriter::create(folder.path(), &header).unwrap();
     let id = format!("{hostile}/{hostile}/a={hostile}");
@@ -503,7 +503,7 @@ fn hostile_names_of_methods_stay_text() {
     let folder = tempfile::tempdir().unwrap();
     let hostile = "\"><script>alert(1)</script><i class='x' onload=\"y\">&amp;]]>\u{1b}[2J\u{7}";
     let mut header = header(1, vec![adapter(hostile, Api::Vulkan)]);
-    header.command = vec![hostile.to_owned()];
+    header.provenance.command = vec![hostile.to_owned()];
     let mut writer = RunWriter::create(folder.path(), &header).unwrap();
     let [first, second] = [0.1, 2.0].map(|value| {
         let mut record = Record::new(format!("{hostile}/b={hostile}"), hostile, Verdict::Measured);

@@ -438,10 +438,10 @@ fn adapters_are_matched_by_name_or_alone_or_as_named() {
 fn headers_stand_side_by_side() {
     let two = Two::new();
     let mut new = one_adapter(1);
-    new.commit = Some("9999999".to_owned());
-    new.machine.cores = 8;
+    new.provenance.commit = Some("9999999".to_owned());
+    new.provenance.machine.cores = 8;
     new.settings.repeat = Some(3);
-    new.adapters[0].driver_version = "26.1".to_owned();
+    new.adapters[0].info.driver_version = "26.1".to_owned();
     new.adapters[0].limits.features.clear();
     record_all(&two.before(), &one_adapter(1), &[rich("a/b")]);
     record_all(&two.after(), &new, &[rich("a/b")]);
@@ -558,8 +558,8 @@ fn hostile_names_stay_text() {
         2,
         vec![adapter(hostile, Api::OpenGl), adapter("b", Api::OpenGl)],
     );
-    header.started = hostile.to_owned();
-    header.command = vec![hostile.to_owned()];
+    header.provenance.started = hostile.to_owned();
+    header.provenance.command = vec![hostile.to_owned()];
     let id = format!("{hostile}/f/c={hostile}");
     let mut old = Record::new(&id, hostile, Verdict::Pass);
     old.counters = vec![CounterOutcome {
@@ -578,7 +578,7 @@ fn hostile_names_stay_text() {
     let gone = Record::new(hostile, hostile, Verdict::Pass);
     old.frame = Some("frames/<i class='x'>.json.gz".to_owned());
     record_all(&two.before(), &header, &[old, gone]);
-    header.commit = Some(hostile.to_owned());
+    header.provenance.commit = Some(hostile.to_owned());
     record_all(&two.after(), &header, &[new]);
     let found = two.diff();
     assert_eq!(found.changes.len(), 1);

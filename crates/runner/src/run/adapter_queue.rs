@@ -112,7 +112,7 @@ impl AdapterQueue {
         expectations: &Expectations,
     ) -> Self {
         let launch = Launch {
-            adapter: adapter.name.clone(),
+            adapter: adapter.info.name.clone(),
             program: PathBuf::new(),
             arguments: Vec::new(),
             environment: Vec::new(),

@@ -69,7 +69,7 @@ impl<'s> AdapterRun<'s, '_> {
                 let case = self.case(number);
                 let failure = Failure::Lost(Loss::NotStarted(error.to_owned()));
                 let report = FailureReport::new(failure, None);
-                let mut record = report.record(&case.id, &self.queue.adapter.name);
+                let mut record = report.record(&case.id, &self.queue.adapter.info.name);
                 record.due_fail = is_due_to_fail(case, &self.queue.adapter.limits);
                 self.record(self.settled(record));
             }
@@ -84,7 +84,7 @@ impl<'s> AdapterRun<'s, '_> {
         undrawn.or_else(|| {
             let budget = self.shared.budget.as_ref();
             let budget = budget.filter(|_| self.queue.is_late())?;
-            let mut record = Record::new(&case.id, &adapter.name, Verdict::Skipped);
+            let mut record = Record::new(&case.id, &adapter.info.name, Verdict::Skipped);
             record.due_fail = is_due_to_fail(case, &adapter.limits);
             record.reasons = vec![budget.reason()];
             Some(record)
@@ -111,7 +111,7 @@ impl<'s> AdapterRun<'s, '_> {
                 let start = Instant::now();
                 let judge = &self.shared.judge;
                 let Judged { record, frame } =
-                    judge.judge(number, case, &adapter.name, &adapter.limits, &frames);
+                    judge.judge(number, case, &adapter.info.name, &adapter.limits, &frames);
                 judging = start.elapsed();
                 Observation {
                     record,
@@ -120,7 +120,7 @@ impl<'s> AdapterRun<'s, '_> {
                 }
             }
             Err(failure) => {
-                let mut record = report(failure).record(&case.id, &adapter.name);
+                let mut record = report(failure).record(&case.id, &adapter.info.name);
                 if let Some(end) = &mut record.process {
                     end.seconds = drawing.since.as_secs_f64();
                 }
@@ -228,7 +228,7 @@ impl<'s> AdapterRun<'s, '_> {
         (self.shared.events)(Event::Recorded(Box::new(record)));
         if let Some(wall) = self.queue.written() {
             (self.shared.events)(Event::AdapterFinished {
-                adapter: self.queue.adapter.name.clone(),
+                adapter: self.queue.adapter.info.name.clone(),
                 wall,
             });
         }

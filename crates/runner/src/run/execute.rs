@@ -110,7 +110,12 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary
     });
     let dead = plan.dead.into_iter();
     let dead = dead.map(|(adapter, error)| {
-        AdapterQueue::not_started(missing(&adapter.name), adapter, error, plan.expectations)
+        AdapterQueue::not_started(
+            missing(&adapter.info.name),
+            adapter,
+            error,
+            plan.expectations,
+        )
     });
     let queues: Vec<AdapterQueue> = running.chain(dead).collect();
     share(plan.options.jobs, || {

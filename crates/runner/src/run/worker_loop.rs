@@ -59,7 +59,7 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
         let (shared, queue) = (run.shared, run.queue);
         if queue.begin(shared.budget.as_ref()) {
             (shared.events)(Event::AdapterStarted {
-                adapter: queue.adapter.name.clone(),
+                adapter: queue.adapter.info.name.clone(),
                 cases: queue.cases(),
             });
         }

@@ -2,10 +2,10 @@
 //! first.
 
 use crate::worker::{FAULT, launch, serve};
-use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
+use etalon_backend::{Backend, BackendError, FrameTime, Prepared};
 use etalon_case::{Case, CaseFile, Profile};
 use etalon_cpu::CpuBackend;
-use etalon_frame::{Frame, Limits};
+use etalon_frame::{AdapterInfo, Frame, Limits};
 use etalon_judge::Judge;
 use etalon_record::{ComparedPair, Reason, Verdict};
 use etalon_runner::{Worker, draw_frames};

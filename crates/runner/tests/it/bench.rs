@@ -3,11 +3,12 @@
 
 use crate::cases::cases;
 use crate::worker::{FAULT, NAME, fail_starts, launch, serve, starts};
-use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared};
+use etalon_backend::{Backend, BackendError, FrameTime, Prepared};
 use etalon_cpu::CpuBackend;
-use etalon_frame::{Frame, Limits};
+use etalon_frame::{AdapterInfo, Frame, Limits};
 use etalon_record::{
-    BENCH_FORMAT, Bench, BenchHeader, Expectations, LossKind, Machine, Reason, ShaderCache, Verdict,
+    BENCH_FORMAT, Bench, BenchHeader, Expectations, LossKind, Provenance, Reason, ShaderCache,
+    Verdict,
 };
 use etalon_runner::{BenchEvent, BenchPlan, BenchSummary, Launch, Worker};
 use etalon_scene::Scene;
@@ -95,11 +96,9 @@ fn bench(adapters: Vec<(Launch, Worker)>) -> (Bench, BenchSummary, Vec<String>) 
     let out = folder.path().join("out");
     let header = BenchHeader {
         format: BENCH_FORMAT,
-        etalon: String::new(),
-        commit: None,
-        machine: Machine::default(),
-        started: String::new(),
-        command: Vec::new(),
+        provenance: Provenance {
+            ..Provenance::default()
+        },
         profile: "full".to_owned(),
         cases: cases.len() as u64,
         rounds: ROUNDS,
@@ -305,11 +304,9 @@ fn a_folder_that_cannot_be_written_to_is_told_before_anything_is_timed() {
         folder: &blocked,
         header: BenchHeader {
             format: BENCH_FORMAT,
-            etalon: String::new(),
-            commit: None,
-            machine: Machine::default(),
-            started: String::new(),
-            command: Vec::new(),
+            provenance: Provenance {
+                ..Provenance::default()
+            },
             profile: "full".to_owned(),
             cases: cases.len() as u64,
             rounds: 1,

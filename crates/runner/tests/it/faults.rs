@@ -3,10 +3,10 @@
 
 use crate::cases::cases;
 use crate::worker::{FAULT, LAUNCHED, TO_OPEN, fail_starts, protocol, serve, starts};
-use etalon_backend::{AdapterInfo, Backend, BackendError, FrameTime, Prepared, Unavailable};
+use etalon_backend::{Backend, BackendError, FrameTime, Prepared, Unavailable};
 use etalon_case::Library;
 use etalon_cpu::CpuBackend;
-use etalon_frame::{Feature, Frame, Limits, Requirement};
+use etalon_frame::{AdapterInfo, Feature, Frame, Limits, Requirement};
 use etalon_record::{Expectations, Header, LossKind, Reason, Record, Run, Verdict};
 use etalon_runner::{
     Event, Launch, Launcher, Options, Plan, RunSummary, START_TIMEOUT, StartError, Worker,

@@ -195,7 +195,7 @@ impl AddedRun<'_> {
         if !self.is_new {
             return format!("{path} is run {id} already\n");
         }
-        let names = run.adapters.iter().map(|a| plain(&a.adapter.name, 60));
+        let names = run.adapters.iter().map(|a| plain(&a.adapter.info.name, 60));
         let names: Vec<String> = names.take(20).collect();
         let more = match run.adapters.len().saturating_sub(names.len()) {
             0 => String::new(),
@@ -214,7 +214,7 @@ impl AddedRun<'_> {
     }
 
     fn json(&self) -> Value {
-        let names = self.run.adapters.iter().map(|a| &a.adapter.name);
+        let names = self.run.adapters.iter().map(|a| &a.adapter.info.name);
         json!({
             "path": self.path,
             "run": self.id.number(),
@@ -230,6 +230,7 @@ impl AddedRun<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use etalon_frame::AdapterInfo;
     use etalon_history::{Adapter, NewAdapter};
     use etalon_record::Machine;
 
@@ -248,14 +249,11 @@ mod tests {
             missing: 0,
             labels: Labels::new(),
             adapters: vec![NewAdapter::new(Adapter {
-                name: format!("a@{version}"),
-                backend: String::new(),
-                device: String::new(),
-                driver: String::new(),
-                driver_version: String::new(),
-                driver_id: String::new(),
-                api_version: String::new(),
-                software: true,
+                info: AdapterInfo {
+                    name: format!("a@{version}"),
+                    software: true,
+                    ..AdapterInfo::default()
+                },
                 line: "a".to_owned(),
                 version: version.to_owned(),
             })],

@@ -54,7 +54,7 @@ pub(super) fn run_json(history: &History, run: RunId, timeline: &str) -> Value {
         "digest": info.map(RunInfo::digest_text),
         "time": info.map(|info| format_time(info.time())),
         "kind": info.map(|info| info.kind.name()),
-        "driver": part.map(|part| &part.adapter.driver),
+        "driver": part.map(|part| &part.adapter.info.driver),
         "driver_version": part.map(|part| part.adapter.shown_version()),
         "commit": info.and_then(|info| info.commit.as_ref()),
         "labels": info.map(|info| &info.labels),

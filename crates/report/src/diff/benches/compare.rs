@@ -324,18 +324,18 @@ fn gone(there: &BenchRecord, other: Option<&BenchRecord>, from_after: bool, time
 
 fn side(header: &BenchHeader) -> BenchFacts {
     BenchFacts {
-        started: header.started.clone(),
-        etalon: header.etalon.clone(),
-        commit: header.commit.clone(),
-        machine: machine(&header.machine),
-        command: header.command.join(" "),
+        started: header.provenance.started.clone(),
+        etalon: header.provenance.etalon.clone(),
+        commit: header.provenance.commit.clone(),
+        machine: machine(&header.provenance.machine),
+        command: header.provenance.command.join(" "),
     }
 }
 
 fn notes(before: &Bench, after: &Bench) -> Vec<String> {
     let (b, a) = (&before.header, &after.header);
     let mut notes = Vec::new();
-    if b.machine != a.machine {
+    if b.provenance.machine != a.provenance.machine {
         notes.push(
             "The machines differ, so they can cause changes instead of the driver.".to_owned(),
         );
@@ -355,13 +355,19 @@ fn notes(before: &Bench, after: &Bench) -> Vec<String> {
     let caches = [b, a].map(|h| h.shader_cache.name());
     differs("Shader caches:".to_owned(), caches[0], caches[1]);
     for old in &b.adapters {
-        let Some(new) = a.adapter(&old.name) else {
+        let Some(new) = a.adapter(&old.info.name) else {
             continue;
         };
-        let facts = |a: &AdapterRecord| [a.device.clone(), a.driver_text(), a.api_version.clone()];
+        let facts = |a: &AdapterRecord| {
+            [
+                a.info.device.clone(),
+                a.driver_text(),
+                a.info.api_version.clone(),
+            ]
+        };
         let names = ["device", "driver", "API"].into_iter();
         for (name, (b, a)) in names.zip(facts(old).into_iter().zip(facts(new))) {
-            differs(format!("{}: {name}", old.name), &b, &a);
+            differs(format!("{}: {name}", old.info.name), &b, &a);
         }
     }
     for (bench, name) in [(before, "first"), (after, "second")] {

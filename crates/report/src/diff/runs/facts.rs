@@ -18,12 +18,12 @@ pub(super) fn same_selection(before: &Header, after: &Header) -> bool {
 /// Returns the facts of the runs.
 pub(super) fn of_headers(before: &Header, after: &Header) -> Vec<Fact> {
     facts([before, after], |h| {
-        let machine = &h.machine;
+        let machine = &h.provenance.machine;
         vec![
-            ("started", h.started.clone()),
-            ("etalon", h.etalon.clone()),
-            ("commit", h.commit.clone().unwrap_or_default()),
-            ("command", h.command.join(" ")),
+            ("started", h.provenance.started.clone()),
+            ("etalon", h.provenance.etalon.clone()),
+            ("commit", h.provenance.commit.clone().unwrap_or_default()),
+            ("command", h.provenance.command.join(" ")),
             ("processor", machine.cpu.clone()),
             ("cores", machine.cores.to_string()),
             ("system", machine.os.clone()),
@@ -43,10 +43,10 @@ pub(super) fn of_adapters(folders: &[Folder<'_>; 2], adapter: [&str; 2]) -> Vec<
         let l = &a.limits;
         let counts = l.sample_positions.keys().map(u32::to_string);
         vec![
-            ("device", a.device.clone()),
+            ("device", a.info.device.clone()),
             ("driver", a.driver_text()),
-            ("driver id", a.driver_id.clone()),
-            ("API", a.api_version.clone()),
+            ("driver id", a.info.driver_id.clone()),
+            ("API", a.info.api_version.clone()),
             ("rules", l.api.name().to_owned()),
             ("sub-pixel bits", l.sub_pixel_bits.to_string()),
             ("largest attachment", l.max_size.to_string()),

@@ -19,7 +19,7 @@ impl<'a> Folder<'a> {
     pub(super) fn new(path: &'a Path, run: &'a Run) -> Self {
         let mut adapters = Vec::new();
         let mut records: HashMap<&str, HashMap<&str, &Record>> = HashMap::new();
-        let named = run.header.adapters.iter().map(|a| a.name.as_str());
+        let named = run.header.adapters.iter().map(|a| a.info.name.as_str());
         for name in named.chain(run.records.iter().map(|r| r.adapter.as_str())) {
             records.entry(name).or_insert_with(|| {
                 adapters.push(name);

@@ -1,7 +1,9 @@
 //! Runs made up for tests, with one line per record.
 
-use etalon_frame::{Api, Distance, Limits};
-use etalon_record::{AdapterRecord, Header, Measured, Parameter, Record, Run, Times, Verdict};
+use etalon_frame::{AdapterInfo, Api, Distance, Limits};
+use etalon_record::{
+    AdapterRecord, Header, Measured, Parameter, Provenance, Record, Run, Times, Verdict,
+};
 
 /// A record with all values that claims use, and defaults for the others.
 #[derive(Clone, Debug)]
@@ -99,16 +101,13 @@ pub(crate) fn run(made: &[Made]) -> Run {
     names.sort_unstable();
     names.dedup();
     let adapter = |name: &str| AdapterRecord {
-        name: name.to_owned(),
-        backend: "cpu".to_owned(),
-        device: String::new(),
-        driver: String::new(),
-        driver_version: String::new(),
-        driver_id: String::new(),
-        api_version: String::new(),
-        software: !name.starts_with("hw"),
+        info: AdapterInfo {
+            name: name.to_owned(),
+            backend: "cpu".to_owned(),
+            software: !name.starts_with("hw"),
+            ..AdapterInfo::default()
+        },
         release: None,
-        offer: None,
         limits: Limits {
             api: Api::Vulkan,
             version: etalon_frame::ApiVersion::new(1, 3),
@@ -125,7 +124,10 @@ pub(crate) fn run(made: &[Made]) -> Run {
     };
     Run {
         header: Header {
-            command: vec!["etalon".to_owned()],
+            provenance: Provenance {
+                command: vec!["etalon".to_owned()],
+                ..Provenance::default()
+            },
             ..Header::new(names.into_iter().map(adapter).collect(), made.len() as u64)
         },
         records: made.iter().map(Made::record).collect(),

@@ -28,20 +28,20 @@ pub(super) fn hostile_names_stay_text(chromium: &Chromium) {
     let adapters: Vec<_> = HOSTILE.iter().map(|h| adapter(h, Api::Vulkan)).collect();
     let mut header = header(HOSTILE.len() as u64, adapters);
     let hostile = HOSTILE.join(" ");
-    header.started = hostile.clone();
-    header.command = vec![hostile.clone()];
-    header.machine.cpu = hostile.clone();
-    header.machine.os = hostile.clone();
-    header.commit = Some(hostile.clone());
+    header.provenance.started = hostile.clone();
+    header.provenance.command = vec![hostile.clone()];
+    header.provenance.machine.cpu = hostile.clone();
+    header.provenance.machine.os = hostile.clone();
+    header.provenance.commit = Some(hostile.clone());
     header.absent[0].name = hostile.clone();
     header.absent[0].reason = hostile.clone();
     header.absent[0].remedy = hostile.clone();
     for adapter in &mut header.adapters {
-        adapter.device = hostile.clone();
-        adapter.driver = hostile.clone();
-        adapter.driver_version = hostile.clone();
-        adapter.api_version = hostile.clone();
-        adapter.backend = hostile.clone();
+        adapter.info.device = hostile.clone();
+        adapter.info.driver = hostile.clone();
+        adapter.info.driver_version = hostile.clone();
+        adapter.info.api_version = hostile.clone();
+        adapter.info.backend = hostile.clone();
     }
     let mut writer = RunWriter::create(folder.path(), &header).unwrap();
     let id = |text: &str| format!("{text}/{text}/axis={text}");

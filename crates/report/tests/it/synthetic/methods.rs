@@ -45,7 +45,7 @@ pub(crate) fn write(folder: &Path) -> usize {
     let mut adapters = Vec::new();
     for (name, software, _) in ADAPTERS {
         let mut a = adapter(name, Api::Vulkan);
-        a.software = software;
+        a.info.software = software;
         adapters.push(a);
     }
     let mut records = Vec::new();

@@ -4,13 +4,14 @@ pub(crate) mod large;
 pub(crate) mod methods;
 
 use etalon_frame::{
-    Api, Aspect, Band, ChannelEncoding, ChannelMismatch, CodeInterval, Codes, Contents, DepthTest,
-    Effect, Event, Feature, FormatSupport, Limits, Origin, ReadPath, Rejection, Requirement, Step,
-    Story, TextureFormat, ValueRange, WrongTexel,
+    AdapterInfo, Api, Aspect, Band, ChannelEncoding, ChannelMismatch, CodeInterval, Codes,
+    Contents, DepthTest, Effect, Event, Feature, FormatSupport, Limits, Origin, ReadPath,
+    Rejection, Requirement, Step, Story, TextureFormat, ValueRange, WrongTexel,
 };
 use etalon_record::{
     AbsentAdapter, AdapterRecord, Assertion, Expected, FORMAT, FrameFile, FrameImage, Header,
-    LossKind, Machine, ProcessEnd, Reason, Record, RunWriter, Seconds, Settings, Verdict,
+    LossKind, Machine, ProcessEnd, Provenance, Reason, Record, RunWriter, Seconds, Settings,
+    Verdict,
 };
 use std::path::Path;
 
@@ -55,16 +56,17 @@ pub(crate) fn adapter(name: &str, api: Api) -> AdapterRecord {
         read: ReadPath::Copy,
     };
     AdapterRecord {
-        name: name.to_owned(),
-        backend: name.split(':').next().unwrap_or_default().to_owned(),
-        device: format!("{name} (LLVM 19.1.7, 256 bits)"),
-        driver: "Mesa".to_owned(),
-        driver_version: "25.0.7".to_owned(),
-        driver_id: String::new(),
-        api_version: "1.4.305".to_owned(),
-        software: true,
+        info: AdapterInfo {
+            name: name.to_owned(),
+            backend: name.split(':').next().unwrap_or_default().to_owned(),
+            device: format!("{name} (LLVM 19.1.7, 256 bits)"),
+            driver: "Mesa".to_owned(),
+            driver_version: "25.0.7".to_owned(),
+            api_version: "1.4.305".to_owned(),
+            software: true,
+            ..AdapterInfo::default()
+        },
         release: None,
-        offer: None,
         limits: Limits {
             api,
             version: etalon_frame::ApiVersion::UNKNOWN,
@@ -91,17 +93,19 @@ pub(crate) fn adapter(name: &str, api: Api) -> AdapterRecord {
 pub(crate) fn header(cases: u64, adapters: Vec<AdapterRecord>) -> Header {
     Header {
         format: FORMAT,
-        etalon: "0.1.0".to_owned(),
-        commit: Some("0123abc".to_owned()),
-        machine: Machine {
-            os: "Debian GNU/Linux 13, Linux 6.12".to_owned(),
-            cpu: "Example CPU at 2.1 GHz".to_owned(),
-            cores: 4,
+        provenance: Provenance {
+            etalon: "0.1.0".to_owned(),
+            commit: Some("0123abc".to_owned()),
+            machine: Machine {
+                os: "Debian GNU/Linux 13, Linux 6.12".to_owned(),
+                cpu: "Example CPU at 2.1 GHz".to_owned(),
+                cores: 4,
+            },
+            started: "2026-01-02T03:04:05Z".to_owned(),
+            command: ["etalon", "run", "--profile", "full"]
+                .map(str::to_owned)
+                .to_vec(),
         },
-        started: "2026-01-02T03:04:05Z".to_owned(),
-        command: ["etalon", "run", "--profile", "full"]
-            .map(str::to_owned)
-            .to_vec(),
         cases,
         settings: Settings::default(),
         adapters,
