@@ -19,7 +19,7 @@ pub struct Blit {
 
 /// A copy of texels to their positions in the attachment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Piece {
+pub struct BlitPiece {
     /// The first texel after the blits.
     pub from: [u32; 2],
     /// The position in the attachment, in texels.
@@ -80,13 +80,13 @@ impl Blits {
     /// Returns the blits of parts, each of one aspect. The order of the aspects alternates.
     fn parts(&self, aspects: &[Aspect]) -> Vec<Blit> {
         let mut blits = Vec::new();
-        let each: Vec<Vec<Piece>> = aspects.iter().map(|aspect| self.pieces(*aspect)).collect();
+        let each: Vec<Vec<BlitPiece>> = aspects.iter().map(|aspect| self.pieces(*aspect)).collect();
         for number in 0..each.first().map_or(0, Vec::len) {
             let mut some: Vec<Blit> = aspects
                 .iter()
                 .zip(&each)
                 .map(|(aspect, pieces)| {
-                    let Piece { from, to, size } = pieces[number];
+                    let BlitPiece { from, to, size } = pieces[number];
                     let corners = |[x, y]: [u32; 2]| [[x, y], [x + size[0], y + size[1]]];
                     Blit {
                         aspects: vec![*aspect],
@@ -104,7 +104,7 @@ impl Blits {
     }
 
     /// Returns the copies that move an aspect's texels back to their positions.
-    pub fn pieces(&self, aspect: Aspect) -> Vec<Piece> {
+    pub fn pieces(&self, aspect: Aspect) -> Vec<BlitPiece> {
         let [width, height] = self.size;
         if self.end == PathEnd::BlitPart {
             // The blits mirrored the positions of the parts: always the columns, and the rows unless the
@@ -115,7 +115,7 @@ impl Blits {
             for down in halves(height) {
                 for across in halves(width) {
                     let top = if rows { place(height, down) } else { down.0 };
-                    pieces.push(Piece {
+                    pieces.push(BlitPiece {
                         from: [place(width, across), top],
                         to: [across.0, down.0],
                         size: [across.1, down.1],
@@ -126,7 +126,7 @@ impl Blits {
         }
         let texels = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
         texels
-            .map(|[x, y]| Piece {
+            .map(|[x, y]| BlitPiece {
                 from: match self.end {
                     PathEnd::BlitScaled => [
                         x * SCALE[0] + (x + y) % SCALE[0],
@@ -189,7 +189,7 @@ mod tests {
                 let made = blits.blits(&aspects);
                 let made = || made.iter().filter(|blit| blit.aspects.contains(&aspect));
                 let mut reached = 0;
-                for Piece { from, to, size } in blits.pieces(aspect) {
+                for BlitPiece { from, to, size } in blits.pieces(aspect) {
                     for [x, y] in (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y])) {
                         let stored = made()
                             .rev()

@@ -19,15 +19,15 @@ mod fault;
 mod halves;
 mod recording;
 
-pub use blits::{Blit, Blits, Piece, doubled};
+pub use blits::{Blit, BlitPiece, Blits, doubled};
 pub use fault::{
     CallFault, DrawNumbers, Fault, FaultyCalls, FaultyScenes, LimitFault, OpenQuery, ProcessFault,
     ReadFault,
 };
 pub use halves::halves;
 pub use recording::{
-    Argument, Call, Constant, CounterPart, Form, Member, Phase, Plane, RecordedContext,
-    RecordedCounter, RecordedImage, Recording, VulkanNeeds,
+    Argument, Constant, CounterPart, Member, NumberForm, Phase, RecordedCall, RecordedContext,
+    RecordedCounter, RecordedImage, RecordedPlane, Recording, VulkanNeeds,
 };
 
 use etalon_frame::{AdapterInfo, ErrorKind, Frame, Limits, Requirement};

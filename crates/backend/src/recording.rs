@@ -9,7 +9,7 @@ pub struct Recording {
     /// The context in which the calls were made.
     pub context: RecordedContext,
     /// The calls in order, without queries of errors and limits.
-    pub calls: Vec<Call>,
+    pub calls: Vec<RecordedCall>,
     /// The images that were read.
     pub images: Vec<RecordedImage>,
     /// The counters, in the order of the scene's counters.
@@ -80,7 +80,7 @@ pub enum Phase {
 
 /// A recorded call.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Call {
+pub struct RecordedCall {
     /// The part of the work that the call belongs to.
     pub phase: Phase,
     /// The function's name in the API.
@@ -169,12 +169,12 @@ pub struct RecordedImage {
     /// Width and height.
     pub size: [u32; 2],
     /// The planes of texels, one per sample.
-    pub planes: Vec<Plane>,
+    pub planes: Vec<RecordedPlane>,
 }
 
 /// The texels of one sample in memory that calls wrote: rows from the top, without gaps.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Plane {
+pub struct RecordedPlane {
     /// The number of the memory.
     pub output: u32,
     /// The size of a texel in bytes.
@@ -182,12 +182,12 @@ pub struct Plane {
     /// The first bit and the number of bits of each channel in a texel, which is a little-endian number.
     pub channels: Vec<[u32; 2]>,
     /// The form of the numbers.
-    pub form: Form,
+    pub form: NumberForm,
 }
 
 /// The form of a number that was read back, which determines its code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Form {
+pub enum NumberForm {
     /// The number is the code.
     Code,
     /// The code was widened to a byte.

@@ -1,13 +1,13 @@
 //! The backend that draws in a page.
 
 use crate::browser::Browser;
-use crate::server::Server;
-use crate::session::Session;
+use crate::server::PageServer;
+use crate::session::PageSession;
 use etalon_backend::{Backend, BackendError, Fault, FrameTime, Prepared, Recording, Unavailable};
 use etalon_frame::{AdapterInfo, Frame, Limits};
 use etalon_keeper::{Kept, token};
 use etalon_scene::Scene;
-use etalon_webgpu::message::{Request, Times, take_contents};
+use etalon_webgpu::message::{PageTimes, Request, take_contents};
 use etalon_webgpu::{CallList, Device, adapter, lower, plant};
 use std::cell::{Cell, RefCell};
 use std::net::SocketAddr;
@@ -24,9 +24,9 @@ const LEAVING: Duration = Duration::from_secs(10);
 
 /// Options for [`open`].
 #[derive(Debug)]
-pub struct Options {
+pub struct BrowserOptions {
     /// The way to reach a browser.
-    pub source: Source,
+    pub source: PageSource,
     /// Keeps the uncaptured errors of the device for [`Backend::messages`].
     pub validate: bool,
     /// A fault that a test plants in the calls, or in the values read back.
@@ -37,7 +37,7 @@ pub struct Options {
 
 /// The way to reach a browser.
 #[derive(Debug)]
-pub enum Source {
+pub enum PageSource {
     /// A browser that is started, by a keeper with this command.
     Started(Browser, Command),
     /// A browser in which a person opens the page, at this address with this token in its path.
@@ -48,8 +48,8 @@ pub enum Source {
 pub struct BrowserBackend {
     info: AdapterInfo,
     device: Device,
-    session: Session,
-    options: Options,
+    session: PageSession,
+    options: BrowserOptions,
     next_slot: Cell<u64>,
     next_number: Cell<u64>,
     /// Slots of scenes that the page can forget.
@@ -62,11 +62,11 @@ pub struct BrowserBackend {
 ///
 /// # Errors
 /// If no page opens, or it has no device.
-pub fn open(name: &str, mut options: Options) -> Result<BrowserBackend, Unavailable> {
+pub fn open(name: &str, mut options: BrowserOptions) -> Result<BrowserBackend, Unavailable> {
     let failed = |reason: String| Unavailable::new(reason, "see the browser's own messages");
     let (address, token) = match &options.source {
-        Source::Started(..) => (SocketAddr::from(([127, 0, 0, 1], 0)), token()),
-        Source::Listening(address, token) => (*address, token.clone()),
+        PageSource::Started(..) => (SocketAddr::from(([127, 0, 0, 1], 0)), token()),
+        PageSource::Listening(address, token) => (*address, token.clone()),
     };
     let server = listening(address, &token).map_err(|error| {
         Unavailable::new(
@@ -75,16 +75,16 @@ pub fn open(name: &str, mut options: Options) -> Result<BrowserBackend, Unavaila
         )
     })?;
     let (kept, patience) = match &mut options.source {
-        Source::Started(browser, keeper) => {
+        PageSource::Started(browser, keeper) => {
             let url = format!("http://{}/{token}/", server.address);
             let keeper = std::mem::replace(keeper, Command::new(""));
             let kept = Kept::start(keeper, &browser.program(&url));
             let kept = kept.map_err(|error| failed(format!("no browser is started: {error}")))?;
             (Some(kept), OPENING)
         }
-        Source::Listening(..) => (None, WAITING),
+        PageSource::Listening(..) => (None, WAITING),
     };
-    let session = Session::new(server, kept);
+    let session = PageSession::new(server, kept);
     let hello = session
         .greeting(Instant::now() + patience)
         .map_err(failed)?;
@@ -148,10 +148,10 @@ impl Backend for BrowserBackend {
 }
 
 /// Starts a server once an earlier worker has left the port.
-fn listening(address: SocketAddr, token: &str) -> io::Result<Server> {
+fn listening(address: SocketAddr, token: &str) -> io::Result<PageServer> {
     let begun = Instant::now();
     loop {
-        match Server::start(address, token) {
+        match PageServer::start(address, token) {
             Err(error) if error.kind() == io::ErrorKind::AddrInUse && begun.elapsed() < LEAVING => {
                 thread::sleep(Duration::from_millis(50));
             }
@@ -181,7 +181,7 @@ struct PageScene<'a> {
 
 impl PageScene<'_> {
     /// Draws frames, and reads the last one if `read` is true. A page that was opened again draws anew.
-    fn ask(&mut self, frames: u32, read: bool) -> Result<(Vec<Times>, Vec<u8>), BackendError> {
+    fn ask(&mut self, frames: u32, read: bool) -> Result<(Vec<PageTimes>, Vec<u8>), BackendError> {
         let backend = self.backend;
         loop {
             let new = !self.known;

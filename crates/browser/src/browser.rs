@@ -1,6 +1,6 @@
 //! A browser, and the program that a keeper starts for it.
 
-use etalon_keeper::{Program, new_folder};
+use etalon_keeper::{KeptProgram, new_folder};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -36,11 +36,11 @@ impl Browser {
     }
 
     /// Returns the program that opens the page at this address.
-    pub(crate) fn program(&self, url: &str) -> Program {
+    pub(crate) fn program(&self, url: &str) -> KeptProgram {
         let folder = new_folder("etalon-browser-");
         let profile = folder.display().to_string();
         let words = self.command.iter();
-        Program {
+        KeptProgram {
             name: "the browser".to_owned(),
             command: words
                 .map(|word| word.replace(URL, url).replace(PROFILE, &profile))

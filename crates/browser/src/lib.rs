@@ -14,5 +14,5 @@ mod request_head;
 mod server;
 mod session;
 
-pub use backend::{BrowserBackend, Options, Source, WAITING, open};
+pub use backend::{BrowserBackend, BrowserOptions, PageSource, WAITING, open};
 pub use browser::Browser;

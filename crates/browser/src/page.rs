@@ -1,7 +1,7 @@
 //! The files of the page.
 
 /// A file that the worker serves.
-pub(crate) struct File {
+pub(crate) struct ServedFile {
     /// The path after the token.
     pub(crate) path: &'static str,
     /// The media type.
@@ -11,28 +11,28 @@ pub(crate) struct File {
 }
 
 /// All files.
-pub(crate) const FILES: [File; 5] = [
-    File {
+pub(crate) const FILES: [ServedFile; 5] = [
+    ServedFile {
         path: "",
         media: "text/html; charset=utf-8",
         text: include_str!("../page/index.html"),
     },
-    File {
+    ServedFile {
         path: "scenes.js",
         media: "text/javascript; charset=utf-8",
         text: include_str!("../page/scenes.js"),
     },
-    File {
+    ServedFile {
         path: "device.js",
         media: "text/javascript; charset=utf-8",
         text: include_str!("../page/device.js"),
     },
-    File {
+    ServedFile {
         path: "executor.js",
         media: "text/javascript; charset=utf-8",
         text: include_str!("../page/executor.js"),
     },
-    File {
+    ServedFile {
         path: "page.js",
         media: "text/javascript; charset=utf-8",
         text: include_str!("../page/page.js"),

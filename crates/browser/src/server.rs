@@ -89,13 +89,13 @@ impl Waiting {
 }
 
 /// A server on a port.
-pub(crate) struct Server {
+pub(crate) struct PageServer {
     /// The address at which it listens.
     pub(crate) address: SocketAddr,
     sockets: Receiver<Socket>,
 }
 
-impl Server {
+impl PageServer {
     /// Starts serving at an address, at paths that begin with a token.
     ///
     /// # Errors

@@ -1,6 +1,6 @@
 //! The connection with a page.
 
-use crate::server::{Server, Socket};
+use crate::server::{PageServer, Socket};
 use etalon_backend::BackendError;
 use etalon_keeper::Kept;
 use etalon_webgpu::message::{Answer, Greeting, Hello, PROTOCOL, Request, packed, unpacked};
@@ -18,8 +18,8 @@ const MAX_HEADER: usize = 1 << 20;
 const MAX_TIMES: usize = 256;
 
 /// A server, its page and the browser that shows it.
-pub(crate) struct Session {
-    server: Server,
+pub(crate) struct PageSession {
+    server: PageServer,
     socket: RefCell<Option<Socket>>,
     /// The browser, if this worker started it.
     kept: RefCell<Option<Kept>>,
@@ -33,8 +33,8 @@ enum Gone {
     Garbage(String),
 }
 
-impl Session {
-    pub(crate) fn new(server: Server, kept: Option<Kept>) -> Self {
+impl PageSession {
+    pub(crate) fn new(server: PageServer, kept: Option<Kept>) -> Self {
         Self {
             server,
             socket: RefCell::new(None),

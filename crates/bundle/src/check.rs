@@ -3,7 +3,7 @@
 use crate::c;
 use crate::due::Due;
 use crate::error::BundleError;
-use crate::table::{self, Order};
+use crate::table::{self, BitOrder};
 use etalon_backend::Recording;
 use std::fmt::Write;
 
@@ -179,14 +179,14 @@ pub(crate) fn check(recording: &Recording, expected: &Due) -> Result<String, Bun
     Ok(text)
 }
 
-fn order(order: Order) -> &'static str {
+fn order(order: BitOrder) -> &'static str {
     match order {
-        Order::Unsigned => "UNSIGNED",
-        Order::Signed => "SIGNED",
-        Order::Half => "HALF",
-        Order::Single => "SINGLE",
-        Order::Value => "VALUE",
-        Order::Widened => "WIDENED",
+        BitOrder::Unsigned => "UNSIGNED",
+        BitOrder::Signed => "SIGNED",
+        BitOrder::Half => "HALF",
+        BitOrder::Single => "SINGLE",
+        BitOrder::Value => "VALUE",
+        BitOrder::Widened => "WIDENED",
     }
 }
 

@@ -1,7 +1,7 @@
 //! The declarations and functions of a C program, for any API.
 
 use crate::error::BundleError;
-use etalon_backend::{Call, Phase};
+use etalon_backend::{Phase, RecordedCall};
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write;
 
@@ -17,8 +17,8 @@ impl Body {
     /// Returns one function per run of calls of the same phase. `statement` prints a call, in one or several
     /// lines.
     pub(crate) fn of<'a>(
-        calls: impl IntoIterator<Item = &'a Call>,
-        mut statement: impl FnMut(&Call) -> Result<String, BundleError>,
+        calls: impl IntoIterator<Item = &'a RecordedCall>,
+        mut statement: impl FnMut(&RecordedCall) -> Result<String, BundleError>,
     ) -> Result<Self, BundleError> {
         let mut body = Self {
             definitions: String::new(),

@@ -34,4 +34,4 @@ pub use head::Head;
 pub use language::Language;
 pub use print::program;
 pub use program::Program;
-pub use report::{Checks, Expected, Report, Versions};
+pub use report::{BadReleases, Checks, Report, WrongValue};

@@ -28,7 +28,7 @@ pub fn program(
             library,
             device,
         } => {
-            let context = gl::Context {
+            let context = gl::ProgramContext {
                 es: *es,
                 version: *version,
                 library: library.as_deref(),
@@ -41,7 +41,7 @@ pub fn program(
             version,
             needs,
         } => {
-            let context = vulkan::Context {
+            let context = vulkan::ProgramDevice {
                 device,
                 version: *version,
                 needs,

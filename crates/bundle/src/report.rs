@@ -18,9 +18,9 @@ pub struct Report {
     /// The machine: operating system and processor.
     pub machine: String,
     /// The releases that were tried.
-    pub versions: Option<Versions>,
+    pub versions: Option<BadReleases>,
     /// The first wrong values.
-    pub expected: Vec<Expected>,
+    pub expected: Vec<WrongValue>,
     /// The states that differ from the default.
     pub states: Vec<String>,
     /// The number of runs that failed, and of all runs; `None` if the case was not drawn for the report.
@@ -55,7 +55,7 @@ pub enum Checks {
 
 /// The releases that have a bug.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Versions {
+pub struct BadReleases {
     /// The ranges, in words.
     pub bad: String,
     /// The newest release that was tried, and whether it has the bug.
@@ -64,7 +64,7 @@ pub struct Versions {
 
 /// A wrong value.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Expected {
+pub struct WrongValue {
     /// The place, in words.
     pub place: String,
     /// The expected value.
@@ -242,11 +242,11 @@ mod tests {
                 offer: None,
             },
             machine: "Linux".to_owned(),
-            versions: Some(Versions {
+            versions: Some(BadReleases {
                 bad: "22.3.6 to 26.2.6".to_owned(),
                 newest: Some(("26.2.6".to_owned(), true)),
             }),
-            expected: vec![Expected {
+            expected: vec![WrongValue {
                 place: "texel 3,4 | red".to_owned(),
                 due: "255".to_owned(),
                 actual: "0".to_owned(),

@@ -2,12 +2,12 @@
 
 use crate::due::{Due, DueChannel, DueCounter, DueTexel};
 use crate::error::BundleError;
-use etalon_backend::{Form, RecordedCounter, Recording};
+use etalon_backend::{NumberForm, RecordedCounter, Recording};
 use etalon_frame::ChannelEncoding;
 
 /// The comparison of a channel's bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Order {
+pub(crate) enum BitOrder {
     /// As an unsigned number.
     Unsigned,
     /// As a signed number.
@@ -23,7 +23,7 @@ pub(crate) enum Order {
 }
 
 /// A sample to check.
-pub(crate) struct Texel {
+pub(crate) struct TableTexel {
     /// The place, in words.
     pub(crate) place: String,
     /// The channels.
@@ -45,13 +45,16 @@ pub(crate) struct CheckedChannel {
     /// The number of bits.
     pub(crate) bits: u32,
     /// The comparison of the bits.
-    pub(crate) order: Order,
+    pub(crate) order: BitOrder,
     /// The width of the code, in bits.
     pub(crate) width: u32,
 }
 
 /// Returns the samples to check.
-pub(crate) fn texels(recording: &Recording, expected: &Due) -> Result<Vec<Texel>, BundleError> {
+pub(crate) fn texels(
+    recording: &Recording,
+    expected: &Due,
+) -> Result<Vec<TableTexel>, BundleError> {
     let texel = |texel: &DueTexel| {
         let channels = texel.channels.iter().map(|c| place(recording, texel, c));
         let range = |(range, channel): (&[i64; 2], &DueChannel)| {
@@ -59,7 +62,7 @@ pub(crate) fn texels(recording: &Recording, expected: &Due) -> Result<Vec<Texel>
         };
         let outcome =
             |ranges: &Vec<[i64; 2]>| ranges.iter().zip(&texel.channels).map(range).collect();
-        Ok(Texel {
+        Ok(TableTexel {
             place: match texel.sample {
                 0 => format!("texel {},{}", texel.x, texel.y),
                 sample => format!("sample {sample} of texel {},{}", texel.x, texel.y),
@@ -87,14 +90,14 @@ fn unread(channel: &DueChannel) -> BundleError {
 }
 
 /// Returns the form in which a channel was read back.
-fn form(recording: &Recording, channel: &DueChannel) -> Form {
+fn form(recording: &Recording, channel: &DueChannel) -> NumberForm {
     let image = recording
         .images
         .iter()
         .find(|i| i.attachment == channel.attachment && i.aspect == channel.aspect);
     image
         .and_then(|i| i.planes.first())
-        .map_or(Form::Code, |plane| plane.form)
+        .map_or(NumberForm::Code, |plane| plane.form)
 }
 
 /// Returns where a channel was read back.
@@ -122,15 +125,15 @@ fn place(
     let offset = (u64::from(texel.y) * u64::from(image.size[0]) + u64::from(texel.x))
         * u64::from(plane.texel);
     let (order, width) = match (plane.form, channel.encoding) {
-        (Form::Float | Form::Fraction, _) => (Order::Value, 32),
-        (Form::Byte, encoding) => match encoding.bits() {
-            8 => (Order::Unsigned, 8),
-            width => (Order::Widened, width),
+        (NumberForm::Float | NumberForm::Fraction, _) => (BitOrder::Value, 32),
+        (NumberForm::Byte, encoding) => match encoding.bits() {
+            8 => (BitOrder::Unsigned, 8),
+            width => (BitOrder::Widened, width),
         },
-        (Form::Code, ChannelEncoding::Snorm(bits)) => (Order::Signed, u32::from(bits)),
-        (Form::Code, ChannelEncoding::Float16) => (Order::Half, 16),
-        (Form::Code, ChannelEncoding::Float32) => (Order::Single, 32),
-        (Form::Code, encoding) => (Order::Unsigned, encoding.bits()),
+        (NumberForm::Code, ChannelEncoding::Snorm(bits)) => (BitOrder::Signed, u32::from(bits)),
+        (NumberForm::Code, ChannelEncoding::Float16) => (BitOrder::Half, 16),
+        (NumberForm::Code, ChannelEncoding::Float32) => (BitOrder::Single, 32),
+        (NumberForm::Code, encoding) => (BitOrder::Unsigned, encoding.bits()),
     };
     Ok(CheckedChannel {
         name: channel.name(),
@@ -145,12 +148,12 @@ fn place(
 
 /// Returns the bounds of a range of orders, as the numbers that the program compares. For a value that was
 /// read back as a float, the bounds are halfway to the next code.
-fn bounds([least, most]: [i64; 2], encoding: ChannelEncoding, form: Form) -> [f64; 2] {
+fn bounds([least, most]: [i64; 2], encoding: ChannelEncoding, form: NumberForm) -> [f64; 2] {
     let encoding = match (form, encoding) {
-        (Form::Fraction, ChannelEncoding::Srgb8) => ChannelEncoding::Unorm(8),
+        (NumberForm::Fraction, ChannelEncoding::Srgb8) => ChannelEncoding::Unorm(8),
         _ => encoding,
     };
-    if !matches!(form, Form::Float | Form::Fraction) {
+    if !matches!(form, NumberForm::Float | NumberForm::Fraction) {
         return [least as f64, most as f64];
     }
     let value = |order: i64| encoding.value_of_order(order);

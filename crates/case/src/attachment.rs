@@ -4,7 +4,7 @@ use crate::codes::codes;
 use crate::error::At;
 use crate::wire::{AttachmentWire, ClearWire, SceneWire, TexelsWire};
 use etalon_frame::{ChannelEncoding, TextureFormat};
-use etalon_scene::{Attachment, Contents, Scene};
+use etalon_scene::{Attachment, AttachmentContents, Scene};
 
 /// The maximum width and height of an attachment in a case file.
 pub(crate) const MAX_SIZE: u32 = 4096;
@@ -57,8 +57,8 @@ pub(crate) fn attachment(
             self::texels(texels, wire.format, size, samples).map_err(|e| e.key("texels"))?
         }
         (Some(clear), None) => self::clear(clear, wire.format).map_err(|e| e.key("clear"))?,
-        (None, None) if wire.format.is_color() => Contents::Color([0.0; 4]),
-        (None, None) => Contents::DepthStencil {
+        (None, None) if wire.format.is_color() => AttachmentContents::Color([0.0; 4]),
+        (None, None) => AttachmentContents::DepthStencil {
             depth: 1.0,
             stencil: 0,
         },
@@ -72,22 +72,26 @@ pub(crate) fn attachment(
     })
 }
 
-fn clear(wire: &ClearWire, format: TextureFormat) -> Result<Contents, At> {
+fn clear(wire: &ClearWire, format: TextureFormat) -> Result<AttachmentContents, At> {
     let (has_depth, has_stencil) = (format.has_depth(), format.has_stencil());
     let contents = match wire {
-        ClearWire::Color(color) if format.is_color() => Contents::Color(*color),
-        ClearWire::Number(depth) if has_depth && !has_stencil => Contents::DepthStencil {
+        ClearWire::Color(color) if format.is_color() => AttachmentContents::Color(*color),
+        ClearWire::Number(depth) if has_depth && !has_stencil => AttachmentContents::DepthStencil {
             depth: *depth as f32,
             stencil: 0,
         },
-        ClearWire::Number(stencil) if has_stencil && !has_depth => Contents::DepthStencil {
-            depth: 1.0,
-            stencil: stencil_code(*stencil)?,
-        },
-        ClearWire::DepthStencil(both) if has_depth && has_stencil => Contents::DepthStencil {
-            depth: both.depth,
-            stencil: both.stencil,
-        },
+        ClearWire::Number(stencil) if has_stencil && !has_depth => {
+            AttachmentContents::DepthStencil {
+                depth: 1.0,
+                stencil: stencil_code(*stencil)?,
+            }
+        }
+        ClearWire::DepthStencil(both) if has_depth && has_stencil => {
+            AttachmentContents::DepthStencil {
+                depth: both.depth,
+                stencil: both.stencil,
+            }
+        }
         _ => {
             let form = match (has_depth, has_stencil) {
                 (false, false) => "four numbers",
@@ -97,7 +101,7 @@ fn clear(wire: &ClearWire, format: TextureFormat) -> Result<Contents, At> {
             return Err(At::new(format!("the clear value of {format} is {form}")));
         }
     };
-    if let Contents::DepthStencil { depth, .. } = contents
+    if let AttachmentContents::DepthStencil { depth, .. } = contents
         && !(0.0..=1.0).contains(&depth)
     {
         return Err(At::new("a cleared depth must be between 0 and 1"));
@@ -118,7 +122,7 @@ fn texels(
     format: TextureFormat,
     size: [u32; 2],
     samples: u32,
-) -> Result<Contents, At> {
+) -> Result<AttachmentContents, At> {
     if !format.is_color() || samples != 1 {
         return Err(At::new(
             "only single-sample colour attachments take texels; use `clear`",
@@ -156,11 +160,11 @@ fn texels(
             })
             .collect::<Result<Vec<_>, At>>()
         }),
-        TexelsWire::Codes => return Ok(Contents::Texels(codes(format, size))),
+        TexelsWire::Codes => return Ok(AttachmentContents::Texels(codes(format, size))),
     };
     let codes = rows.map_err(|e| e.key("values"))?.concat();
     debug_assert_eq!(codes.len(), width * height * channels);
-    Ok(Contents::Texels(codes))
+    Ok(AttachmentContents::Texels(codes))
 }
 
 fn encode(encoding: ChannelEncoding, value: f64) -> Result<u32, At> {

@@ -6,7 +6,7 @@
 
 use crate::error::At;
 use crate::file::CaseRef;
-use crate::place::Step;
+use crate::place::PathStep;
 
 /// The maximum number of other values of an axis that are tried.
 const TRIED: usize = 6;
@@ -14,7 +14,8 @@ const TRIED: usize = 6;
 impl CaseRef<'_> {
     /// Moves an error of this case to the axis value that causes it, if there is one.
     pub(crate) fn blame(&self, at: At) -> At {
-        if matches!(at.path.first(), Some(Step::Key(key)) if key == "axes" || key == "derived") {
+        if matches!(at.path.first(), Some(PathStep::Key(key)) if key == "axes" || key == "derived")
+        {
             return at;
         }
         let used = at.clone().locate(self.file.name(), &self.file.text).key;
@@ -34,7 +35,7 @@ impl CaseRef<'_> {
     }
 
     /// Returns the path of the value behind the `"$name"` that an error's path leads to.
-    fn by_placeholder(&self, at: &At) -> Option<Vec<Step>> {
+    fn by_placeholder(&self, at: &At) -> Option<Vec<PathStep>> {
         let file = self.file.json();
         let mut value = &file;
         let mut steps = at.path.iter();
@@ -45,14 +46,14 @@ impl CaseRef<'_> {
                 return Some(path);
             }
             value = match steps.next()? {
-                Step::Key(key) => value.get(key)?,
-                Step::Index(index) => value.get(index)?,
+                PathStep::Key(key) => value.get(key)?,
+                PathStep::Index(index) => value.get(index)?,
             };
         }
     }
 
     /// Returns the path of the value that replaces a name in this case.
-    fn origin(&self, name: &str) -> Option<Vec<Step>> {
+    fn origin(&self, name: &str) -> Option<Vec<PathStep>> {
         let wire = &self.file.wire;
         if wire.axes.contains_key(name) {
             return Some(self.own_value(name));
@@ -64,7 +65,7 @@ impl CaseRef<'_> {
         let values = derived.values.as_ref();
         Some(match values.and_then(|values| values.get(axis, index)) {
             Some((_, step)) => {
-                let path = ["derived", name, "values"].map(|key| Step::Key(key.to_owned()));
+                let path = ["derived", name, "values"].map(|key| PathStep::Key(key.to_owned()));
                 path.into_iter().chain([step]).collect()
             }
             None => self.value_of(&derived.axis, index),
@@ -72,18 +73,21 @@ impl CaseRef<'_> {
     }
 
     /// Returns the path of this case's value on an axis.
-    fn own_value(&self, axis: &str) -> Vec<Step> {
+    fn own_value(&self, axis: &str) -> Vec<PathStep> {
         self.value_of(axis, self.file.positions(self.index)[axis])
     }
 
     /// Returns the path of a value of an axis: below `value` if it has a name, the whole axis if that is a
     /// range.
-    fn value_of(&self, axis: &str, index: usize) -> Vec<Step> {
-        let mut path = vec![Step::Key("axes".to_owned()), Step::Key(axis.to_owned())];
+    fn value_of(&self, axis: &str, index: usize) -> Vec<PathStep> {
+        let mut path = vec![
+            PathStep::Key("axes".to_owned()),
+            PathStep::Key(axis.to_owned()),
+        ];
         if let Some(listed) = self.file.json()["axes"][axis].get(index) {
-            path.push(Step::Index(index));
+            path.push(PathStep::Index(index));
             if *listed != self.file.wire.axes[axis][index].value {
-                path.push(Step::Key("value".to_owned()));
+                path.push(PathStep::Key("value".to_owned()));
             }
         }
         path

@@ -1,7 +1,7 @@
 //! Building a case from its index in a file.
 
 use crate::attachment::read_back;
-use crate::case::{Case, Expect};
+use crate::case::{Case, ExpectedTexel};
 use crate::error::{At, CaseError};
 use crate::file::{CaseRef, METHOD};
 use crate::random;
@@ -12,7 +12,7 @@ use crate::states;
 use crate::values::{substitute, typed};
 use crate::variants::{patch, read_again, variant_scene};
 use crate::wire::{ExpectWire, RandomWire, SceneSource};
-use etalon_methods::{Method, MethodScene, MethodWire, Parameter};
+use etalon_methods::{Method, MethodParameter, MethodScene, MethodWire};
 use etalon_scene::Scene;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -108,7 +108,7 @@ impl CaseRef<'_> {
                 let value = number().ok_or_else(|| {
                     At::new(format!("there is no axis `{axis}` with numbers")).key("parameter")
                 })?;
-                Some(Parameter {
+                Some(MethodParameter {
                     name: axis.clone(),
                     value,
                 })
@@ -157,7 +157,11 @@ impl CaseRef<'_> {
         make().map_err(|e| e.key(source.key()))
     }
 
-    fn expect(&self, scene: &Scene, values: &BTreeMap<&str, &Value>) -> Result<Vec<Expect>, At> {
+    fn expect(
+        &self,
+        scene: &Scene,
+        values: &BTreeMap<&str, &Value>,
+    ) -> Result<Vec<ExpectedTexel>, At> {
         let wire = &self.file.wire;
         if wire.expect.is_null() {
             return Ok(Vec::new());
@@ -182,7 +186,7 @@ impl CaseRef<'_> {
                     .key("texel")
                     .index(i));
             }
-            result.push(Expect {
+            result.push(ExpectedTexel {
                 attachment,
                 texel: e.texel,
                 value: e.value,

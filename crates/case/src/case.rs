@@ -27,7 +27,7 @@ pub struct Case {
     /// The relation between the frames of scene and variants.
     pub relation: Option<Relation>,
     /// Values that texels of the frame must have.
-    pub expect: Vec<Expect>,
+    pub expect: Vec<ExpectedTexel>,
     /// True if the case exists to be measured. Its picture can be large, so only a sample of its texels is
     /// judged.
     pub measured: bool,
@@ -37,7 +37,7 @@ pub struct Case {
 
 /// A colour that a texel of the frame must have.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Expect {
+pub struct ExpectedTexel {
     /// Index into the scene's attachments.
     pub attachment: usize,
     /// Column and row.

@@ -3,17 +3,17 @@
 use crate::attachment::{MAX_SIZE, find};
 use crate::error::At;
 use crate::fetch::fetch;
-use crate::place::Step;
+use crate::place::PathStep;
 use crate::wire::{DrawWire, StencilFaceWire, StencilWire};
 use etalon_frame::{CounterKind, TextureFormat};
 use etalon_scene::{
-    Attachment, ColorTarget, Contents, Counter, Draw, EarlyTests, MAX_VERTICES, Mesh, Multisample,
-    Params, PolygonMode, Pool, PrimitiveTopology, RESTART, Shader, StencilFace, StencilOperation,
-    StencilState, Viewport,
+    Attachment, AttachmentContents, ColorTarget, Counter, Draw, EarlyTests, MAX_VERTICES, Mesh,
+    Multisample, Params, PolygonMode, Pool, PrimitiveTopology, RESTART, Shader, StencilFace,
+    StencilOperation, StencilState, Viewport,
 };
 
 /// The attachments that a draw draws to, and the names that it can use.
-pub(crate) struct Target<'a> {
+pub(crate) struct DrawTarget<'a> {
     pub(crate) size: [u32; 2],
     pub(crate) samples: u32,
     /// Indices of the colour attachments.
@@ -26,8 +26,8 @@ pub(crate) struct Target<'a> {
     pub(crate) pool: Option<Pool>,
 }
 
-pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
-    let Target {
+pub(crate) fn draw(wire: &DrawWire, target: &DrawTarget<'_>) -> Result<Draw, At> {
+    let DrawTarget {
         size,
         samples,
         depth_stencil,
@@ -127,7 +127,7 @@ pub(crate) fn draw(wire: &DrawWire, target: &Target<'_>) -> Result<Draw, At> {
     ];
     if numbers.iter().any(|s| s.0.iter().any(|v| !v.is_finite())) {
         return Err(At::new("a parameter does not fit into a 32-bit float")
-            .below(Step::Key("params".to_owned())));
+            .below(PathStep::Key("params".to_owned())));
     }
     Ok(Draw {
         fetch,
@@ -247,7 +247,7 @@ fn check_outlines(mode: PolygonMode, mesh: &Mesh) -> Result<(), At> {
 }
 
 /// Checks how a texture is sampled.
-fn sampler(wire: &DrawWire, target: &Target<'_>, textures: &[usize]) -> Result<(), At> {
+fn sampler(wire: &DrawWire, target: &DrawTarget<'_>, textures: &[usize]) -> Result<(), At> {
     match (wire.sampler, wire.shader.samples_texture()) {
         (None, false) => return Ok(()),
         (Some(_), false) => {
@@ -286,7 +286,7 @@ fn sampler(wire: &DrawWire, target: &Target<'_>, textures: &[usize]) -> Result<(
 }
 
 /// Checks that a shader that uses the pool has a pool of its pass's size, and parameters that say so.
-fn check_pool(wire: &DrawWire, target: &Target<'_>) -> Result<(), At> {
+fn check_pool(wire: &DrawWire, target: &DrawTarget<'_>) -> Result<(), At> {
     if !wire.shader.uses_pool() {
         return Ok(());
     }
@@ -336,7 +336,11 @@ fn counters(wire: &DrawWire, available: &[Counter]) -> Result<Vec<usize>, At> {
 }
 
 /// Checks that only shaders that write integers write to integer formats, without blending.
-fn check_integers(wire: &DrawWire, target: &Target<'_>, targets: &[ColorTarget]) -> Result<(), At> {
+fn check_integers(
+    wire: &DrawWire,
+    target: &DrawTarget<'_>,
+    targets: &[ColorTarget],
+) -> Result<(), At> {
     for (index, color) in target.color.iter().zip(targets) {
         let format = target.attachments[*index].format;
         if format.is_integer() != wire.shader.writes_integers() {
@@ -402,7 +406,9 @@ fn check_masks(texture: Option<&Attachment>) -> Result<(), At> {
         return Ok(());
     };
     let texels = match &texture.contents {
-        Contents::Texels(texels) if texture.format == TextureFormat::Rgba32Float => texels,
+        AttachmentContents::Texels(texels) if texture.format == TextureFormat::Rgba32Float => {
+            texels
+        }
         _ => {
             let message = "a sample mask must come from uploaded texels of rgba32float";
             return Err(At::new(message));
@@ -427,7 +433,9 @@ fn check_references(texture: Option<&Attachment>) -> Result<(), At> {
         return Ok(());
     };
     let texels = match &texture.contents {
-        Contents::Texels(texels) if texture.format == TextureFormat::Rgba32Float => texels,
+        AttachmentContents::Texels(texels) if texture.format == TextureFormat::Rgba32Float => {
+            texels
+        }
         _ => {
             let message = "a stencil reference must come from uploaded texels of rgba32float";
             return Err(At::new(message));
@@ -501,7 +509,7 @@ fn color_targets(wire: &DrawWire, count: usize) -> Result<Vec<ColorTarget>, At> 
 }
 
 /// Checks the target of advanced blending, and the state that it excludes.
-fn check_advanced(wire: &DrawWire, target: &Target<'_>) -> Result<(), At> {
+fn check_advanced(wire: &DrawWire, target: &DrawTarget<'_>) -> Result<(), At> {
     if wire.advanced_blend.is_none() {
         return Ok(());
     }

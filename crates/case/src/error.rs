@@ -1,6 +1,6 @@
 //! Errors in case files, with file, line and key.
 
-use crate::place::{Place, Step};
+use crate::place::{PathStep, Place};
 use etalon_frame::shortened;
 use std::fmt;
 use thiserror::Error;
@@ -35,7 +35,7 @@ impl fmt::Display for CaseError {
 /// A path into a JSON document, and what is wrong there.
 #[derive(Clone, Debug)]
 pub(crate) struct At {
-    pub(crate) path: Vec<Step>,
+    pub(crate) path: Vec<PathStep>,
     pub(crate) message: String,
 }
 
@@ -48,17 +48,17 @@ impl At {
     }
 
     /// Prepends a step to the path.
-    pub(crate) fn below(mut self, step: Step) -> Self {
+    pub(crate) fn below(mut self, step: PathStep) -> Self {
         self.path.insert(0, step);
         self
     }
 
     pub(crate) fn key(self, key: &str) -> Self {
-        self.below(Step::Key(key.to_owned()))
+        self.below(PathStep::Key(key.to_owned()))
     }
 
     pub(crate) fn index(self, index: usize) -> Self {
-        self.below(Step::Index(index))
+        self.below(PathStep::Index(index))
     }
 
     /// Converts an error of typed parsing.
@@ -68,8 +68,8 @@ impl At {
             .path()
             .iter()
             .filter_map(|segment| match segment {
-                Segment::Seq { index } => Some(Step::Index(*index)),
-                Segment::Map { key } => Some(Step::Key(key.clone())),
+                Segment::Seq { index } => Some(PathStep::Index(*index)),
+                Segment::Map { key } => Some(PathStep::Key(key.clone())),
                 Segment::Enum { .. } | Segment::Unknown => None,
             })
             .collect();
@@ -98,16 +98,16 @@ impl At {
 }
 
 /// Returns a path as text: `scene.passes[0].draws`.
-fn key_of(path: &[Step]) -> String {
+fn key_of(path: &[PathStep]) -> String {
     let mut key = String::new();
     for step in path {
         match step {
-            Step::Key(name) if key.is_empty() => key.push_str(name),
-            Step::Key(name) => {
+            PathStep::Key(name) if key.is_empty() => key.push_str(name),
+            PathStep::Key(name) => {
                 key.push('.');
                 key.push_str(name);
             }
-            Step::Index(i) => key.push_str(&format!("[{i}]")),
+            PathStep::Index(i) => key.push_str(&format!("[{i}]")),
         }
     }
     key

@@ -37,7 +37,7 @@ mod values;
 mod variants;
 mod wire;
 
-pub use case::{Case, Expect};
+pub use case::{Case, ExpectedTexel};
 pub use document::build;
 pub use error::CaseError;
 pub use etalon_methods::Method;

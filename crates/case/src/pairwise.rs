@@ -4,7 +4,7 @@
 use std::collections::HashSet;
 
 /// Two values that occur together: axis and position of the first, axis and position of the second.
-type Pair = (usize, usize, usize, usize);
+type ValuePair = (usize, usize, usize, usize);
 
 /// The coverage that the rows must reach.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,7 +19,7 @@ pub(crate) enum Cover {
 /// deterministically. If no open pair determines a value, the least used value is taken, so that all values
 /// occur about equally often and in different combinations.
 pub(crate) fn rows(lengths: &[usize], cover: Cover) -> Vec<Vec<usize>> {
-    let mut state = State::new(lengths);
+    let mut state = CoverState::new(lengths);
     match cover {
         Cover::Pairs if lengths.len() > 1 => {
             for pair in pairs(lengths) {
@@ -36,7 +36,7 @@ pub(crate) fn rows(lengths: &[usize], cover: Cover) -> Vec<Vec<usize>> {
     state.rows
 }
 
-fn pairs(lengths: &[usize]) -> Vec<Pair> {
+fn pairs(lengths: &[usize]) -> Vec<ValuePair> {
     let mut pairs = Vec::new();
     for a in 0..lengths.len() {
         for b in a + 1..lengths.len() {
@@ -48,15 +48,15 @@ fn pairs(lengths: &[usize]) -> Vec<Pair> {
     pairs
 }
 
-struct State<'a> {
+struct CoverState<'a> {
     lengths: &'a [usize],
-    open: HashSet<Pair>,
+    open: HashSet<ValuePair>,
     /// The number of rows with each value of each axis.
     used: Vec<Vec<usize>>,
     rows: Vec<Vec<usize>>,
 }
 
-impl<'a> State<'a> {
+impl<'a> CoverState<'a> {
     fn new(lengths: &'a [usize]) -> Self {
         Self {
             lengths,

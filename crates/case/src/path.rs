@@ -9,7 +9,8 @@ use etalon_frame::{
     PathTarget, PathValue, PathViewport, PathViews, TextureFormat,
 };
 use etalon_scene::{
-    Attachment, ClearTarget, ColorTarget, Contents, Draw, Multisample, Pass, Scene, Shader, Vertex,
+    Attachment, AttachmentContents, ClearTarget, ColorTarget, Draw, Multisample, Pass, Scene,
+    Shader, Vertex,
 };
 
 /// Checks that every value of a scene's path applies to something.
@@ -207,9 +208,9 @@ fn is_zero_or_one(value: &f32) -> bool {
 /// Returns true if the initial contents of an attachment are only zeros and ones, or not colors.
 fn has_two_values(attachment: &Attachment) -> bool {
     match &attachment.contents {
-        Contents::Color(value) => value.iter().all(is_zero_or_one),
-        Contents::DepthStencil { .. } => true,
-        Contents::Texels(_) => false,
+        AttachmentContents::Color(value) => value.iter().all(is_zero_or_one),
+        AttachmentContents::DepthStencil { .. } => true,
+        AttachmentContents::Texels(_) => false,
     }
 }
 

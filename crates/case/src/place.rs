@@ -12,7 +12,7 @@ pub(crate) const EACH: &str = "each";
 
 /// A step of a path into a JSON document.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum Step {
+pub(crate) enum PathStep {
     Key(String),
     Index(usize),
 }
@@ -22,14 +22,14 @@ pub(crate) struct Place {
     /// The line, from 1; 0 if the text is not JSON.
     pub(crate) line: usize,
     /// The path in the file as written.
-    pub(crate) path: Vec<Step>,
+    pub(crate) path: Vec<PathStep>,
     /// The path of the `"$name"` that was replaced by a value of an `each`.
-    pub(crate) used: Option<Vec<Step>>,
+    pub(crate) used: Option<Vec<PathStep>>,
 }
 
 impl Place {
     /// Returns the position of the value at a path, or of its nearest existing ancestor.
-    pub(crate) fn new(text: &str, path: &[Step]) -> Self {
+    pub(crate) fn new(text: &str, path: &[PathStep]) -> Self {
         let parsed = parse_to_ast(text, &CollectOptions::default(), &ParseOptions::default());
         let parsed = parsed.ok().and_then(|parsed| parsed.value);
         let Some(mut value) = parsed.as_ref() else {
@@ -57,11 +57,11 @@ impl Place {
             }
             let Some(step) = steps.next() else { break };
             let next = match (value, step) {
-                (Value::Object(object), Step::Key(key)) => {
+                (Value::Object(object), PathStep::Key(key)) => {
                     property(object, key).map(|(start, value)| (step.clone(), start, value, 0))
                 }
-                (Value::Array(list), Step::Index(index)) => item(list, *index, &bound)
-                    .map(|(index, copy)| (Step::Index(index), &list.elements[index], copy))
+                (Value::Array(list), PathStep::Index(index)) => item(list, *index, &bound)
+                    .map(|(index, copy)| (PathStep::Index(index), &list.elements[index], copy))
                     .map(|(step, item, copy)| (step, item.start(), item, copy)),
                 _ => None,
             };
@@ -86,7 +86,7 @@ impl Place {
 struct Bound<'a> {
     name: &'a str,
     value: &'a Value<'a>,
-    path: Vec<Step>,
+    path: Vec<PathStep>,
     /// The number of names bound by the enclosing items.
     around: usize,
 }
@@ -130,7 +130,7 @@ fn item(list: &Array, mut index: usize, bound: &[Bound]) -> Option<(usize, usize
 fn values<'a>(
     value: &'a Value<'a>,
     bound: &[Bound<'a>],
-) -> Option<(&'a Array<'a>, Option<Vec<Step>>)> {
+) -> Option<(&'a Array<'a>, Option<Vec<PathStep>>)> {
     match bound.iter().find(|b| b.is_named_by(value)) {
         Some(named) => Some((named.value.as_array()?, Some(named.path.clone()))),
         None => Some((value.as_array()?, None)),
@@ -138,7 +138,7 @@ fn values<'a>(
 }
 
 /// Binds the names of an item's `each`.
-fn bind<'a>(item: &'a Value<'a>, copy: usize, path: &[Step], bound: &mut Vec<Bound<'a>>) {
+fn bind<'a>(item: &'a Value<'a>, copy: usize, path: &[PathStep], bound: &mut Vec<Bound<'a>>) {
     let around = bound.len();
     for property in each(item).iter().flat_map(|each| &each.properties) {
         let name = property.name.as_str();
@@ -149,11 +149,11 @@ fn bind<'a>(item: &'a Value<'a>, copy: usize, path: &[Step], bound: &mut Vec<Bou
             continue;
         };
         let default_path = || {
-            let keys = [EACH, name].map(|key| Step::Key(key.to_owned()));
+            let keys = [EACH, name].map(|key| PathStep::Key(key.to_owned()));
             path.iter().cloned().chain(keys).collect()
         };
-        let mut path: Vec<Step> = from.unwrap_or_else(default_path);
-        path.push(Step::Index(copy));
+        let mut path: Vec<PathStep> = from.unwrap_or_else(default_path);
+        path.push(PathStep::Index(copy));
         bound.push(Bound {
             name,
             value,

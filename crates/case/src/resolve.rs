@@ -1,7 +1,7 @@
 //! Scenes and passes: applies defaults, resolves names to indices, and refuses impossible states.
 
 use crate::attachment::{attachment, default_size, find};
-use crate::draw::{Target, draw, writes_depth_stencil};
+use crate::draw::{DrawTarget, draw, writes_depth_stencil};
 use crate::error::At;
 use crate::pass_operations::{PassTarget, clears, operations};
 use crate::path::check_path;
@@ -163,7 +163,7 @@ fn pass(
         .collect();
     let mut draws = Vec::new();
     for (i, d) in wire.draws.iter().enumerate() {
-        let target = Target {
+        let target = DrawTarget {
             size: first.size,
             samples: first.samples,
             color: &color,

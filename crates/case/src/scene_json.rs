@@ -6,9 +6,9 @@
 
 use etalon_frame::ChannelEncoding;
 use etalon_scene::{
-    Attachment, Clear, ClearTarget, Contents, DepthBias, Draw, EarlyTests, Fetch, IndexFormat,
-    Mesh, Multisample, Operations, Params, Pass, Path, PolygonMode, PrimitiveTopology, QueryScope,
-    RESTART, ResolveMode, Scene, StencilFace, Viewport,
+    Attachment, AttachmentContents, Clear, ClearTarget, DepthBias, Draw, EarlyTests, Fetch,
+    IndexFormat, Mesh, Multisample, Operations, Params, Pass, Path, PolygonMode, PrimitiveTopology,
+    QueryScope, RESTART, ResolveMode, Scene, StencilFace, Viewport,
 };
 use etalon_scene::{CullMode, FrontFace, PassOperations};
 use serde::Serialize;
@@ -124,13 +124,13 @@ fn attachment(attachment: &Attachment) -> Result<Value, &'static str> {
     }
     let format = attachment.format;
     match &attachment.contents {
-        Contents::Color(color) if color.map(f32::to_bits) == [0; 4] => {}
-        Contents::Color(color) if !color.iter().all(|v| v.is_finite()) => {
+        AttachmentContents::Color(color) if color.map(f32::to_bits) == [0; 4] => {}
+        AttachmentContents::Color(color) if !color.iter().all(|v| v.is_finite()) => {
             return Err("a clear value is not finite");
         }
-        Contents::Color(color) => keys.add("clear", shorts(color)),
+        AttachmentContents::Color(color) => keys.add("clear", shorts(color)),
         // A part that the format lacks keeps its default, which cannot be written.
-        Contents::DepthStencil { depth, stencil } => {
+        AttachmentContents::DepthStencil { depth, stencil } => {
             if (depth.to_bits(), *stencil) != (1.0_f32.to_bits(), 0) {
                 let clear = match (format.has_depth(), format.has_stencil()) {
                     (true, true) => json!({ "depth": short(*depth), "stencil": stencil }),
@@ -140,7 +140,7 @@ fn attachment(attachment: &Attachment) -> Result<Value, &'static str> {
                 keys.add("clear", clear);
             }
         }
-        Contents::Texels(codes) => keys.add("texels", texels(attachment, codes)?),
+        AttachmentContents::Texels(codes) => keys.add("texels", texels(attachment, codes)?),
     }
     Ok(keys.done())
 }

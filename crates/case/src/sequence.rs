@@ -126,7 +126,7 @@ fn rename(pass: &mut Value) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::place::Step;
+    use crate::place::PathStep;
     use crate::resolve::parse_scene;
     use crate::values::typed;
     use etalon_scene::{CompareFunction, Pass, Scene};
@@ -209,6 +209,6 @@ mod tests {
         });
         let wire: SequenceWire = typed(&wire).expect("a sequence");
         let error = scene(&wire).expect_err("is refused");
-        assert_eq!(error.path, [Step::Key("steps".to_owned())]);
+        assert_eq!(error.path, [PathStep::Key("steps".to_owned())]);
     }
 }

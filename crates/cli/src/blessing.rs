@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::named_files::{check_file, replace};
 use crate::output::say;
 use etalon_diagnose::Blessing;
-use etalon_record::{Expectations, Run, Source};
+use etalon_record::{Expectations, KnownSource, Run};
 use etalon_report::message;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -57,7 +57,7 @@ pub(crate) fn bless(
         write_findings(path, &blessing)?;
         ("findings", blessing.findings.len())
     } else {
-        let finding = |source: &Source| matches!(source, Source::Finding(_));
+        let finding = |source: &KnownSource| matches!(source, KnownSource::Finding(_));
         if expected.all().iter().any(|known| finding(&known.source)) {
             return Err(Failure::usage(format!(
                 "{} holds one finding; name its folder, or a list of expectations",

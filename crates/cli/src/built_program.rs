@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::output::say;
 use crate::worker::guard;
 use etalon_bundle::{File, Language, Program};
-use etalon_process::Group;
+use etalon_process::ProcessGroup;
 use etalon_runner::Launch;
 use std::fs;
 use std::io;
@@ -188,7 +188,7 @@ fn run(folder: &Path, launch: &Launch, timeout: Duration) -> io::Result<ProgramR
         .stdin(Stdio::piped())
         .stdout(fs::File::create(&out)?)
         .stderr(Stdio::null());
-    let (mut child, group) = Group::start(&mut command)?;
+    let (mut child, group) = ProcessGroup::start(&mut command)?;
     let begun = Instant::now();
     let ended = loop {
         if let Some(status) = child.try_wait()? {

@@ -21,13 +21,13 @@ const TEXELS: u64 = 1 << 20;
 
 /// The rasterizer's pictures of cases. A picture that the run draws is not drawn again for the page.
 #[derive(Default)]
-pub(crate) struct Pictures {
+pub(crate) struct CataloguePictures {
     thumbnails: Thumbnails,
     /// `data:` URLs by the case's id.
     taken: Mutex<HashMap<String, String>>,
 }
 
-impl Pictures {
+impl CataloguePictures {
     /// Takes the picture if the rasterizer drew it, without a planted fault.
     pub(crate) fn take(&self, adapter: &AdapterRecord, case: &Case, frame: &Frame) {
         // A file of adapters may give the name to any driver.
@@ -69,11 +69,15 @@ pub(crate) fn catalogue_of(run: &Run, cases: Option<&PathBuf>) -> Result<Catalog
     let library = library(cases)?;
     let drawn: BTreeSet<&str> = run.records.iter().map(|r| r.case.as_str()).collect();
     let cases = build_named(&library, &drawn)?;
-    Ok(catalogue(&library, &cases, &Pictures::default()))
+    Ok(catalogue(&library, &cases, &CataloguePictures::default()))
 }
 
 /// Returns the catalogue of cases. Cases that are not in the library have no template.
-pub(crate) fn catalogue(library: &Library, cases: &[Case], pictures: &Pictures) -> Catalogue {
+pub(crate) fn catalogue(
+    library: &Library,
+    cases: &[Case],
+    pictures: &CataloguePictures,
+) -> Catalogue {
     let mut catalogue = Catalogue::default();
     let ids: BTreeSet<&str> = cases.iter().map(|case| case.id.as_str()).collect();
     let mut files: HashMap<String, String> = HashMap::new();
@@ -97,7 +101,11 @@ pub(crate) fn catalogue(library: &Library, cases: &[Case], pictures: &Pictures) 
     catalogue
 }
 
-fn entry(case: &Case, files: &HashMap<String, String>, pictures: &Pictures) -> CatalogueCase {
+fn entry(
+    case: &Case,
+    files: &HashMap<String, String>,
+    pictures: &CataloguePictures,
+) -> CatalogueCase {
     let draws = case.scene.passes.iter().flat_map(|p| &p.draws);
     let shaders: BTreeSet<&'static str> = draws.map(|draw| draw.shader.name()).collect();
     CatalogueCase {
@@ -152,7 +160,7 @@ mod tests {
         let mut cases = library.cases(Profile::Quick);
         let case = cases.find(|case| case.id().starts_with("depth/"));
         let case = case.unwrap().build().unwrap();
-        let expected = Pictures::default().of(&case);
+        let expected = CataloguePictures::default().of(&case);
         let mut wrong = drawn(&case).unwrap();
         wrong.images[0].codes.fill(0);
         for (name, backend) in [
@@ -160,11 +168,11 @@ mod tests {
             ("cpu", "gl"),
             ("cpu:fault=color", "cpu"),
         ] {
-            let pictures = Pictures::default();
+            let pictures = CataloguePictures::default();
             pictures.take(&adapter(name, backend), &case, &wrong);
             assert_eq!(pictures.of(&case), expected, "{name} {backend}");
         }
-        let pictures = Pictures::default();
+        let pictures = CataloguePictures::default();
         pictures.take(&adapter("cpu", "cpu"), &case, &wrong);
         // Proves that a frame that is taken is not drawn again.
         assert_ne!(pictures.of(&case), expected);

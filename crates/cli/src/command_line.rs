@@ -44,7 +44,7 @@ pub(crate) enum Command {
     Merge(merge::Arguments),
     /// Import and export expectations in the formats of deqp-runner
     #[command(subcommand)]
-    Expectations(expectations::Command),
+    Expectations(expectations::Conversion),
     /// Measure frame times of cases whose pictures are correct, interleaved over adapters
     Bench(bench::Arguments),
     /// Compare two runs or two benches: verdicts, pixels, times

@@ -17,7 +17,7 @@ use std::sync::atomic::Ordering;
 use std::sync::{Mutex, PoisonError};
 
 /// One way to fail.
-pub(crate) type Group = etalon_diagnose::Group<KeptScene>;
+pub(crate) type FailureGroup = etalon_diagnose::Group<KeptScene>;
 
 /// The first scene of a group, reduced.
 pub(crate) struct KeptScene {
@@ -98,7 +98,7 @@ impl<'a> FailingScenes<'a> {
     }
 
     /// Returns the groups, the most frequent first.
-    pub(crate) fn finish(self) -> Vec<Group> {
+    pub(crate) fn finish(self) -> Vec<FailureGroup> {
         self.groups.finish()
     }
 
@@ -150,7 +150,7 @@ impl<'a> FailingScenes<'a> {
             file,
             unconfirmed: None,
         };
-        let mut group = Group::new(kept, document, seen.symptom, seen.key);
+        let mut group = FailureGroup::new(kept, document, seen.symptom, seen.key);
         group.scene.unconfirmed = group.steady.then_some(seen.scene.case);
         self.groups.push(group);
         Ok(())
@@ -158,7 +158,7 @@ impl<'a> FailingScenes<'a> {
 }
 
 /// Writes the matching finding into a group's case file, and moves the file to `known` if the match is exact.
-fn file_under(group: &mut Group, out: &OutputFolder) -> Result<(), Failure> {
+fn file_under(group: &mut FailureGroup, out: &OutputFolder) -> Result<(), Failure> {
     let Some(known) = &group.known else {
         return Ok(());
     };

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 /// The format of the output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Format {
+pub(crate) enum OutputFormat {
     /// Tables for people.
     Text,
     /// JSON for programs.

@@ -1,11 +1,11 @@
 //! Groups of failing scenes as text and as JSON.
 
-use crate::failure_groups::Group;
+use crate::failure_groups::FailureGroup;
 use crate::match_text::why;
 use etalon_diagnose::Match;
 use serde_json::{Value, json};
 
-pub(crate) fn json(group: &Group) -> Value {
+pub(crate) fn json(group: &FailureGroup) -> Value {
     let scene = &group.scene;
     json!({
         "adapter": scene.adapter,
@@ -24,7 +24,7 @@ pub(crate) fn json(group: &Group) -> Value {
     })
 }
 
-pub(crate) fn text(group: &Group) -> String {
+pub(crate) fn text(group: &FailureGroup) -> String {
     let scene = &group.scene;
     let mut text = format!("\n  {}\n", headline(group));
     for line in [&scene.states, &scene.sentence] {
@@ -40,7 +40,7 @@ pub(crate) fn text(group: &Group) -> String {
 }
 
 /// Returns a short form, for a group listed below the finding that it resembles.
-pub(crate) fn short(group: &Group) -> String {
+pub(crate) fn short(group: &FailureGroup) -> String {
     let scene = &group.scene;
     format!(
         "    {}: {}\n      {}\n      {}\n",
@@ -51,7 +51,7 @@ pub(crate) fn short(group: &Group) -> String {
     )
 }
 
-fn headline(group: &Group) -> String {
+fn headline(group: &FailureGroup) -> String {
     format!(
         "{} × {}: {}{}",
         group.count,

@@ -5,7 +5,7 @@ use crate::output::say;
 use crate::provenance;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// The number of [`Opening`]s.
+/// The number of [`OpeningGuard`]s.
 static OPENING: AtomicUsize = AtomicUsize::new(0);
 
 /// Returns a flag that the first SIGINT or SIGTERM sets; a second one ends the process immediately, and so does the
@@ -27,16 +27,16 @@ pub(crate) fn listen() -> Result<&'static AtomicBool, Failure> {
 }
 
 /// Exists while adapters are opened, which can take minutes and leaves nothing to finish.
-pub(crate) struct Opening(());
+pub(crate) struct OpeningGuard(());
 
-impl Opening {
+impl OpeningGuard {
     pub(crate) fn begin() -> Self {
         OPENING.fetch_add(1, Ordering::Relaxed);
         Self(())
     }
 }
 
-impl Drop for Opening {
+impl Drop for OpeningGuard {
     fn drop(&mut self) {
         OPENING.fetch_sub(1, Ordering::Relaxed);
     }

@@ -22,7 +22,7 @@ use std::time::Duration;
 const NAME: &str = "found/look";
 
 /// The inputs of a comparison with findings.
-pub(crate) struct Looks<'a> {
+pub(crate) struct LookInputs<'a> {
     /// The cases of the run.
     pub(crate) library: &'a Library,
     pub(crate) expectations: &'a Expectations,
@@ -33,7 +33,7 @@ pub(crate) struct Looks<'a> {
     pub(crate) stop: &'a AtomicBool,
 }
 
-impl Looks<'_> {
+impl LookInputs<'_> {
     /// Marks the unexpected records of a folder's run that findings explain. Returns the number of records
     /// that stay unexpected.
     pub(crate) fn mark(&self, folder: &Path) -> Result<u64, Failure> {

@@ -6,7 +6,7 @@ use crate::output::say;
 use clap::Args;
 use etalon_history::{History, HistoryError};
 use etalon_record::Run;
-use etalon_report::{News, quoted};
+use etalon_report::{RunNews, quoted};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
@@ -39,12 +39,12 @@ impl NewsArguments {
     }
 
     /// Returns the news of a run; `None` without a history, or if it cannot be read, which is printed.
-    pub(crate) fn news(&self, run: &Run) -> Result<Option<News>, Failure> {
+    pub(crate) fn news(&self, run: &Run) -> Result<Option<RunNews>, Failure> {
         let Some(path) = &self.history else {
             return Ok(None);
         };
         let labels = self.labels.labels()?;
-        let news = History::open_read(path).and_then(|history| News::of(&history, run, &labels));
+        let news = History::open_read(path).and_then(|history| RunNews::of(&history, run, &labels));
         Ok(match news {
             Ok(news) => Some(news),
             Err(error) => {
@@ -70,6 +70,6 @@ impl NewsArguments {
 }
 
 /// Returns the run as its reports show it.
-pub(crate) fn shown<'r>(run: &'r Run, news: Option<&News>) -> Cow<'r, Run> {
+pub(crate) fn shown<'r>(run: &'r Run, news: Option<&RunNews>) -> Cow<'r, Run> {
     news.map_or(Cow::Borrowed(run), |news| news.settle(run))
 }

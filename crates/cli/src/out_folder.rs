@@ -23,7 +23,7 @@ pub(crate) struct Out<'a> {
 }
 
 /// A folder that the command can write to.
-pub(crate) struct Claim<'a> {
+pub(crate) struct ClaimedFolder<'a> {
     out: Out<'a>,
     /// True if the command continues the folder's records.
     pub(crate) resume: bool,
@@ -31,7 +31,7 @@ pub(crate) struct Claim<'a> {
     lock: Option<FolderLock>,
 }
 
-impl Claim<'_> {
+impl ClaimedFolder<'_> {
     /// Makes and locks the folder, and removes what the command does not continue. The writers of runs and benches
     /// replace records of their own kind.
     ///
@@ -65,12 +65,12 @@ pub(crate) fn apart(folder: &Path, cases: Option<&Path>) -> Result<(), Failure> 
 }
 
 impl<'a> Out<'a> {
-    /// Locks the folder if it exists. [`Claim::take`] makes a new one, once there is something to write.
+    /// Locks the folder if it exists. [`ClaimedFolder::take`] makes a new one, once there is something to write.
     ///
     /// # Errors
     /// If the folder holds something that must not be replaced, or another process has locked it. Nothing has
     /// changed then.
-    pub(crate) fn claim(self) -> Result<Claim<'a>, Failure> {
+    pub(crate) fn claim(self) -> Result<ClaimedFolder<'a>, Failure> {
         apart(self.folder, self.cases)?;
         Content::writable(self.folder).map_err(Failure::usage)?;
         let lock = self.folder.exists().then(|| self.lock()).transpose()?;
@@ -78,7 +78,7 @@ impl<'a> Out<'a> {
         OutputFolder::open(self.folder)
             .and_then(|out| out.check(self.kind))
             .map_err(Failure::usage)?;
-        Ok(Claim {
+        Ok(ClaimedFolder {
             out: self,
             resume,
             lock,

@@ -3,7 +3,7 @@
 use crate::adapters::{Query, discover, refuse_absent};
 use crate::cases::{find, library};
 use crate::failure::{Failure, INCOMPLETE, NOTHING, UNEXPECTED, USAGE};
-use crate::flags::{AdapterFileArguments, Format, parse_timeout};
+use crate::flags::{AdapterFileArguments, OutputFormat, parse_timeout};
 use clap::Args;
 use etalon_case::build;
 use etalon_explore::Candidate;
@@ -52,7 +52,7 @@ pub(crate) struct FailingArguments {
     timeout: f64,
     /// Format of the summary
     #[arg(long, value_enum, default_value = "text")]
-    pub(crate) format: Format,
+    pub(crate) format: OutputFormat,
 }
 
 impl FailingArguments {

@@ -4,8 +4,8 @@
 //! without a change here.
 
 use etalon_scene::{
-    Attachment, ColorTarget, Contents, Draw, PassOperations, Path, QueryScope, Scene, Shader,
-    SharedMesh, Viewport,
+    Attachment, AttachmentContents, ColorTarget, Draw, PassOperations, Path, QueryScope, Scene,
+    Shader, SharedMesh, Viewport,
 };
 use serde::Serialize;
 use serde_json::Value;
@@ -83,15 +83,15 @@ fn about(a: &Attachment) -> String {
         n => format!(", {n} samples"),
     };
     let contents = match &a.contents {
-        Contents::Color(color) => format!("cleared to {color:?}"),
-        Contents::DepthStencil { depth, stencil } => {
+        AttachmentContents::Color(color) => format!("cleared to {color:?}"),
+        AttachmentContents::DepthStencil { depth, stencil } => {
             match (a.format.has_depth(), a.format.has_stencil()) {
                 (true, true) => format!("cleared to depth {depth}, stencil {stencil}"),
                 (true, false) => format!("cleared to {depth}"),
                 _ => format!("cleared to {stencil}"),
             }
         }
-        Contents::Texels(codes) => format!("{} uploaded codes", codes.len()),
+        AttachmentContents::Texels(codes) => format!("{} uploaded codes", codes.len()),
     };
     format!(
         "{}: {}, {width} by {height}{samples}, {contents}",

@@ -4,7 +4,7 @@ use crate::adapters::{BackendName, FROM_INPUT, Faulty, HardwareDevice, Open};
 use crate::failure::Failure;
 use clap::Args;
 use etalon_backend::{Backend, Unavailable};
-use etalon_browser::Source;
+use etalon_browser::PageSource;
 use etalon_cpu::CpuBackend;
 use etalon_keeper::Served;
 use etalon_process::Parent;
@@ -165,7 +165,7 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
     let name = &what.name;
     let device = what.device.unwrap_or(0);
     let gl = |profile| {
-        let options = etalon_gl::Options {
+        let options = etalon_gl::GlOptions {
             profile,
             platform: match what.device {
                 None => etalon_gl::Platform::Surfaceless,
@@ -179,7 +179,7 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
         etalon_gl::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
     };
     let wgpu = |via| {
-        let options = etalon_wgpu::Options {
+        let options = etalon_wgpu::WgpuOptions {
             via,
             device,
             validate: what.validate,
@@ -194,7 +194,7 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
             Some(fault) => Box::new(Faulty::new(name, fault, pipe)),
         }),
         BackendName::Vulkan => {
-            let options = etalon_vulkan::Options {
+            let options = etalon_vulkan::VulkanOptions {
                 device,
                 validate: what.validate,
                 fault: what.fault,
@@ -238,8 +238,8 @@ fn started_server(what: &Open) -> Result<Option<Served>, Unavailable> {
 /// Starts the browser of an adapter, or waits for one.
 fn browser(what: &Open) -> Result<Box<dyn Backend>, Unavailable> {
     let source = match (&what.browser, &what.listen) {
-        (Some(browser), _) => Source::Started(browser.clone(), keeper()?),
-        (None, Some(listen)) => Source::Listening(listen.address, listen.token.clone()),
+        (Some(browser), _) => PageSource::Started(browser.clone(), keeper()?),
+        (None, Some(listen)) => PageSource::Listening(listen.address, listen.token.clone()),
         (None, None) => {
             return Err(Unavailable::new(
                 "the adapter has neither `browser` nor `listen`",
@@ -247,7 +247,7 @@ fn browser(what: &Open) -> Result<Box<dyn Backend>, Unavailable> {
             ));
         }
     };
-    let options = etalon_browser::Options {
+    let options = etalon_browser::BrowserOptions {
         source,
         validate: what.validate,
         fault: what.fault,

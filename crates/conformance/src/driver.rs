@@ -1,10 +1,10 @@
 //! Drivers: how tests reach them, and how checks run on them.
 
-use crate::checks::{CHECKS, Check};
+use crate::checks::{CHECKS, DriverCheck};
 use crate::child::in_child;
-use crate::known::{Known, WHOLE};
+use crate::known::{KnownFaults, WHOLE};
 use crate::prediction::{Prediction, predict};
-use crate::subject::{CheckResult, Subject};
+use crate::subject::{CheckResult, CheckedBackend};
 use etalon_backend::Backend;
 use etalon_frame::Requirement;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -35,9 +35,9 @@ pub const GALLIUM_INSTALL: &str =
     "apt-get install libegl1 libgl1-mesa-dri mesa-vulkan-drivers virgl-server";
 
 /// A driver as tests open it, with its known defects.
-pub struct Driver<'a> {
+pub struct TestedDriver<'a> {
     /// The driver's missing features and known faults.
-    pub known: Known,
+    pub known: KnownFaults,
     /// Environment variables of the process that opens the driver. If empty, this process opens it.
     pub environment: Vec<(&'a str, String)>,
     /// Opens it, with validation if requested. Panics on failure, since nothing would be tested.
@@ -46,15 +46,15 @@ pub struct Driver<'a> {
     pub tolerated: &'a [&'a str],
 }
 
-/// Converts the variables of an environment for [`Driver::environment`].
+/// Converts the variables of an environment for [`TestedDriver::environment`].
 pub fn variables<'a>(environment: &[(&'a str, &str)]) -> Vec<(&'a str, String)> {
     let owned = |(name, value): &(&'a str, &str)| (*name, (*value).to_owned());
     environment.iter().map(owned).collect()
 }
 
-impl<'a> Driver<'a> {
+impl<'a> TestedDriver<'a> {
     /// Returns an open backend of this driver as the subject of checks.
-    pub fn subject(&self, backend: &'a dyn Backend) -> Subject<'a> {
+    pub fn subject(&self, backend: &'a dyn Backend) -> CheckedBackend<'a> {
         for (name, defect) in self.known.defects.iter().copied().flatten() {
             if WHOLE.contains(name) {
                 println!("{name}: left out, for {defect}");
@@ -64,9 +64,9 @@ impl<'a> Driver<'a> {
     }
 }
 
-impl Driver<'_> {
+impl TestedDriver<'_> {
     /// Runs a check, and asserts that it draws if the driver's description says so.
-    fn run(&self, check: &Check, subject: &Subject<'_>) {
+    fn run(&self, check: &DriverCheck, subject: &CheckedBackend<'_>) {
         let mut defects = self.known.defects.iter().copied().flatten();
         if let Some((_, defect)) = defects.find(|d| d.0 == check.name) {
             println!("{}: skipped, for {defect}", check.name);
@@ -106,14 +106,15 @@ impl Driver<'_> {
 ///
 /// # Panics
 /// If checks fail; after all have run, with their names.
-pub fn run_all(backend: &dyn Backend, driver: &Driver<'_>) {
+pub fn run_all(backend: &dyn Backend, driver: &TestedDriver<'_>) {
     if let Some(lacks) = &driver.known.lacks {
         lacks.check(backend.limits());
     }
     let subject = driver.subject(backend);
     subject.check_silence("opening");
-    let fails =
-        |check: &&Check| catch_unwind(AssertUnwindSafe(|| driver.run(check, &subject))).is_err();
+    let fails = |check: &&DriverCheck| {
+        catch_unwind(AssertUnwindSafe(|| driver.run(check, &subject))).is_err()
+    };
     let failed: Vec<_> = CHECKS
         .iter()
         .filter(fails)
@@ -123,7 +124,7 @@ pub fn run_all(backend: &dyn Backend, driver: &Driver<'_>) {
 }
 
 /// Opens the driver in a process with its environment, as part of the test with this path.
-pub fn in_driver(test: &str, driver: &Driver<'_>, body: impl FnOnce(&dyn Backend)) {
+pub fn in_driver(test: &str, driver: &TestedDriver<'_>, body: impl FnOnce(&dyn Backend)) {
     let (_, test) = test.split_once("::").expect("a path within the crate");
     in_child(test, &driver.environment, || body(&*(driver.open)(false)));
 }

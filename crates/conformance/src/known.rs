@@ -1,7 +1,7 @@
 //! The software drivers under test: their missing features and known faults.
 
 use crate::lacks::Lacks;
-use crate::subject::Subject;
+use crate::subject::CheckedBackend;
 use etalon_backend::Backend;
 use etalon_frame::{Api, Feature, PathTarget, PathValue};
 
@@ -22,7 +22,7 @@ pub(crate) const WHOLE: [&str; 4] = [FOUR_SAMPLES, COUNTING_SHADERS, SAMPLE_MASK
 
 /// The known faults and missing features of a driver.
 #[derive(Clone, Copy, Debug)]
-pub struct Known {
+pub struct KnownFaults {
     /// The adapter's name.
     pub name: &'static str,
     /// The API whose rules apply to the adapter.
@@ -33,13 +33,17 @@ pub struct Known {
     pub defects: &'static [&'static [Defect]],
 }
 
-impl Known {
+impl KnownFaults {
     /// Returns an open backend as the subject of checks, without features that the driver offers but gets
     /// wrong.
-    pub fn subject<'a>(&self, backend: &'a dyn Backend, tolerated: &'a [&'a str]) -> Subject<'a> {
+    pub fn subject<'a>(
+        &self,
+        backend: &'a dyn Backend,
+        tolerated: &'a [&'a str],
+    ) -> CheckedBackend<'a> {
         let defects = self.defects.iter().copied().flatten();
         defects.fold(
-            Subject::new(backend, tolerated),
+            CheckedBackend::new(backend, tolerated),
             |subject, (name, _)| match *name {
                 FOUR_SAMPLES => subject.without_four_samples(),
                 COUNTING_SHADERS => subject
@@ -59,7 +63,7 @@ impl Known {
 ///
 /// # Panics
 /// If nothing is known.
-pub fn known(name: &str) -> Known {
+pub fn known(name: &str) -> KnownFaults {
     let found = KNOWN.iter().find(|known| known.name == name);
     *found.unwrap_or_else(|| panic!("{name} is not described"))
 }
@@ -69,8 +73,8 @@ const fn driver(
     api: Api,
     lacks: Lacks,
     defects: &'static [&'static [Defect]],
-) -> Known {
-    Known {
+) -> KnownFaults {
+    KnownFaults {
         name,
         api,
         lacks: Some(lacks),
@@ -79,7 +83,7 @@ const fn driver(
 }
 
 /// The software drivers on which the backends' tests run all checks.
-pub const KNOWN: &[Known] = &[
+pub const KNOWN: &[KnownFaults] = &[
     driver("vulkan:lavapipe", Api::Vulkan, VULKAN, &[LAVAPIPE_WRONG]),
     driver("gl:llvmpipe", Api::OpenGl, GL, &[]),
     driver("gl:zink", Api::OpenGl, GL, &[ZINK_WRONG]),

@@ -9,21 +9,21 @@ use etalon_frame::{
 use std::collections::BTreeSet;
 
 /// Names of features or formats, separated by spaces.
-pub type Names = &'static [&'static str];
+pub type LackNames = &'static [&'static str];
 
 /// The capabilities that a driver lacks.
 #[derive(Clone, Copy, Debug)]
 pub struct Lacks {
     /// Features that it lacks.
-    pub features: Names,
+    pub features: LackNames,
     /// Formats without textures.
-    pub formats: Names,
+    pub formats: LackNames,
     /// Formats that can only be fetched from.
-    pub drawing: Names,
+    pub drawing: LackNames,
     /// Colour formats that can be drawn to but not blended into.
-    pub blending: Names,
+    pub blending: LackNames,
     /// Formats that can be drawn to, but not with four samples.
-    pub samples: Names,
+    pub samples: LackNames,
 }
 
 impl Lacks {
@@ -85,7 +85,7 @@ impl Lacks {
 }
 
 /// Returns true if the lists have this name.
-fn names(names: Names, name: &str) -> bool {
+fn names(names: LackNames, name: &str) -> bool {
     names.iter().any(|list| list.split(' ').any(|n| n == name))
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Each check is written once, against [`etalon_backend::Backend`]: scenes whose result does not depend on
 //! rounding, and the codes that must come back. A backend's tests describe the drivers that they need as
-//! [`Driver`]s and list them in [`driver_tests!`], which runs every check on every driver.
+//! [`TestedDriver`]s and list them in [`driver_tests!`], which runs every check on every driver.
 //! The features that software drivers lack are listed by name: a check that is skipped for anything else
 //! fails, and each check draws on at least one of the drivers.
 //!
@@ -21,15 +21,16 @@ mod prediction;
 mod scenes;
 mod subject;
 
-pub use checks::{CHECKS, Check};
+pub use checks::{CHECKS, DriverCheck};
 pub use child::in_child;
-pub use driver::{Driver, GALLIUM_INSTALL, LLVMPIPE, SOFTPIPE, VIRGL, ZINK};
+pub use driver::{GALLIUM_INSTALL, LLVMPIPE, SOFTPIPE, TestedDriver, VIRGL, ZINK};
 pub use driver::{in_driver, run_all, variables};
 pub use known::{
-    COUNTING_SHADERS, Defect, FOUR_SAMPLES, KNOWN, Known, SOFTPIPE_CLEARS, SOFTPIPE_WRONG, known,
+    COUNTING_SHADERS, Defect, FOUR_SAMPLES, KNOWN, KnownFaults, SOFTPIPE_CLEARS, SOFTPIPE_WRONG,
+    known,
 };
-pub use lacks::{Lacks, Names};
+pub use lacks::{LackNames, Lacks};
 pub use library::{Share, draw_area, draw_library};
 pub use scenes::{scene, with};
 pub use serde_json::{Value, json};
-pub use subject::{CheckResult, Missing, Subject};
+pub use subject::{CheckResult, CheckedBackend, Missing};

@@ -1,6 +1,6 @@
 //! Drawing the built-in cases without judging them.
 
-use crate::subject::{Subject, check_shape};
+use crate::subject::{CheckedBackend, check_shape};
 use etalon_backend::BackendError;
 use etalon_case::{Library, Profile};
 use etalon_frame::{Feature, Requirement};
@@ -36,7 +36,7 @@ const TWO_SOURCES: Requirement = Requirement::Feature(Feature::DualSourceBlendin
 ///
 /// # Panics
 /// If anything fails, or if nothing was drawn.
-pub fn draw_library(subject: &Subject<'_>, profile: Profile, share: Share) {
+pub fn draw_library(subject: &CheckedBackend<'_>, profile: Profile, share: Share) {
     draw_area(subject, "", profile, share);
 }
 
@@ -44,7 +44,7 @@ pub fn draw_library(subject: &Subject<'_>, profile: Profile, share: Share) {
 ///
 /// # Panics
 /// If anything fails, or if nothing was drawn.
-pub fn draw_area(subject: &Subject<'_>, area: &str, profile: Profile, share: Share) {
+pub fn draw_area(subject: &CheckedBackend<'_>, area: &str, profile: Profile, share: Share) {
     let library = Library::built_in();
     let (mut denied, mut total) = (0, 0);
     let mut chosen = Vec::new();

@@ -4,8 +4,8 @@
 //! prediction needs no driver, so a single test asserts that each check draws on at least one driver. Each
 //! run then asserts that the prediction was right.
 
-use crate::checks::Check;
-use crate::known::Known;
+use crate::checks::DriverCheck;
+use crate::known::KnownFaults;
 use crate::subject::CheckResult;
 use etalon_backend::{Backend, BackendError, Prepared};
 use etalon_frame::{AdapterInfo, Limits};
@@ -24,7 +24,7 @@ pub(crate) enum Prediction {
 }
 
 /// Returns the predicted result of a check on a driver; `None` if its missing features are not known.
-pub(crate) fn predict(check: &Check, known: &Known) -> Option<Prediction> {
+pub(crate) fn predict(check: &DriverCheck, known: &KnownFaults) -> Option<Prediction> {
     let backend = Undrawn {
         info: AdapterInfo {
             name: known.name.to_owned(),
@@ -99,7 +99,7 @@ mod tests {
 
     #[test]
     fn every_check_draws_on_a_driver() {
-        let drawn = |check: &&Check| {
+        let drawn = |check: &&DriverCheck| {
             KNOWN.iter().any(|known| {
                 let fails = known.defects.concat().iter().any(|d| d.0 == check.name);
                 !fails && predict(check, known).unwrap() != Prediction::Skips

@@ -23,7 +23,7 @@ pub enum CheckResult {
 }
 
 /// A backend, with a record of what its checks have drawn.
-pub struct Subject<'a> {
+pub struct CheckedBackend<'a> {
     /// The backend.
     pub backend: &'a dyn Backend,
     /// Parts of messages that are not the backend's fault.
@@ -34,7 +34,7 @@ pub struct Subject<'a> {
     missing: RefCell<BTreeSet<Requirement>>,
 }
 
-impl<'a> Subject<'a> {
+impl<'a> CheckedBackend<'a> {
     /// Creates a subject that has drawn nothing yet.
     pub fn new(backend: &'a dyn Backend, tolerated: &'a [&'a str]) -> Self {
         Self {

@@ -8,11 +8,11 @@
 //! uses it alone.
 
 use crate::linear::SUB_PIXEL_BITS;
-use crate::prepared::PreparedScene;
+use crate::prepared::CpuScene;
 use crate::raster::SAMPLES;
 use crate::steps::Faithful;
 use crate::surface::depth_encoding;
-use crate::tiles::{KernelPlan, Machine, TiledScene, lines};
+use crate::tiles::{KernelMachine, KernelPlan, TiledScene, lines};
 use etalon_backend::{Backend, BackendError, Prepared};
 use etalon_frame::{
     AdapterInfo, Api, ApiVersion, Feature, FormatSupport, Limits, PathValue, Property, ReadPath,
@@ -30,14 +30,14 @@ pub struct CpuBackend {
     info: AdapterInfo,
     limits: Limits,
     /// The machine's resources for kernels; `None` draws every scene with the span code.
-    tiles: Option<Machine>,
+    tiles: Option<KernelMachine>,
 }
 
 impl CpuBackend {
     /// Returns the rasterizer with this adapter name.
     pub fn new(name: &str) -> Self {
         Self {
-            tiles: Some(Machine::whole()),
+            tiles: Some(KernelMachine::whole()),
             ..Self::spans(name)
         }
     }
@@ -101,7 +101,10 @@ pub fn kernels(scene: &Scene) -> Vec<String> {
 ///
 /// # Errors
 /// The reason why the span code draws the scene.
-pub fn in_tiles(scene: &Scene, machine: Machine) -> Result<impl Prepared + use<>, &'static str> {
+pub fn in_tiles(
+    scene: &Scene,
+    machine: KernelMachine,
+) -> Result<impl Prepared + use<>, &'static str> {
     let plan = KernelPlan::new(scene, 0)?;
     Ok(TiledScene::new(scene.clone(), plan, machine))
 }
@@ -124,6 +127,6 @@ impl Backend for CpuBackend {
         {
             return Ok(Box::new(TiledScene::new(scene.clone(), plan, machine)));
         }
-        Ok(Box::new(PreparedScene::new(scene.clone(), Faithful)))
+        Ok(Box::new(CpuScene::new(scene.clone(), Faithful)))
     }
 }

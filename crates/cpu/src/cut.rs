@@ -3,8 +3,8 @@
 //! Triangles are not clipped: their edges are lines in homogeneous coordinates, and depths and attributes are
 //! those of the whole triangle. Lines get new ends.
 
-use crate::linear::{UNITS, Varying};
-use crate::planes::{Planes, Vertex, plane_bias, viewport};
+use crate::linear::{LinearVarying, UNITS};
+use crate::planes::{PlaneVertex, Planes, plane_bias, viewport};
 use crate::steps::Steps;
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{
@@ -16,18 +16,18 @@ use etalon_scene::{Draw, Interpolation};
 /// The number of texels beyond a viewport up to which a line is drawn.
 const BEYOND: f64 = 64.0;
 
-fn window(draw: &Draw, vertex: &Vertex) -> WindowVertex {
+fn window(draw: &Draw, vertex: &PlaneVertex) -> WindowVertex {
     window_vertex(vertex.position, &draw.viewport, UNITS as f64)
 }
 
 /// Returns true if a vertex is behind the eye or too far out to be snapped.
-pub(crate) fn is_cut(draw: &Draw, vertex: &Vertex) -> bool {
+pub(crate) fn is_cut(draw: &Draw, vertex: &PlaneVertex) -> bool {
     etalon_pipeline::is_cut(window(draw, vertex))
 }
 
 /// Returns true if all vertices of a point or line are beyond the same side of the view volume. It is then
 /// discarded before it is widened.
-pub(crate) fn is_beside(vertices: &[Vertex]) -> bool {
+pub(crate) fn is_beside(vertices: &[PlaneVertex]) -> bool {
     let beyond: [fn([f32; 4]) -> bool; 4] = [
         |[x, _, _, w]| x < -w,
         |[x, _, _, w]| x > w,
@@ -39,7 +39,7 @@ pub(crate) fn is_beside(vertices: &[Vertex]) -> bool {
 }
 
 /// An edge with the side that the triangle is on.
-enum Edge {
+enum SidedEdge {
     /// An edge between snapped vertices, clockwise on the screen.
     Snapped([Point; 2]),
     Cut(CutEdge),
@@ -47,14 +47,14 @@ enum Edge {
 
 /// A triangle that reaches behind the eye.
 pub(crate) struct CutTriangle {
-    vertices: [Vertex; 3],
+    vertices: [PlaneVertex; 3],
     homogeneous: HomogeneousTriangle,
-    edges: [Edge; 3],
+    edges: [SidedEdge; 3],
 }
 
 impl CutTriangle {
     /// Returns the triangle, or `None` if all its vertices are snapped, or if it has no area.
-    pub(crate) fn new(draw: &Draw, vertices: [Vertex; 3]) -> Option<Self> {
+    pub(crate) fn new(draw: &Draw, vertices: [PlaneVertex; 3]) -> Option<Self> {
         let cut = vertices.each_ref().map(|v| is_cut(draw, v));
         if cut == [false; 3] {
             return None;
@@ -64,10 +64,10 @@ impl CutTriangle {
         let edges = [0, 1, 2].map(|i| {
             let next = (i + 1) % 3;
             if cut[i] || cut[next] {
-                return Edge::Cut(CutEdge::new(homogeneous.edge(i), clockwise));
+                return SidedEdge::Cut(CutEdge::new(homogeneous.edge(i), clockwise));
             }
             let ends = [vertices[i].at, vertices[next].at];
-            Edge::Snapped(if clockwise { ends } else { [ends[1], ends[0]] })
+            SidedEdge::Snapped(if clockwise { ends } else { [ends[1], ends[0]] })
         });
         Some(Self {
             vertices,
@@ -93,15 +93,15 @@ impl CutTriangle {
     pub(crate) fn covers(&self, at: Point) -> bool {
         self.homogeneous.determinant != 0.0
             && self.edges.iter().all(|edge| match edge {
-                Edge::Cut(edge) => edge.holds(at),
-                Edge::Snapped([p, q]) => {
+                SidedEdge::Cut(edge) => edge.holds(at),
+                SidedEdge::Snapped([p, q]) => {
                     let value = edge_value(*p, *q, at);
                     value > 0 || (value == 0 && is_top_left(*p, *q))
                 }
             })
     }
 
-    fn over_w(&self, value: impl Fn(&Vertex) -> f32) -> DepthPlane {
+    fn over_w(&self, value: impl Fn(&PlaneVertex) -> f32) -> DepthPlane {
         let values = self.vertices.each_ref().map(|v| f64::from(value(v)));
         self.homogeneous.over_w(values)
     }
@@ -148,12 +148,12 @@ impl CutTriangle {
             window,
             uv: draw.shader.uses_uv().then(|| {
                 [0, 1].map(|axis| match interpolation {
-                    Interpolation::Perspective => Varying::perspective(
+                    Interpolation::Perspective => LinearVarying::perspective(
                         self.over_w(|v| v.uv[axis]),
                         self.homogeneous.over_w([1.0; 3]),
                     ),
                     // A position behind the eye has no value that could be linear in the window.
-                    Interpolation::Linear => Varying::linear(DepthPlane::of(
+                    Interpolation::Linear => LinearVarying::linear(DepthPlane::of(
                         f64::from(self.vertices[0].uv[axis]),
                         0.0,
                         0.0,
@@ -161,7 +161,7 @@ impl CutTriangle {
                 })
             }),
             reciprocal_w: (draw.shader.reads_w())
-                .then(|| Varying::linear(self.homogeneous.over_w([1.0; 3]))),
+                .then(|| LinearVarying::linear(self.homogeneous.over_w([1.0; 3]))),
             clip,
             range: if draw.depth_clamp {
                 [f32::MIN, f32::MAX]
@@ -181,8 +181,8 @@ impl CutTriangle {
 
 /// Returns the line with new ends if it reaches behind the eye, crosses the near or far plane, or reaches far
 /// out. Returns `None` if the whole line is clipped.
-pub(crate) fn line(draw: &Draw, ends: [Vertex; 2]) -> Option<[Vertex; 2]> {
-    let outside = |v: &Vertex| !draw.depth_clamp && !(0.0..=1.0).contains(&v.clip_z);
+pub(crate) fn line(draw: &Draw, ends: [PlaneVertex; 2]) -> Option<[PlaneVertex; 2]> {
+    let outside = |v: &PlaneVertex| !draw.depth_clamp && !(0.0..=1.0).contains(&v.clip_z);
     if !ends.iter().any(|v| is_cut(draw, v) || outside(v)) {
         return Some(ends);
     }
@@ -208,12 +208,12 @@ pub(crate) fn line(draw: &Draw, ends: [Vertex; 2]) -> Option<[Vertex; 2]> {
     let cut = clipped_segment(planes)?.map(|t| {
         let mix = |a: f64, b: f64| a * (1.0 - t) + b * t;
         let [a, b] = &ends;
-        let both = |value: fn(&Vertex) -> f32| mix(f64::from(value(a)), f64::from(value(b)));
+        let both = |value: fn(&PlaneVertex) -> f32| mix(f64::from(value(a)), f64::from(value(b)));
         let [x, y, w] = [0, 1, 2].map(|axis| mix(windows[0][axis], windows[1][axis]));
         let snap = |v: f64| (v / w + 0.5).floor() as i64;
         let z = both(|v| v.position[2]) / w;
         let mixed = |a: f32, b: f32| mix(f64::from(a), f64::from(b)) as f32;
-        Vertex {
+        PlaneVertex {
             position: std::array::from_fn(|i| mixed(a.position[i], b.position[i])),
             at: Point {
                 x: snap(x),

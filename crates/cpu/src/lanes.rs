@@ -7,7 +7,7 @@ pub const LANES: usize = 16;
 pub type Real = [f32; LANES];
 
 /// A code per lane.
-pub type Codes = [u32; LANES];
+pub type LaneCodes = [u32; LANES];
 
 /// A truth value per lane.
 pub type Mask = [bool; LANES];

@@ -21,7 +21,7 @@ mod surface;
 mod tiles;
 
 pub use backend::{CpuBackend, in_tiles, kernels};
-pub use limits::{Limits, limits};
-pub use prepared::PreparedScene;
-pub use surface::Surface;
-pub use tiles::Machine;
+pub use limits::{ProcessorRates, limits};
+pub use prepared::CpuScene;
+pub use surface::CpuSurface;
+pub use tiles::KernelMachine;

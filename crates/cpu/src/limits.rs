@@ -1,14 +1,14 @@
 //! The processor's limits: the fastest copy and the fastest arithmetic, measured. No cell of the performance matrix
 //! can be faster than both, unless caches keep its texels.
 
-use crate::tiles::{Machine, on_threads};
+use crate::tiles::{KernelMachine, on_threads};
 use fearless_simd::{dispatch, f32x16, prelude::*};
 use std::hint::black_box;
 use std::time::Instant;
 
 /// What the processor reaches at most with some threads.
 #[derive(Clone, Copy, Debug)]
-pub struct Limits {
+pub struct ProcessorRates {
     /// The number of threads.
     pub threads: usize,
     /// The bytes that a copy larger than the caches reads and writes in a second.
@@ -38,15 +38,15 @@ const WIDTH: usize = 16;
 const REPEATS: usize = 5;
 
 /// Measures the limits with one thread and with all threads of this machine.
-pub fn limits() -> Vec<Limits> {
-    let machine = Machine::whole();
+pub fn limits() -> Vec<ProcessorRates> {
+    let machine = KernelMachine::whole();
     let mut counts = vec![1, machine.threads];
     counts.dedup();
     let (from, mut to) = (vec![1_u64; WORDS / 2], vec![2_u64; WORDS / 2]);
-    let measured = counts.into_iter().map(|threads| Limits {
+    let measured = counts.into_iter().map(|threads| ProcessorRates {
         threads,
         bytes: copied(&from, &mut to, threads),
-        operations: computed(Machine { threads, ..machine }),
+        operations: computed(KernelMachine { threads, ..machine }),
     });
     measured.collect()
 }
@@ -65,7 +65,7 @@ fn copied(from: &[u64], to: &mut [u64], threads: usize) -> f64 {
 }
 
 /// Returns the products and sums in a second.
-fn computed(machine: Machine) -> f64 {
+fn computed(machine: KernelMachine) -> f64 {
     let seconds = least(|| {
         on_threads(vec![(); machine.threads], &|()| {
             dispatch!(machine.level, simd => chains(simd));

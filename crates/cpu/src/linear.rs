@@ -11,14 +11,14 @@ pub(crate) const UNITS: i64 = 1 << SUB_PIXEL_BITS;
 
 /// A value over a primitive.
 #[derive(Clone, Copy)]
-pub(crate) struct Varying {
+pub(crate) struct LinearVarying {
     /// The value, or, if `reciprocal_w` is present, the value over w.
     value: DepthPlane,
     /// 1 over w, if the value is linear in space.
     reciprocal_w: Option<DepthPlane>,
 }
 
-impl Varying {
+impl LinearVarying {
     /// Returns a value that is linear over the window.
     pub(crate) fn linear(value: DepthPlane) -> Self {
         Self {

@@ -14,7 +14,7 @@ struct StoredFragment {
 
 /// The lists of all texels.
 #[derive(Debug, Default)]
-pub(crate) struct Lists {
+pub(crate) struct TexelLists {
     size: [usize; 2],
     /// The number of each texel's first node, or 0.
     heads: Vec<usize>,
@@ -22,7 +22,7 @@ pub(crate) struct Lists {
     most: usize,
 }
 
-impl Lists {
+impl TexelLists {
     /// Returns empty lists.
     pub(crate) fn new(pool: Option<Pool>) -> Self {
         let Some(pool) = pool else {

@@ -1,18 +1,18 @@
 //! The data that a submission has stored so far.
 
-use crate::lists::Lists;
+use crate::lists::TexelLists;
 use crate::steps::Stored;
-use crate::surface::Surface;
+use crate::surface::CpuSurface;
 use etalon_frame::CounterKind;
 
 /// A counter and its count.
-pub(crate) type Counted = (CounterKind, u64);
+pub(crate) type CountedKind = (CounterKind, u64);
 
 /// The attachments and the counters, in the scene's order, and the pool.
 pub(crate) struct Memory<'m> {
-    pub(crate) surfaces: &'m mut [Surface],
-    pub(crate) counters: &'m mut [Counted],
-    pub(crate) lists: &'m mut Lists,
+    pub(crate) surfaces: &'m mut [CpuSurface],
+    pub(crate) counters: &'m mut [CountedKind],
+    pub(crate) lists: &'m mut TexelLists,
 }
 
 impl Memory<'_> {

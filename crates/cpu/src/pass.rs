@@ -3,7 +3,7 @@
 use crate::memory::Memory;
 use crate::raster;
 use crate::steps::{Moment, Steps};
-use crate::surface::{Surface, depth_encoding};
+use crate::surface::{CpuSurface, depth_encoding};
 use etalon_backend::BackendError;
 use etalon_frame::{Aspect, ChannelEncoding};
 use etalon_scene::{Clear, ClearTarget, LoadOperation, Pass, Scene};
@@ -86,7 +86,7 @@ pub(crate) fn run<S: Steps>(
 }
 
 /// Performs the clears of load operations.
-fn load(scene: &Scene, pass: &Pass, surfaces: &mut [Surface], steps: &impl Steps) {
+fn load(scene: &Scene, pass: &Pass, surfaces: &mut [CpuSurface], steps: &impl Steps) {
     let everywhere = None;
     for (location, index) in pass.color.iter().enumerate() {
         if let LoadOperation::Clear(value) = pass.color_operations(location).load {
@@ -112,7 +112,7 @@ fn clear(
     scene: &Scene,
     pass: &Pass,
     command: &Clear,
-    surfaces: &mut [Surface],
+    surfaces: &mut [CpuSurface],
     steps: &impl Steps,
 ) {
     match command.target {
@@ -147,7 +147,7 @@ fn clear(
 }
 
 fn clear_color(
-    surface: &mut Surface,
+    surface: &mut CpuSurface,
     value: [f32; 4],
     write_mask: u8,
     rect: Option<[u32; 4]>,
@@ -162,7 +162,7 @@ fn clear_color(
 }
 
 /// Replaces discarded contents, so that a dependency on them shows.
-fn discard(scene: &Scene, index: usize, aspect: Aspect, surface: &mut Surface) {
+fn discard(scene: &Scene, index: usize, aspect: Aspect, surface: &mut CpuSurface) {
     let code = |encoding: ChannelEncoding| encoding.nearest_code(DISCARDED);
     match aspect {
         Aspect::Color => {

@@ -1,7 +1,7 @@
 //! The linear values over a primitive: depth, attributes, clip distances and bias.
 
 use crate::lanes::{LANES, Mask};
-use crate::linear::{UNITS, Varying, position};
+use crate::linear::{LinearVarying, UNITS, position};
 use crate::steps::Steps;
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::shader::clip_distances;
@@ -10,7 +10,7 @@ use etalon_scene::{Draw, Interpolation};
 
 /// A vertex of a primitive.
 #[derive(Clone, Copy)]
-pub(crate) struct Vertex {
+pub(crate) struct PlaneVertex {
     /// The clip-space position.
     pub(crate) position: [f32; 4],
     pub(crate) at: Point,
@@ -29,9 +29,9 @@ const MOST_DISTANCES: usize = 8;
 pub(crate) struct Planes {
     pub(crate) window: DepthPlane,
     /// Texture coordinates, if the shader reads them.
-    pub(crate) uv: Option<[Varying; 2]>,
+    pub(crate) uv: Option<[LinearVarying; 2]>,
     /// 1 over w, if the shader reads it.
-    pub(crate) reciprocal_w: Option<Varying>,
+    pub(crate) reciprocal_w: Option<LinearVarying>,
     pub(crate) clip: DepthPlane,
     pub(crate) range: [f32; 2],
     pub(crate) clip_range: [f64; 2],
@@ -57,7 +57,7 @@ impl Planes {
         draw: &Draw,
         interpolation: Interpolation,
         points: [Point; 3],
-        vertices: [Vertex; 3],
+        vertices: [PlaneVertex; 3],
         bias: f64,
         wide: bool,
     ) -> Self {
@@ -78,18 +78,18 @@ impl Planes {
                     let values = vertices.map(|v| f64::from(v.uv[axis]));
                     if perspective {
                         let over = [0, 1, 2].map(|i| values[i] / w[i]);
-                        Varying::perspective(
+                        LinearVarying::perspective(
                             DepthPlane::new(points, over),
                             DepthPlane::new(points, w.map(|w| 1.0 / w)),
                         )
                     } else {
-                        Varying::linear(DepthPlane::new(points, values))
+                        LinearVarying::linear(DepthPlane::new(points, values))
                     }
                 })
             }),
             reciprocal_w: draw.shader.reads_w().then(|| {
                 let values = vertices.map(|v| 1.0 / f64::from(v.position[3]));
-                Varying::linear(DepthPlane::new(points, values))
+                LinearVarying::linear(DepthPlane::new(points, values))
             }),
             clip_range: ends(clip_z).map(f64::from),
             range: ends(z),
@@ -155,10 +155,10 @@ impl Planes {
 
 /// Returns the planes of the clip distances that are negative at a vertex. The vertices are a triangle's, or
 /// a line's or point's with the first vertex repeated.
-fn distances(draw: &Draw, points: [Point; 3], vertices: [Vertex; 3]) -> Vec<DepthPlane> {
+fn distances(draw: &Draw, points: [Point; 3], vertices: [PlaneVertex; 3]) -> Vec<DepthPlane> {
     let count = draw.clipping_distances().count_ones() as usize;
     // The distances over w are linear in the window, and have the same signs.
-    let over_w = |v: Vertex, n: usize| f64::from(v.distances[n]) / f64::from(v.position[3]);
+    let over_w = |v: PlaneVertex, n: usize| f64::from(v.distances[n]) / f64::from(v.position[3]);
     let distances = (0..count).map(|n| vertices.map(|v| over_w(v, n)));
     distances
         .filter(|values| values.iter().any(|v| *v < 0.0))

@@ -1,10 +1,10 @@
 //! A scene prepared for drawing.
 
-use crate::lists::Lists;
-use crate::memory::{Counted, Memory};
+use crate::lists::TexelLists;
+use crate::memory::{CountedKind, Memory};
 use crate::pass;
 use crate::steps::{Moment, Steps};
-use crate::surface::{Surface, depth_encoding};
+use crate::surface::{CpuSurface, depth_encoding};
 use etalon_backend::{BackendError, FrameTime, Prepared};
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind, Frame, Image, ReadPath};
 use etalon_scene::Scene;
@@ -12,14 +12,14 @@ use std::time::Instant;
 
 /// A scene and the steps that draw it.
 #[derive(Debug)]
-pub struct PreparedScene<S> {
+pub struct CpuScene<S> {
     scene: Scene,
-    surfaces: Vec<Surface>,
-    counters: Vec<Counted>,
+    surfaces: Vec<CpuSurface>,
+    counters: Vec<CountedKind>,
     steps: S,
 }
 
-impl<S> PreparedScene<S> {
+impl<S> CpuScene<S> {
     /// Returns the scene, prepared to be drawn by these steps.
     pub fn new(scene: Scene, steps: S) -> Self {
         Self {
@@ -69,21 +69,21 @@ pub(crate) fn frame(
     Ok(frame)
 }
 
-impl<S: Steps> Prepared for PreparedScene<S> {
+impl<S: Steps> Prepared for CpuScene<S> {
     fn submit(&mut self) -> Result<FrameTime, BackendError> {
         let start = Instant::now();
         self.surfaces = self
             .scene
             .attachments
             .iter()
-            .map(|a| Surface::new(a, |encoding, value| self.steps.clear_code(encoding, value)))
+            .map(|a| CpuSurface::new(a, |encoding, value| self.steps.clear_code(encoding, value)))
             .collect();
         let counters = self.scene.counters.iter();
         self.counters = counters.map(|c| (c.kind, 0)).collect();
         let mut memory = Memory {
             surfaces: &mut self.surfaces,
             counters: &mut self.counters,
-            lists: &mut Lists::new(self.scene.pool),
+            lists: &mut TexelLists::new(self.scene.pool),
         };
         let stored = memory.stored();
         self.steps.reached(Moment::Initial, &self.scene, stored);

@@ -4,7 +4,7 @@ use crate::cut::{self, CutTriangle};
 use crate::lanes::{LANES, Mask};
 use crate::linear::{CENTER, UNITS, position};
 use crate::memory::Memory;
-use crate::planes::{Planes, Vertex, clipping, depth_bias};
+use crate::planes::{PlaneVertex, Planes, clipping, depth_bias};
 use crate::span::{Span, SpanState};
 use crate::steps::Steps;
 use etalon_frame::{ChannelEncoding, standard_sample_positions};
@@ -20,7 +20,7 @@ pub(crate) const SAMPLES: [u32; 5] = [1, 2, 4, 8, 16];
 const MOST_SAMPLES: usize = SAMPLES[SAMPLES.len() - 1] as usize;
 
 /// The left, top, right and bottom edges of the texels that a draw can write; right and bottom are exclusive.
-pub(crate) type Bounds = [usize; 4];
+pub(crate) type DrawBounds = [usize; 4];
 
 /// Draws to the pass's attachments.
 pub(crate) fn draw<S: Steps>(
@@ -43,7 +43,7 @@ pub(crate) fn draw<S: Steps>(
             y: i64::from(y) * UNITS / 256,
         })
         .collect();
-    let vertices: Vec<Vertex> = draw.mesh.vertices.iter().map(|v| vertex(draw, v)).collect();
+    let vertices: Vec<PlaneVertex> = draw.mesh.vertices.iter().map(|v| vertex(draw, v)).collect();
     let mut state = SpanState::new(scene, pass, draw, &samples, memory, steps);
     let raster = Raster {
         draw,
@@ -60,7 +60,7 @@ pub(crate) fn draw<S: Steps>(
         }
         // The colour is flat, so the provoking vertex gives it.
         let color = vertices[provoking].color;
-        let vertex = |i: usize| Vertex {
+        let vertex = |i: usize| PlaneVertex {
             color,
             ..vertices[i]
         };
@@ -75,10 +75,10 @@ pub(crate) fn draw<S: Steps>(
 }
 
 /// Returns a vertex in window coordinates.
-fn vertex(draw: &Draw, v: &etalon_scene::Vertex) -> Vertex {
+fn vertex(draw: &Draw, v: &etalon_scene::Vertex) -> PlaneVertex {
     let [[x], [y], [z]] = window_position(&mut Plain::<1>, v.position, &draw.viewport);
     let snap = |v: f32| (v * UNITS as f32 + 0.5).floor() as i64;
-    Vertex {
+    PlaneVertex {
         position: v.position,
         at: Point {
             x: snap(x),
@@ -97,13 +97,13 @@ struct Raster<'a, S> {
     draw: &'a Draw,
     steps: &'a S,
     samples: &'a [Point],
-    bounds: Bounds,
+    bounds: DrawBounds,
     encoding: Option<ChannelEncoding>,
     interpolation: Interpolation,
 }
 
 impl<S: Steps> Raster<'_, S> {
-    fn point(&self, vertex: Vertex, state: &mut SpanState<'_, S>) {
+    fn point(&self, vertex: PlaneVertex, state: &mut SpanState<'_, S>) {
         if cut::is_cut(self.draw, &vertex) || cut::is_beside(&[vertex]) {
             return;
         }
@@ -112,7 +112,7 @@ impl<S: Steps> Raster<'_, S> {
         point(vertex, front, &planes, self.samples, self.bounds, state);
     }
 
-    fn line(&self, ends: [Vertex; 2], state: &mut SpanState<'_, S>) {
+    fn line(&self, ends: [PlaneVertex; 2], state: &mut SpanState<'_, S>) {
         if cut::is_beside(&ends) {
             return;
         }
@@ -125,7 +125,7 @@ impl<S: Steps> Raster<'_, S> {
     }
 
     /// Returns the planes of a point or line. Its depth bias is 0 unless a bug biases lines.
-    fn flat_planes(&self, corners: [Vertex; 3]) -> Planes {
+    fn flat_planes(&self, corners: [PlaneVertex; 3]) -> Planes {
         let points = corners.map(|v| v.at);
         let bias = if self.steps.biases_lines() {
             self.bias(points, &corners)
@@ -135,12 +135,12 @@ impl<S: Steps> Raster<'_, S> {
         Planes::new(self.draw, self.interpolation, points, corners, bias, true)
     }
 
-    fn bias(&self, points: [Point; 3], corners: &[Vertex; 3]) -> f64 {
+    fn bias(&self, points: [Point; 3], corners: &[PlaneVertex; 3]) -> f64 {
         let z = corners.each_ref().map(|v| v.z);
         depth_bias(self.draw, points, z, self.encoding, self.steps)
     }
 
-    fn triangle(&self, corners: [Vertex; 3], state: &mut SpanState<'_, S>) {
+    fn triangle(&self, corners: [PlaneVertex; 3], state: &mut SpanState<'_, S>) {
         let Self { draw, bounds, .. } = *self;
         let outlined = draw.polygon_mode == PolygonMode::Line;
         if !outlined && let Some(cut) = CutTriangle::new(draw, corners) {
@@ -178,7 +178,7 @@ impl<S: Steps> Raster<'_, S> {
 }
 
 /// Returns the intersection of scissor rectangle, attachments, and the viewport extended by a texel.
-pub(crate) fn bounds(draw: &Draw, size: [u32; 2]) -> Bounds {
+pub(crate) fn bounds(draw: &Draw, size: [u32; 2]) -> DrawBounds {
     let [x, y, w, h] = draw.viewport.area();
     let [sx, sy, sw, sh] = draw.scissor.unwrap_or([0, 0, size[0], size[1]]);
     let axis = |start: f32, length: f32, s: u32, l: u32, size: u32| {
@@ -205,7 +205,7 @@ fn fill<S: Steps>(
     inside: &Inside<'_>,
     planes: &Planes,
     samples: &[Point],
-    bounds: Bounds,
+    bounds: DrawBounds,
     state: &mut SpanState<'_, S>,
 ) {
     let triangle = inside.triangle;
@@ -266,7 +266,7 @@ fn fill_cut<S: Steps>(
     front: bool,
     planes: &Planes,
     samples: &[Point],
-    [left, top, right, bottom]: Bounds,
+    [left, top, right, bottom]: DrawBounds,
     state: &mut SpanState<'_, S>,
 ) {
     let mut all_masks = [[false; LANES]; MOST_SAMPLES];
@@ -300,11 +300,11 @@ fn fill_cut<S: Steps>(
 
 /// Runs the texels in which a point covers samples, at most four.
 fn point<S: Steps>(
-    vertex: Vertex,
+    vertex: PlaneVertex,
     front: bool,
     planes: &Planes,
     samples: &[Point],
-    bounds: Bounds,
+    bounds: DrawBounds,
     state: &mut SpanState<'_, S>,
 ) {
     let half = UNITS / 2;
@@ -328,11 +328,11 @@ fn point<S: Steps>(
 /// Runs the texels of a line: one per column, or per row if the line is steep, with all samples of each. The
 /// last texel belongs to the next line (the diamond-exit rule, if the line does not pass through corners).
 fn line<S: Steps>(
-    ends: [Vertex; 2],
+    ends: [PlaneVertex; 2],
     front: bool,
     planes: &Planes,
     samples: usize,
-    bounds: Bounds,
+    bounds: DrawBounds,
     state: &mut SpanState<'_, S>,
 ) {
     let [a, b] = ends;
@@ -368,7 +368,7 @@ fn texel<S: Steps>(
     front: bool,
     color: [f32; 4],
     planes: &Planes,
-    bounds: Bounds,
+    bounds: DrawBounds,
     state: &mut SpanState<'_, S>,
 ) {
     let inside = |v: i64, low: usize, high: usize| v >= low as i64 && v < high as i64;

@@ -1,12 +1,12 @@
 //! Sampling textures in 32-bit floats.
 
 use crate::lanes::{LANES, Real};
-use crate::surface::Surface;
+use crate::surface::CpuSurface;
 use etalon_pipeline::{Arithmetic, Plain, texel_position};
 use etalon_scene::{FilterMode, Sampler};
 
 /// Returns the texture's value at one coordinate per lane.
-pub(crate) fn sample(surface: &Surface, sampler: Sampler, u: Real, v: Real) -> [Real; 4] {
+pub(crate) fn sample(surface: &CpuSurface, sampler: Sampler, u: Real, v: Real) -> [Real; 4] {
     let mut result = [[0.0; LANES]; 4];
     for lane in 0..LANES {
         let coordinates = [
@@ -24,7 +24,7 @@ pub(crate) fn sample(surface: &Surface, sampler: Sampler, u: Real, v: Real) -> [
     result
 }
 
-fn tap(surface: &Surface, sampler: Sampler, position: [i64; 2]) -> [f32; 4] {
+fn tap(surface: &CpuSurface, sampler: Sampler, position: [i64; 2]) -> [f32; 4] {
     let [across, down] = sampler.address;
     let x = texel_position(across, position[0], surface.width as u32);
     let y = texel_position(down, position[1], surface.height as u32);
@@ -40,7 +40,7 @@ fn tap(surface: &Surface, sampler: Sampler, position: [i64; 2]) -> [f32; 4] {
 }
 
 /// Returns the weighted average at a position that is relative to the centre of the first texel.
-fn weighted(surface: &Surface, sampler: Sampler, position: [f32; 2]) -> [f32; 4] {
+fn weighted(surface: &CpuSurface, sampler: Sampler, position: [f32; 2]) -> [f32; 4] {
     let first = position.map(f32::floor);
     let weight = [position[0] - first[0], position[1] - first[1]];
     let mut sum = [0.0; 4];

@@ -1,11 +1,11 @@
 //! The fragment pipeline for one span of texels, all lanes at once.
 
-use crate::lanes::{Codes, LANES, Mask, Real};
-use crate::linear::{CENTER, UNITS, Varying};
-use crate::lists::Lists;
-use crate::memory::{Counted, Memory};
+use crate::lanes::{LANES, LaneCodes, Mask, Real};
+use crate::linear::{CENTER, LinearVarying, UNITS};
+use crate::lists::TexelLists;
+use crate::memory::{CountedKind, Memory};
 use crate::steps::{ExportedReference, InputBit, Steps, TestOutcome, Tests};
-use crate::surface::{Surface, depth_encoding};
+use crate::surface::{CpuSurface, depth_encoding};
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind};
 use etalon_pipeline::shader::{
     FragmentInput, FragmentOutput, InputMask, List, Taps, cost, fragment,
@@ -24,9 +24,9 @@ pub(crate) struct Span<'a> {
     /// Returns the window depths at one sample.
     pub(crate) depth: &'a dyn Fn(usize) -> Real,
     /// Texture coordinates, if the shader reads them.
-    pub(crate) uv: Option<[Varying; 2]>,
+    pub(crate) uv: Option<[LinearVarying; 2]>,
     /// 1 over w, if the shader reads it.
-    pub(crate) reciprocal_w: Option<Varying>,
+    pub(crate) reciprocal_w: Option<LinearVarying>,
 }
 
 /// The state of a draw and the attachments it draws to.
@@ -45,14 +45,14 @@ pub(crate) struct SpanState<'a, S> {
     early: bool,
     /// True if a test or the shader uses the fragment's depth.
     asks_depth: bool,
-    surfaces: &'a mut [Surface],
-    counters: &'a mut [Counted],
-    lists: &'a mut Lists,
+    surfaces: &'a mut [CpuSurface],
+    counters: &'a mut [CountedKind],
+    lists: &'a mut TexelLists,
     steps: &'a S,
 }
 
 /// The stencil state of a span's face, and the references that a shader wrote.
-struct Face {
+struct SpanFace {
     face: StencilFace,
     front: bool,
     written: Option<WrittenReferences>,
@@ -61,7 +61,7 @@ struct Face {
 /// The references that a shader wrote, and the amount that it added to them for the sample.
 type WrittenReferences = ([i32; LANES], i32);
 
-impl Face {
+impl SpanFace {
     /// Returns the state of one texel: for the stencil test, or, with an outcome, for the update.
     #[inline(always)]
     fn of<S: Steps>(
@@ -105,11 +105,11 @@ fn and_not(a: Mask, b: Mask) -> Mask {
     std::array::from_fn(|i| a[i] & !b[i])
 }
 
-fn load(plane: &[u32], offset: usize) -> Codes {
+fn load(plane: &[u32], offset: usize) -> LaneCodes {
     std::array::from_fn(|i| plane[offset + i])
 }
 
-fn store(plane: &mut [u32], offset: usize, codes: Codes, mask: Mask) {
+fn store(plane: &mut [u32], offset: usize, codes: LaneCodes, mask: Mask) {
     for (i, slot) in plane[offset..offset + LANES].iter_mut().enumerate() {
         *slot = if mask[i] { codes[i] } else { *slot };
     }
@@ -432,7 +432,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
             .draw
             .stencil
             .map(|s| if span.front { s.front } else { s.back })
-            .map(|face| Face {
+            .map(|face| SpanFace {
                 face,
                 front: span.front,
                 written: references,
@@ -485,7 +485,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         (!self.surfaces[index].stencil.is_empty()).then_some(index)
     }
 
-    fn stencil_test(&self, span: &Span<'_>, sample: usize, face: &Face) -> Mask {
+    fn stencil_test(&self, span: &Span<'_>, sample: usize, face: &SpanFace) -> Mask {
         let Some(index) = self.stencil() else {
             return [true; LANES];
         };
@@ -502,7 +502,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         &mut self,
         span: &Span<'_>,
         sample: usize,
-        face: &Face,
+        face: &SpanFace,
         outcome: TestOutcome,
         mask: Mask,
     ) {
@@ -526,7 +526,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         sample: usize,
         depth: Real,
         passes: &mut Mask,
-    ) -> Option<Codes> {
+    ) -> Option<LaneCodes> {
         let (state, index, encoding) = (self.draw.depth?, self.pass.depth_stencil?, self.depth?);
         // Depths are clamped to the viewport's range after a shader wrote them or a bias was added.
         let range = self.draw.viewport.depth;
@@ -539,7 +539,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         state.write.then_some(codes)
     }
 
-    fn depth_write(&mut self, span: &Span<'_>, sample: usize, codes: Codes, mask: Mask) {
+    fn depth_write(&mut self, span: &Span<'_>, sample: usize, codes: LaneCodes, mask: Mask) {
         if let Some(index) = self.pass.depth_stencil {
             let offset = self.at(index, span);
             store(

@@ -3,10 +3,10 @@
 //! The rasterizer is generic over [`Steps`], so that the calls of [`Faithful`], which keeps every default,
 //! are inlined. Each planted bug, in another crate, overrides one step.
 
-pub use crate::lanes::{Codes, LANES, Mask, Real};
+pub use crate::lanes::{LANES, LaneCodes, Mask, Real};
 
 use crate::sampling::sample;
-use crate::surface::Surface;
+use crate::surface::CpuSurface;
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind};
 use etalon_pipeline::shader::{KeepCondition, SampleMask};
 use etalon_pipeline::{
@@ -145,7 +145,7 @@ pub enum Moment {
 #[derive(Debug)]
 pub struct Stored<'a> {
     /// The attachments, in the scene's order.
-    pub surfaces: &'a mut [Surface],
+    pub surfaces: &'a mut [CpuSurface],
     /// The counters, in the scene's order.
     pub counters: &'a mut [(CounterKind, u64)],
 }
@@ -164,7 +164,7 @@ pub trait Steps {
 
     /// Returns the texels of a texture at a span.
     #[inline(always)]
-    fn fetch(&self, surface: &Surface, x: usize, y: usize) -> [Real; 4] {
+    fn fetch(&self, surface: &CpuSurface, x: usize, y: usize) -> [Real; 4] {
         let offset = y * surface.stride + x;
         std::array::from_fn(|c| match surface.encodings.get(c) {
             Some(encoding) => {
@@ -178,7 +178,7 @@ pub trait Steps {
 
     /// Returns the sampled values of a texture.
     #[inline(always)]
-    fn sample(&self, surface: &Surface, sampler: Sampler, u: Real, v: Real) -> [Real; 4] {
+    fn sample(&self, surface: &CpuSurface, sampler: Sampler, u: Real, v: Real) -> [Real; 4] {
         sample(surface, sampler, u, v)
     }
 
@@ -228,7 +228,7 @@ pub trait Steps {
 
     /// Returns the codes of depths, for comparing and storing.
     #[inline(always)]
-    fn depth_codes(&self, encoding: ChannelEncoding, depth: Real) -> Codes {
+    fn depth_codes(&self, encoding: ChannelEncoding, depth: Real) -> LaneCodes {
         // For depths in 0..=1, codes have the order of the depths, also for floats. Adding 0 removes the sign
         // of a negative zero.
         Plain::<LANES>.encode(encoding, depth.map(|v| v.clamp(0.0, 1.0) + 0.0))
@@ -264,7 +264,7 @@ pub trait Steps {
 
     /// Returns the codes to store in one colour channel.
     #[inline(always)]
-    fn color_codes(&self, encoding: ChannelEncoding, value: Real) -> Codes {
+    fn color_codes(&self, encoding: ChannelEncoding, value: Real) -> LaneCodes {
         Plain::<LANES>.encode(encoding, value)
     }
 
@@ -277,7 +277,7 @@ pub trait Steps {
 
     /// Returns the values of one stored colour channel for blending.
     #[inline(always)]
-    fn color_value(&self, encoding: ChannelEncoding, codes: Codes) -> Real {
+    fn color_value(&self, encoding: ChannelEncoding, codes: LaneCodes) -> Real {
         Plain::<LANES>.decode(encoding, codes)
     }
 
@@ -315,9 +315,9 @@ pub trait Steps {
         obeys: bool,
         encoding: ChannelEncoding,
         operation: LogicOperation,
-        src: Codes,
-        dst: Codes,
-    ) -> Codes {
+        src: LaneCodes,
+        dst: LaneCodes,
+    ) -> LaneCodes {
         if obeys {
             Plain::<LANES>.logic(encoding, operation, src, dst)
         } else {

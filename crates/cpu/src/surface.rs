@@ -3,12 +3,12 @@
 
 use crate::lanes::LANES;
 use etalon_frame::{Aspect, ChannelEncoding, TextureFormat};
-use etalon_scene::{Attachment, Contents, ResolveMode};
+use etalon_scene::{Attachment, AttachmentContents, ResolveMode};
 use std::ops::Range;
 
 /// An attachment in memory.
 #[derive(Clone, Debug)]
-pub struct Surface {
+pub struct CpuSurface {
     /// The number of texels in a row.
     pub width: usize,
     /// The number of rows.
@@ -26,7 +26,7 @@ pub struct Surface {
     pub encodings: &'static [ChannelEncoding],
 }
 
-impl Surface {
+impl CpuSurface {
     /// Returns the attachment with its initial contents. `clear_code` converts a clear value to a code.
     pub(crate) fn new(
         attachment: &Attachment,
@@ -47,14 +47,14 @@ impl Surface {
             encodings: format.color_channels(),
         };
         match &attachment.contents {
-            Contents::Color(color) => {
+            AttachmentContents::Color(color) => {
                 for (encoding, value) in format.color_channels().iter().zip(color) {
                     let code = clear_code(*encoding, *value);
                     let planes = (0..samples).map(|_| vec![code; texels]);
                     surface.planes.extend(planes);
                 }
             }
-            Contents::DepthStencil { depth, stencil } => {
+            AttachmentContents::DepthStencil { depth, stencil } => {
                 if let Some(encoding) = depth_encoding(format) {
                     let code = clear_code(encoding, *depth);
                     surface.planes = vec![vec![code; texels]; samples];
@@ -63,7 +63,7 @@ impl Surface {
                     surface.stencil = vec![vec![*stencil; texels]; samples];
                 }
             }
-            Contents::Texels(codes) => {
+            AttachmentContents::Texels(codes) => {
                 let channels = format.color_channels().len();
                 for c in 0..channels {
                     let mut plane = vec![0; texels];

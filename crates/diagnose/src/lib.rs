@@ -26,5 +26,5 @@ pub use groups::{Group, Groups, Key, Unreduced};
 pub use known_bugs::{Driver, KnownBugs};
 pub use matching::{Difference, Match};
 pub use signature::Signature;
-pub use symptom::{Direction, Subject, Symptom, violated_clause};
+pub use symptom::{Direction, Symptom, WrongPart, violated_clause};
 pub use traits::{Similarity, Traits, Violation};

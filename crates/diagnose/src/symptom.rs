@@ -42,7 +42,7 @@ pub struct Symptom {
     /// The verdict.
     pub verdict: Verdict,
     /// The part of the result that is wrong.
-    pub subject: Subject,
+    pub subject: WrongPart,
     /// For a picture, the name of the attachment.
     pub attachment: Option<String>,
     /// For a picture, the operations that decide the first wrong sample's value, in their order.
@@ -55,7 +55,7 @@ pub struct Symptom {
 
 /// The part of a result that is wrong.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Subject {
+pub enum WrongPart {
     /// A picture.
     Picture(Aspect),
     /// A counter.
@@ -96,7 +96,7 @@ impl Symptom {
         let mut operations = events.iter().rev().map(Event::operation);
         let bare = Self {
             verdict: record.verdict,
-            subject: Subject::Unknown,
+            subject: WrongPart::Unknown,
             attachment: None,
             operations: Vec::new(),
             last: operations.find(|operation| !COMMON.contains(operation)),
@@ -106,18 +106,18 @@ impl Symptom {
             kind, signal, exit, ..
         }) = record.process
         {
-            let subject = Subject::Process { kind, signal, exit };
+            let subject = WrongPart::Process { kind, signal, exit };
             return Self { subject, ..bare };
         }
         if let Some(invariance) = invariance(events) {
-            let subject = Subject::Relation(invariance);
+            let subject = WrongPart::Relation(invariance);
             return Self { subject, ..bare };
         }
         let wrong = record.wrong.first().filter(|w| w.band > Band::Imprecise);
         if let Some(channel) = wrong.and_then(|w| w.channels.first()) {
             let operations = story.map(|s| deciding(s, &channel.attachment, channel.aspect));
             return Self {
-                subject: Subject::Picture(channel.aspect),
+                subject: WrongPart::Picture(channel.aspect),
                 attachment: Some(channel.attachment.clone()),
                 operations: operations.unwrap_or_default(),
                 direction: Some(direction(record, channel.aspect)),
@@ -127,7 +127,7 @@ impl Symptom {
         let counters = record.counters.iter().filter(|c| c.band.is_some());
         if let Some(counter) = counters.max_by_key(|c| c.band) {
             return Self {
-                subject: Subject::Counter(counter.kind),
+                subject: WrongPart::Counter(counter.kind),
                 direction: Some(if counter.actual < counter.low {
                     Direction::Low
                 } else {
@@ -137,7 +137,7 @@ impl Symptom {
             };
         }
         let error = record.error.clone();
-        let subject = error.map_or(Subject::Unknown, Subject::Error);
+        let subject = error.map_or(WrongPart::Unknown, WrongPart::Error);
         Self { subject, ..bare }
     }
 
@@ -149,7 +149,7 @@ impl Symptom {
     /// Like [`Symptom::covers`], whatever the attachments are called.
     pub fn covers_elsewhere(&self, other: &Self) -> bool {
         let same = self.verdict == other.verdict && self.subject == other.subject;
-        let counter = matches!(self.subject, Subject::Counter(_));
+        let counter = matches!(self.subject, WrongPart::Counter(_));
         same && (!counter || self.direction == other.direction)
             && other.operations.iter().all(|o| self.operations.contains(o))
             && other.operations.is_empty() == self.operations.is_empty()
@@ -159,7 +159,7 @@ impl Symptom {
     /// without the kind of an error.
     pub fn broad(self) -> Self {
         let subject = match self.subject {
-            Subject::Error(_) => Subject::Unknown,
+            WrongPart::Error(_) => WrongPart::Unknown,
             subject => subject,
         };
         Self {
@@ -186,8 +186,8 @@ impl Symptom {
     /// known.
     pub fn text(&self) -> String {
         let mut words = match &self.subject {
-            Subject::Picture(aspect) => vec![aspect.name().to_owned()],
-            Subject::Unknown => Vec::new(),
+            WrongPart::Picture(aspect) => vec![aspect.name().to_owned()],
+            WrongPart::Unknown => Vec::new(),
             other => vec![other.to_string()],
         };
         words.extend(self.direction.map(|d| d.words().to_owned()));
@@ -202,21 +202,21 @@ impl Symptom {
 impl fmt::Display for Symptom {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (&self.subject, self.direction) {
-            (Subject::Picture(aspect), _) => {
+            (WrongPart::Picture(aspect), _) => {
                 let attachment = self.attachment.as_deref().unwrap_or_default();
                 let operations = names(&self.operations);
                 write!(f, "{} of {attachment} ({operations})", aspect.name())
             }
-            (Subject::Counter(_), Some(direction)) => {
+            (WrongPart::Counter(_), Some(direction)) => {
                 write!(f, "{} counts too {}", self.subject, direction.amount())
             }
-            (Subject::Unknown, _) => f.write_str(self.verdict.name()),
+            (WrongPart::Unknown, _) => f.write_str(self.verdict.name()),
             (subject, _) => subject.fmt(f),
         }
     }
 }
 
-impl fmt::Display for Subject {
+impl fmt::Display for WrongPart {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Picture(aspect) => f.write_str(aspect.name()),
@@ -392,8 +392,8 @@ fn rejection(group: &[Event]) -> Option<&Event> {
 mod tests {
     use super::*;
     use etalon_frame::{
-        ChannelEncoding, Contents, CounterOutcome, Coverage, DepthTest, Initial, Origin, Returned,
-        Ruling, SceneName, Source, ValueRange, Values, WrongTexel,
+        ChannelEncoding, ContentSource, Contents, CounterOutcome, Coverage, DepthTest, Initial,
+        Origin, Returned, Ruling, SceneName, ValueRange, Values, WrongTexel,
     };
     use etalon_frame::{Demand, ResolveChoice};
     use etalon_record::Reason;
@@ -684,7 +684,7 @@ mod tests {
         };
         let kept = || Returned::Kept {
             contents: contents("c"),
-            from: Source::Initial(Initial::Clear),
+            from: ContentSource::Initial(Initial::Clear),
         };
         assert_eq!(with(kept(), store(0, "c")), "store color");
         assert_eq!(with(kept(), scissor(1)), "clear, scissor");
@@ -739,7 +739,7 @@ mod tests {
         use Operation::{Blend, Scissor, StoreColor};
         let symptom = |operations: &[Operation], attachment: &str, verdict| Symptom {
             verdict,
-            subject: Subject::Picture(Aspect::Color),
+            subject: WrongPart::Picture(Aspect::Color),
             attachment: Some(attachment.to_owned()),
             operations: operations.to_vec(),
             last: operations.last().copied(),

@@ -5,7 +5,7 @@
 //! and values on the same side of 0 and 1.
 
 use crate::signature::Signature;
-use crate::symptom::{Direction, Subject, Symptom, names};
+use crate::symptom::{Direction, Symptom, WrongPart, names};
 use etalon_frame::{Aspect, Operation};
 use etalon_record::Verdict;
 use serde_json::Value;
@@ -25,7 +25,7 @@ pub struct Traits {
 /// The wrong part of a result, without names of attachments and earlier contents.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Violation {
-    subject: Subject,
+    subject: WrongPart,
     /// For a picture, the deciding operations of draws, sorted by name.
     operations: Vec<Operation>,
     /// For a counter, whether it is too high or too low.
@@ -37,12 +37,12 @@ pub struct Violation {
 impl Violation {
     fn of(symptom: &Symptom) -> Self {
         let mut operations = match symptom.subject {
-            Subject::Picture(_) => symptom.of_draws(),
+            WrongPart::Picture(_) => symptom.of_draws(),
             _ => Vec::new(),
         };
         operations.sort_unstable_by_key(|operation| operation.name());
-        let counter = matches!(symptom.subject, Subject::Counter(_));
-        let unknown = symptom.subject == Subject::Unknown;
+        let counter = matches!(symptom.subject, WrongPart::Counter(_));
+        let unknown = symptom.subject == WrongPart::Unknown;
         Self {
             subject: symptom.subject.clone(),
             operations,
@@ -61,10 +61,10 @@ impl Violation {
 impl fmt::Display for Violation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (&self.subject, self.direction, self.verdict) {
-            (Subject::Picture(aspect), ..) => {
+            (WrongPart::Picture(aspect), ..) => {
                 write!(f, "{} ({})", aspect.name(), names(&self.operations))
             }
-            (Subject::Counter(_), Some(direction), _) => {
+            (WrongPart::Counter(_), Some(direction), _) => {
                 write!(f, "{} counts too {}", self.subject, direction.amount())
             }
             (_, _, Some(verdict)) => f.write_str(verdict.name()),
@@ -134,7 +134,7 @@ impl Traits {
     /// Returns the aspect of a picture that is wrong.
     pub fn aspect(&self) -> Option<Aspect> {
         match self.way.subject {
-            Subject::Picture(aspect) => Some(aspect),
+            WrongPart::Picture(aspect) => Some(aspect),
             _ => None,
         }
     }
@@ -153,7 +153,7 @@ mod tests {
     fn traits(aspect: Aspect, operations: &[&str], draw: Value) -> Traits {
         let symptom = Symptom {
             verdict: Verdict::Fail,
-            subject: Subject::Picture(aspect),
+            subject: WrongPart::Picture(aspect),
             attachment: Some("target".to_owned()),
             operations: operations.iter().map(named).collect(),
             last: None,

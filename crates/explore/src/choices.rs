@@ -8,14 +8,14 @@ use etalon_frame::SplitMix64;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// A hash that identifies a state and its value.
-pub(crate) type State = u64;
+pub(crate) type StateHash = u64;
 
 /// A source of random answers.
 #[derive(Clone, Debug)]
 pub(crate) struct Choices {
     random: SplitMix64,
     /// The chosen states: those of the whole scene, then those of each draw.
-    scopes: Vec<Vec<State>>,
+    scopes: Vec<Vec<StateHash>>,
 }
 
 impl Choices {
@@ -77,7 +77,7 @@ impl Choices {
     }
 
     /// Returns the states, with those of the scene first.
-    pub(crate) fn finish(self) -> Vec<Vec<State>> {
+    pub(crate) fn finish(self) -> Vec<Vec<StateHash>> {
         self.scopes
     }
 }

@@ -6,13 +6,13 @@ use serde_json::Value;
 
 /// A step into a document.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Step {
+pub(crate) enum EditStep {
     Key(String),
     Item(usize),
 }
 
 /// The steps from a document to one of its values.
-pub(crate) type Pointer = Vec<Step>;
+pub(crate) type Pointer = Vec<EditStep>;
 
 /// Several changes that are made together.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -26,42 +26,42 @@ pub(crate) struct Edit {
 /// Makes a pointer from keys and numbers: `pointer!["passes", 0, "draws"]`.
 macro_rules! pointer {
     ($($step:expr),* $(,)?) => {
-        vec![$($crate::edit::Step::from($step)),*]
+        vec![$($crate::edit::EditStep::from($step)),*]
     };
 }
 pub(crate) use pointer;
 
-impl From<&str> for Step {
+impl From<&str> for EditStep {
     fn from(key: &str) -> Self {
         Self::Key(key.to_owned())
     }
 }
 
-impl From<usize> for Step {
+impl From<usize> for EditStep {
     fn from(index: usize) -> Self {
         Self::Item(index)
     }
 }
 
 /// Returns a pointer extended by a step.
-pub(crate) fn below(pointer: &[Step], step: impl Into<Step>) -> Pointer {
+pub(crate) fn below(pointer: &[EditStep], step: impl Into<EditStep>) -> Pointer {
     let mut below = pointer.to_vec();
     below.push(step.into());
     below
 }
 
 /// Returns the value at a pointer.
-pub(crate) fn value_at<'v>(value: &'v Value, pointer: &[Step]) -> Option<&'v Value> {
+pub(crate) fn value_at<'v>(value: &'v Value, pointer: &[EditStep]) -> Option<&'v Value> {
     pointer.iter().try_fold(value, |value, step| match step {
-        Step::Key(key) => value.get(key),
-        Step::Item(index) => value.get(index),
+        EditStep::Key(key) => value.get(key),
+        EditStep::Item(index) => value.get(index),
     })
 }
 
-fn value_at_mut<'v>(value: &'v mut Value, pointer: &[Step]) -> Option<&'v mut Value> {
+fn value_at_mut<'v>(value: &'v mut Value, pointer: &[EditStep]) -> Option<&'v mut Value> {
     pointer.iter().try_fold(value, |value, step| match step {
-        Step::Key(key) => value.get_mut(key),
-        Step::Item(index) => value.get_mut(index),
+        EditStep::Key(key) => value.get_mut(key),
+        EditStep::Item(index) => value.get_mut(index),
     })
 }
 
@@ -89,10 +89,10 @@ impl Edit {
             let (last, parent) = pointer.split_last()?;
             let parent = value_at_mut(&mut edited, parent)?;
             match (last, parent) {
-                (Step::Key(key), Value::Object(map)) => {
+                (EditStep::Key(key), Value::Object(map)) => {
                     map.insert(key.clone(), value.clone());
                 }
-                (Step::Item(index), Value::Array(list)) => {
+                (EditStep::Item(index), Value::Array(list)) => {
                     *list.get_mut(*index)? = value.clone();
                 }
                 _ => return None,
@@ -105,10 +105,10 @@ impl Edit {
         for pointer in remove.iter().rev() {
             let (last, parent) = pointer.split_last()?;
             match (last, value_at_mut(&mut edited, parent)?) {
-                (Step::Key(key), Value::Object(map)) => {
+                (EditStep::Key(key), Value::Object(map)) => {
                     map.remove(key)?;
                 }
-                (Step::Item(index), Value::Array(list)) if *index < list.len() => {
+                (EditStep::Item(index), Value::Array(list)) if *index < list.len() => {
                     list.remove(*index);
                 }
                 _ => return None,

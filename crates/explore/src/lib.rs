@@ -23,5 +23,5 @@ mod space;
 
 pub use document::{keys, leaves, states};
 pub use fuzz::{Fuzzer, RandomScene};
-pub use reduce::{Budget, Candidate, MOST_DRAWS, Oracle, Reduction, reduce};
+pub use reduce::{Candidate, MOST_DRAWS, Oracle, Reduction, ReductionLimits, reduce};
 pub use space::Space;

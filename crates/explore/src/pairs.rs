@@ -4,13 +4,13 @@
 //! occurs. Of several scenes, the one with the most new pairs is therefore drawn. States are identified by
 //! hashes: only the generator knows their names and values.
 
-use crate::choices::State;
+use crate::choices::StateHash;
 use std::collections::HashMap;
 
 /// Pairs of states, within a draw or between a draw and its scene.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Pairs {
-    numbers: HashMap<State, usize>,
+    numbers: HashMap<StateHash, usize>,
     /// One row of bits per state, for the states with lower numbers.
     rows: Vec<Vec<u64>>,
     met: usize,
@@ -18,7 +18,7 @@ pub(crate) struct Pairs {
 
 impl Pairs {
     /// Returns the number of pairs that a scene would add.
-    pub(crate) fn new_in(&self, scopes: &[Vec<State>]) -> usize {
+    pub(crate) fn new_in(&self, scopes: &[Vec<StateHash>]) -> usize {
         let mut count = 0;
         each_pair(scopes, |a, b| {
             let known = match (self.numbers.get(&a), self.numbers.get(&b)) {
@@ -31,7 +31,7 @@ impl Pairs {
     }
 
     /// Adds the pairs of a scene.
-    pub(crate) fn add(&mut self, scopes: &[Vec<State>]) {
+    pub(crate) fn add(&mut self, scopes: &[Vec<StateHash>]) {
         each_pair(scopes, |a, b| {
             let [a, b] = [a, b].map(|state| self.number(state));
             let (row, bit) = (a.max(b), a.min(b));
@@ -56,7 +56,7 @@ impl Pairs {
         self.rows.len()
     }
 
-    fn number(&mut self, state: State) -> usize {
+    fn number(&mut self, state: StateHash) -> usize {
         let next = self.rows.len();
         let number = *self.numbers.entry(state).or_insert(next);
         if number == next {
@@ -73,11 +73,11 @@ impl Pairs {
 }
 
 /// Calls a function with each pair of states of a draw, including those of its scene.
-fn each_pair(scopes: &[Vec<State>], mut pair: impl FnMut(State, State)) {
+fn each_pair(scopes: &[Vec<StateHash>], mut pair: impl FnMut(StateHash, StateHash)) {
     let Some((scene, draws)) = scopes.split_first() else {
         return;
     };
-    let mut among = |states: &[State]| {
+    let mut among = |states: &[StateHash]| {
         for (i, a) in states.iter().enumerate() {
             states[..i].iter().for_each(|b| pair(*a, *b));
         }

@@ -17,10 +17,10 @@ use crate::edit::Edit;
 use serde_json::Value;
 
 /// Returns the edits of a document, given a wrong texel, the largest edits first.
-pub(crate) type Pass = fn(&Value, Option<[u32; 2]>) -> Vec<Edit>;
+pub(crate) type EditPass = fn(&Value, Option<[u32; 2]>) -> Vec<Edit>;
 
 /// All passes.
-pub(crate) const PASSES: &[Pass] = &[
+pub(crate) const PASSES: &[EditPass] = &[
     lists::frames,
     lists::passes,
     lists::draws,

@@ -21,7 +21,7 @@ const LOST_TIME: Duration = Duration::from_secs(60);
 
 /// The limits of a reduction.
 #[derive(Clone, Copy, Debug)]
-pub struct Budget<'a> {
+pub struct ReductionLimits<'a> {
     /// The maximum number of candidates that are drawn.
     pub draws: usize,
     /// The time after which no candidate is tried.
@@ -30,7 +30,7 @@ pub struct Budget<'a> {
     pub stop: Option<&'a AtomicBool>,
 }
 
-impl<'a> Budget<'a> {
+impl<'a> ReductionLimits<'a> {
     /// Limits how often scenes are drawn, but not the time.
     pub fn draws(draws: usize) -> Self {
         Self {
@@ -95,11 +95,11 @@ pub struct Reduction {
 /// oracle.
 pub fn reduce(
     failing: Candidate,
-    budget: Budget<'_>,
+    budget: ReductionLimits<'_>,
     can_draw: &dyn Fn(&Case) -> bool,
     oracle: &mut dyn Oracle,
 ) -> Reduction {
-    let mut state = State {
+    let mut state = ReductionState {
         can_draw,
         id: failing.case.id.clone(),
         current: failing,
@@ -125,22 +125,22 @@ pub fn reduce(
     }
 }
 
-struct State<'a> {
+struct ReductionState<'a> {
     can_draw: &'a dyn Fn(&Case) -> bool,
     id: String,
     current: Candidate,
     /// The documents that were already tried.
     seen: HashSet<String>,
     draws: usize,
-    budget: Budget<'a>,
+    budget: ReductionLimits<'a>,
     /// True if candidates were left when the budget was used up.
     is_over: bool,
 }
 
-impl State<'_> {
+impl ReductionState<'_> {
     /// Tries all edits of a pass. After an edit is kept, continues at the same index in the list of the new
     /// document, since the edits before that index were tried.
-    fn exhaust(&mut self, pass: crate::passes::Pass, oracle: &mut dyn Oracle) {
+    fn exhaust(&mut self, pass: crate::passes::EditPass, oracle: &mut dyn Oracle) {
         let mut start = 0;
         loop {
             let edits = pass(&self.current.document, oracle.texel());
@@ -261,7 +261,12 @@ mod tests {
     ) -> (Reduction, Vec<Value>) {
         let asked = Vec::new();
         let mut oracle = Condition { holds, asked };
-        let reduction = reduce(failing.clone(), Budget::draws(most), &|_| true, &mut oracle);
+        let reduction = reduce(
+            failing.clone(),
+            ReductionLimits::draws(most),
+            &|_| true,
+            &mut oracle,
+        );
         assert_eq!(reduction.draws, oracle.asked.len());
         (reduction, oracle.asked)
     }
@@ -361,7 +366,12 @@ mod tests {
             asked: Vec::new(),
         };
         let can_draw = |case: &Case| case.scene.passes.iter().any(|p| p.draws.len() > 1);
-        let reduction = reduce(failing, Budget::draws(MOST_DRAWS), &can_draw, &mut oracle);
+        let reduction = reduce(
+            failing,
+            ReductionLimits::draws(MOST_DRAWS),
+            &can_draw,
+            &mut oracle,
+        );
         assert_eq!(draws(&reduction.smallest.document).len(), 2);
         assert!(oracle.asked.iter().all(|d| draws(d).len() > 1));
     }

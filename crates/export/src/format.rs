@@ -1,7 +1,7 @@
 //! The formats of exports.
 
 use crate::error::ExportError;
-use crate::selection::Selection;
+use crate::selection::RunChoice;
 use crate::written::ExportSize;
 use crate::{folder, latest, openmetrics, tables};
 use etalon_history::History;
@@ -9,7 +9,7 @@ use std::path::Path;
 
 /// A format of an export.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
+pub enum ExportFormat {
     /// Parquet tables, partitioned by date and adapter.
     Parquet,
     /// Samples for Prometheus.
@@ -26,8 +26,8 @@ pub enum Format {
 /// If the history cannot be read, no run is selected, or the folder is not empty or cannot be written to.
 pub fn export(
     history: &History,
-    format: Format,
-    selection: &Selection,
+    format: ExportFormat,
+    selection: &RunChoice,
     dir: &Path,
 ) -> Result<ExportSize, ExportError> {
     let runs = selection.runs(history);
@@ -38,9 +38,9 @@ pub fn export(
     }
     folder::empty(dir)?;
     match format {
-        Format::Parquet => tables::write(history, &runs, dir),
-        Format::OpenMetrics => openmetrics::write(history, &runs, dir),
-        Format::Bencher => latest::write_bencher(history, &runs, dir),
-        Format::ActionBenchmark => latest::write_action(history, &runs, dir),
+        ExportFormat::Parquet => tables::write(history, &runs, dir),
+        ExportFormat::OpenMetrics => openmetrics::write(history, &runs, dir),
+        ExportFormat::Bencher => latest::write_bencher(history, &runs, dir),
+        ExportFormat::ActionBenchmark => latest::write_action(history, &runs, dir),
     }
 }

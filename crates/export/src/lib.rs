@@ -19,6 +19,6 @@ mod tables;
 mod written;
 
 pub use error::ExportError;
-pub use format::{Format, export};
-pub use selection::Selection;
+pub use format::{ExportFormat, export};
+pub use selection::RunChoice;
 pub use written::ExportSize;

@@ -5,14 +5,14 @@ use std::collections::HashSet;
 
 /// The choice of runs to export. Runs that were resumed later are always left out.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Selection {
+pub struct RunChoice {
     /// Leaves out runs before this time, in seconds since 1970.
     pub since: Option<i64>,
     /// Takes this many of the latest runs.
     pub last: Option<usize>,
 }
 
-impl Selection {
+impl RunChoice {
     /// Returns the selected runs.
     pub(crate) fn runs(&self, history: &History) -> HashSet<RunId> {
         let late = |time: i64| self.since.is_none_or(|since| time >= since);

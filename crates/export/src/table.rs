@@ -20,12 +20,12 @@ pub(crate) enum Column {
 }
 
 /// A Parquet file that is being written.
-pub(crate) struct Table {
+pub(crate) struct ParquetTable {
     path: PathBuf,
     writer: SerializedFileWriter<File>,
 }
 
-impl Table {
+impl ParquetTable {
     /// Creates a file and its folder. `schema` is a Parquet message.
     pub(crate) fn create(path: PathBuf, schema: &str) -> Result<Self, ExportError> {
         if let Some(parent) = path.parent() {

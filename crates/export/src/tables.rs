@@ -5,7 +5,7 @@
 
 use crate::error::ExportError;
 use crate::folder::part;
-use crate::table::{Column, Table};
+use crate::table::{Column, ParquetTable};
 use crate::written::ExportSize;
 use etalon_frame::CaseId;
 use etalon_history::{AdapterRun, History, RunId, RunInfo};
@@ -77,7 +77,7 @@ pub(crate) fn write(
                 .join(format!("date={date}"))
                 .join(folder(&adapter.timeline))
                 .join(format!("{}.parquet", run.digest_text()));
-            let mut table = Table::create(path, &schema("records", RECORDS))?;
+            let mut table = ParquetTable::create(path, &schema("records", RECORDS))?;
             let (columns, rows) = records(history, run, adapter)?;
             table.add(&columns)?;
             table.close()?;
@@ -183,7 +183,7 @@ struct TimeRows {
 }
 
 impl TimeRows {
-    fn flush(&mut self, table: &mut Table) -> Result<(), ExportError> {
+    fn flush(&mut self, table: &mut ParquetTable) -> Result<(), ExportError> {
         let times = std::mem::take(self);
         let mut columns: Vec<Column> = times.texts.map(Column::Text).into();
         columns.insert(1, Column::Integer(times.time));
@@ -238,7 +238,7 @@ fn frame_times(
                 written.rows += 1;
                 if table.is_none() {
                     let folder = dir.join("frame_times").join(folder(&key.timeline));
-                    table = Some(Table::create(
+                    table = Some(ParquetTable::create(
                         folder.join("times.parquet"),
                         &schema("frame_times", TIMES),
                     )?);

@@ -82,7 +82,8 @@ pub use property::Property;
 pub use samples::standard_sample_positions;
 pub use split_mix::{SplitMix64, mix};
 pub use story::{
-    Allowed, Demand, Initial, Reason, Returned, Ruling, Source, Story, ToldLine, Values,
+    Allowed, ContentSource, DecidingStep, Demand, Initial, Returned, Ruling, Story, ToldLine,
+    Values,
 };
 pub use version::ApiVersion;
 pub use work::Work;

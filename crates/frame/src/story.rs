@@ -166,7 +166,7 @@ pub struct Values {
     #[serde(default, skip_serializing_if = "is_zero")]
     pub more_outcomes: usize,
     /// The operations that decide, in order.
-    pub reasons: Vec<Reason>,
+    pub reasons: Vec<DecidingStep>,
     /// The number of further draws that do not reach the sample.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub more_draws: usize,
@@ -207,7 +207,7 @@ pub enum Initial {
 /// An operation that decides the value of a sample.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Reason {
+pub enum DecidingStep {
     /// A draw stores the value in only some outcomes; the event leaves it open.
     Open(Event),
     /// A draw stores the value.
@@ -256,14 +256,14 @@ pub enum Returned {
         /// The contents.
         contents: Contents,
         /// The operation that stored the earlier contents.
-        from: Source,
+        from: ContentSource,
     },
 }
 
 /// The operation that stored contents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Source {
+pub enum ContentSource {
     /// The initial contents.
     Initial(Initial),
     /// A clear or a resolve between draws.

@@ -15,11 +15,11 @@ pub(crate) struct Attachment {
     /// The framebuffer of the last pass that draws to it, or else the surface's, and its attachment point
     /// there.
     pub(crate) drawn: (glow::Framebuffer, u32),
-    pub(crate) initial: InitialContents,
+    pub(crate) initial: SubmitContents,
 }
 
 /// The initial contents of an attachment at each submit.
-pub(crate) enum InitialContents {
+pub(crate) enum SubmitContents {
     /// Uploaded once. No pass draws to it.
     Uploaded,
     Upload(Vec<u8>),
@@ -46,17 +46,17 @@ pub(crate) fn set_initial_contents(context: &Context, attachments: &[Attachment]
         // SAFETY: the context is current and owns all objects.
         unsafe {
             match &attachment.initial {
-                InitialContents::Uploaded => {}
-                InitialContents::Upload(bytes) => upload(context, format, surface, bytes),
-                InitialContents::Color(color) => {
+                SubmitContents::Uploaded => {}
+                SubmitContents::Upload(bytes) => upload(context, format, surface, bytes),
+                SubmitContents::Color(color) => {
                     gl.bind_framebuffer(glow::FRAMEBUFFER, Some(attachment.cleared()));
                     gl.clear_buffer_f32_slice(glow::COLOR, 0, color);
                 }
-                InitialContents::Integers(color) => {
+                SubmitContents::Integers(color) => {
                     gl.bind_framebuffer(glow::FRAMEBUFFER, Some(attachment.cleared()));
                     gl.clear_buffer_u32_slice(glow::COLOR, 0, color);
                 }
-                InitialContents::DepthStencil(depth, stencil) => {
+                SubmitContents::DepthStencil(depth, stencil) => {
                     gl.bind_framebuffer(glow::FRAMEBUFFER, Some(attachment.cleared()));
                     let stencil = i32::from(*stencil);
                     match (format.has_depth(), format.has_stencil()) {

@@ -3,10 +3,10 @@
 use crate::context::Context;
 use crate::egl::{self, ContextRequest};
 use crate::objects::Objects;
-use crate::options::{Options, Profile, Tuning};
+use crate::options::{GlOptions, Profile, Tuning};
 use crate::path;
 use crate::planted;
-use crate::prepared::PreparedScene;
+use crate::prepared::GlScene;
 use crate::probe::Probed;
 use crate::recording;
 use crate::state;
@@ -21,20 +21,20 @@ pub struct GlBackend {
     limits: Limits,
     objects: Objects,
     pub(crate) context: Context,
-    options: Options,
+    options: GlOptions,
 }
 
 /// Opens an adapter. `name` becomes [`AdapterInfo::name`].
 ///
 /// # Errors
 /// If libEGL, the driver or the version is missing; the error names a remedy.
-pub fn open(name: &str, options: &Options) -> Result<GlBackend, Unavailable> {
+pub fn open(name: &str, options: &GlOptions) -> Result<GlBackend, Unavailable> {
     open_with(name, options, Tuning { clip_control: true })
 }
 
 pub(crate) fn open_with(
     name: &str,
-    options: &Options,
+    options: &GlOptions,
     tuning: Tuning,
 ) -> Result<GlBackend, Unavailable> {
     const CORE: [(i32, i32); 8] = [
@@ -165,7 +165,7 @@ impl Backend for GlBackend {
             return Err(BackendError::NotSupported(requirement));
         }
         self.context.make_current()?;
-        Ok(Box::new(PreparedScene::new(
+        Ok(Box::new(GlScene::new(
             &self.context,
             &self.objects,
             &scene.on_path(),

@@ -12,7 +12,7 @@ use etalon_frame::{Aspect, Image, PathEnd, PathValue, Requirement};
 use glow::HasContext;
 
 /// The destination of blits: a framebuffer and its surfaces. The last surface is read.
-struct Destination {
+struct BlitDestination {
     target: PassFramebuffer,
     surfaces: Vec<Surface>,
 }
@@ -86,7 +86,7 @@ impl ReadObjects<'_> {
         source: &ReadSource<'_>,
         size: [u32; 2],
         count: usize,
-    ) -> Result<Destination, BackendError> {
+    ) -> Result<BlitDestination, BackendError> {
         let context = self.context;
         let kind = SurfaceKind::plain(source.format, 1);
         let mut surfaces = Vec::with_capacity(count);
@@ -101,7 +101,7 @@ impl ReadObjects<'_> {
         state::reset(context);
         let value = PathValue::End(source.end);
         let missing = BackendError::NotSupported(Requirement::Path(value));
-        Ok(Destination {
+        Ok(BlitDestination {
             target: target.ok_or(missing)?,
             surfaces,
         })
@@ -138,7 +138,7 @@ impl ReadObjects<'_> {
     fn read(
         &mut self,
         source: &ReadSource<'_>,
-        destination: Destination,
+        destination: BlitDestination,
         blits: Option<Blits>,
     ) -> Result<Vec<Image>, BackendError> {
         let images = match destination.surfaces.last() {
@@ -154,7 +154,7 @@ impl ReadObjects<'_> {
         images
     }
 
-    fn put_back(&mut self, destination: Destination) {
+    fn put_back(&mut self, destination: BlitDestination) {
         self.pool.put_target(self.context, destination.target);
         for surface in destination.surfaces {
             self.pool.put_surface(self.context, surface);

@@ -4,7 +4,7 @@ use crate::caps::Caps;
 use crate::debug_output::{self, Log};
 use crate::egl::{EglContext, function_at};
 use crate::entry_points::EntryPoints;
-use crate::options::{Options, Profile, Tuning};
+use crate::options::{GlOptions, Profile, Tuning};
 use crate::planted;
 use crate::recording;
 use crate::sanity;
@@ -42,7 +42,7 @@ impl Context {
     /// Wraps a context that was just made current.
     pub(crate) fn new(
         egl: EglContext,
-        options: &Options,
+        options: &GlOptions,
         tuning: Tuning,
     ) -> Result<Self, Unavailable> {
         planted::plant(options.fault);

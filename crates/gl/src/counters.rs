@@ -1,8 +1,8 @@
 //! The counters of a scene: queries around draws, and a storage buffer in which shaders count.
 
 use crate::context::Context;
-use crate::pool::Pool;
-use crate::query::{Query, query_target};
+use crate::pool::ObjectPool;
+use crate::query::{QueryObject, query_target};
 use crate::recording;
 use etalon_backend::BackendError;
 use etalon_frame::{CounterKind, PathResults};
@@ -14,7 +14,7 @@ use glow::HasContext;
 pub(crate) struct Counters {
     kinds: Vec<CounterKind>,
     /// The queries of all draws, with the index of their counter.
-    queries: Vec<(usize, Query)>,
+    queries: Vec<(usize, QueryObject)>,
     /// The distance between two counters in the storage buffer, in bytes.
     stride: usize,
     /// True if results are read twice.
@@ -46,9 +46,9 @@ impl Counters {
     pub(crate) fn queries(
         &mut self,
         context: &Context,
-        pool: &mut Pool,
+        pool: &mut ObjectPool,
         scene: &Scene,
-    ) -> Result<Vec<(etalon_scene::Query, Query)>, BackendError> {
+    ) -> Result<Vec<(etalon_scene::Query, QueryObject)>, BackendError> {
         let mut made = Vec::new();
         for query in scene.queries() {
             let kind = self.kinds.get(query.counter).copied();
@@ -133,7 +133,7 @@ impl Counters {
     }
 
     /// Returns the queries to the pool, or deletes them if they are not reusable.
-    pub(crate) fn give_back(self, context: &Context, pool: &mut Pool, reusable: bool) {
+    pub(crate) fn give_back(self, context: &Context, pool: &mut ObjectPool, reusable: bool) {
         for (_, query) in self.queries {
             if reusable {
                 pool.put_query(context, query);

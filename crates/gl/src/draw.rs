@@ -5,7 +5,7 @@ use crate::clear::{ClearCall, discard};
 use crate::context::Context;
 use crate::pool::PassFramebuffer;
 use crate::program::{PARAMS_BINDING, STORAGE_BINDING};
-use crate::query::Query;
+use crate::query::QueryObject;
 use crate::read::spoil;
 use crate::state::{self, DrawState};
 use crate::surface::Surface;
@@ -19,7 +19,7 @@ const PARAMETER_BUFFER: u32 = 0x80EE;
 
 /// The buffers that all draws share, with their sizes in bytes.
 #[derive(Default)]
-pub(crate) struct Inputs {
+pub(crate) struct DrawBuffers {
     pub(crate) vertices: Option<(glow::Buffer, usize)>,
     pub(crate) indices: Option<(glow::Buffer, usize)>,
     pub(crate) params: Option<(glow::Buffer, usize)>,
@@ -33,7 +33,7 @@ pub(crate) struct Inputs {
     pub(crate) pool: Option<(glow::Buffer, usize)>,
 }
 
-impl Inputs {
+impl DrawBuffers {
     /// Returns all buffers.
     pub(crate) fn into_buffers(self) -> impl Iterator<Item = (glow::Buffer, usize)> {
         let buffers = [
@@ -49,7 +49,7 @@ impl Inputs {
     }
 }
 
-pub(crate) struct Pass {
+pub(crate) struct GlPass {
     pub(crate) target: PassFramebuffer,
     pub(crate) draws: Vec<DrawCall>,
     /// The clears of load operations.
@@ -61,13 +61,13 @@ pub(crate) struct Pass {
     /// The attachment points that the pass discards at its end.
     pub(crate) discards: Vec<u32>,
     /// Multisampled attachments and their resolve targets.
-    pub(crate) resolves: Vec<Resolve>,
+    pub(crate) resolves: Vec<ResolveBlit>,
     /// The queries that begin before the pass, and the queries that end after it.
-    pub(crate) queries: Enclosing<Query>,
+    pub(crate) queries: Enclosing<QueryObject>,
 }
 
 /// A resolve of an attachment to another.
-pub(crate) struct Resolve {
+pub(crate) struct ResolveBlit {
     pub(crate) from: usize,
     pub(crate) to: usize,
     /// The intermediate surface: parts are resolved to other positions in it, and moved from there. `None` if
@@ -86,7 +86,7 @@ pub(crate) struct DrawCall {
     /// The sampler; `None` if texels are fetched.
     pub(crate) sampler: Option<glow::Sampler>,
     /// The queries that begin before the draw, and the queries that end after it.
-    pub(crate) queries: Enclosing<Query>,
+    pub(crate) queries: Enclosing<QueryObject>,
     /// The offset of the counter in bytes, if the shader counts.
     pub(crate) runs: Option<i32>,
     /// True if the shader uses the pool.
@@ -107,8 +107,8 @@ pub(crate) struct DrawCall {
 pub(crate) fn draw_all(
     context: &Context,
     vertex_array: glow::VertexArray,
-    inputs: &Inputs,
-    passes: &[Pass],
+    inputs: &DrawBuffers,
+    passes: &[GlPass],
     attachments: &[Attachment],
 ) {
     let gl = &context.gl;
@@ -158,7 +158,7 @@ pub(crate) fn draw_all(
             clear.apply(context);
             set = None;
         }
-        for Resolve { from, to, between } in &pass.resolves {
+        for ResolveBlit { from, to, between } in &pass.resolves {
             if let (Some(from), Some(to)) = (attachments.get(*from), attachments.get(*to)) {
                 // Blits are subject to the scissor test.
                 state::reset(context);
@@ -179,7 +179,7 @@ pub(crate) fn draw_all(
 }
 
 /// Draws, and sets the draw's state first unless `is_set` is true.
-fn draw_one(context: &Context, inputs: &Inputs, draw: &DrawCall, is_set: bool) {
+fn draw_one(context: &Context, inputs: &DrawBuffers, draw: &DrawCall, is_set: bool) {
     let gl = &context.gl;
     if let Some(other) = &draw.other {
         other.apply(context);

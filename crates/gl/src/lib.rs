@@ -46,7 +46,7 @@ mod vertices;
 
 pub use backend::{GlBackend, open};
 pub use egl::{EglDevice, Platform, enumerate};
-pub use options::{Options, Profile};
+pub use options::{GlOptions, Profile};
 
 #[cfg(test)]
 use {backend::open_with, options::Tuning};

@@ -2,7 +2,7 @@
 //! needs only them.
 
 use crate::context::Context;
-use crate::pool::Pool;
+use crate::pool::ObjectPool;
 use crate::probe::{self, Probed};
 use crate::program::Programs;
 use crate::recording;
@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 /// The objects that outlive a scene, and the supported formats.
 pub(crate) struct Objects {
     pub(crate) formats: BTreeMap<TextureFormat, Support>,
-    pub(crate) pool: RefCell<Pool>,
+    pub(crate) pool: RefCell<ObjectPool>,
     pub(crate) programs: RefCell<Programs>,
     /// The distance between parameter blocks in bytes.
     pub(crate) params_stride: usize,

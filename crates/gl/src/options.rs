@@ -15,7 +15,7 @@ pub enum Profile {
 
 /// Options for [`crate::open`].
 #[derive(Clone, Debug, PartialEq)]
-pub struct Options {
+pub struct GlOptions {
     /// The variant of OpenGL.
     pub profile: Profile,
     /// The platform that selects the driver.
@@ -31,7 +31,7 @@ pub struct Options {
     pub record: bool,
 }
 
-impl Options {
+impl GlOptions {
     /// Returns the context that recorded calls need. `version` is its major and minor version.
     pub(crate) fn recorded_context(&self, version: (u32, u32)) -> RecordedContext {
         RecordedContext::Egl {

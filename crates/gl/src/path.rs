@@ -5,16 +5,16 @@
 //! functions.
 
 use crate::context::Context;
-use crate::support::{ReadPlan, Support};
+use crate::support::{ReadBackPath, Support};
 use etalon_frame::{
     ChannelEncoding, Feature, PathArea, PathClears, PathClip, PathCommands, PathDraws, PathEnd,
     PathLayers, PathPass, PathResolves, PathResults, PathState, PathTarget, PathValue,
     PathViewport, PathViews,
 };
 use etalon_scene::{
-    BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget, CompareFunction,
-    Contents, CullMode, DepthBias, DepthState, Draw, FrontFace, LogicOperation, Multisample, Path,
-    SampleCoverage, Scene, StencilFace, StencilOperation, StencilState, Viewport,
+    AttachmentContents, BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget,
+    CompareFunction, CullMode, DepthBias, DepthState, Draw, FrontFace, LogicOperation, Multisample,
+    Path, SampleCoverage, Scene, StencilFace, StencilOperation, StencilState, Viewport,
 };
 use std::collections::BTreeSet;
 
@@ -89,7 +89,7 @@ pub(crate) fn target(scene: &Scene, index: usize, support: Option<&Support>) -> 
     let sampled = draws.any(|d| d.textures.contains(&index));
     let fetched = scene.read.contains(&index)
         && support.is_some_and(|s| by_shader(s.read) || reads_by_shader(scene, index, s));
-    let uploaded = matches!(attachment.contents, Contents::Texels(_));
+    let uploaded = matches!(attachment.contents, AttachmentContents::Texels(_));
     let can = attachment.samples == 1
         && match scene.path.target {
             PathTarget::Plain | PathTarget::MipLevel => true,
@@ -137,8 +137,8 @@ pub(crate) fn layer(scene: &Scene, index: usize) -> Option<u8> {
     layered.then(|| DRAWN_LAYERS[(index + 1) % DRAWN_LAYERS.len()])
 }
 
-fn by_shader(plan: ReadPlan) -> bool {
-    matches!(plan, ReadPlan::Fetched | ReadPlan::Shader { .. })
+fn by_shader(plan: ReadBackPath) -> bool {
+    matches!(plan, ReadBackPath::Fetched | ReadBackPath::Shader { .. })
 }
 
 fn reads_by_shader(scene: &Scene, index: usize, support: &Support) -> bool {
@@ -271,7 +271,7 @@ mod tests {
     use etalon_frame::{FormatSupport, ReadPath, TextureFormat};
     use etalon_scene::{Attachment, Mesh, Pass, QueryScope, Shader};
 
-    fn support(read: ReadPlan) -> Support {
+    fn support(read: ReadBackPath) -> Support {
         Support {
             limits: FormatSupport {
                 samples: vec![1, 4],
@@ -292,7 +292,7 @@ mod tests {
                 format,
                 size: [8, 8],
                 samples,
-                contents: Contents::Color([0.0; 4]),
+                contents: AttachmentContents::Color([0.0; 4]),
             }],
             passes: vec![Pass::default()],
             read: vec![0],
@@ -309,9 +309,9 @@ mod tests {
 
     #[test]
     fn attachments_are_the_parts_that_they_can_be() {
-        let copied = support(ReadPlan::Packed);
+        let copied = support(ReadBackPath::Packed);
         let depth = true;
-        let fetched = support(ReadPlan::Shader {
+        let fetched = support(ReadBackPath::Shader {
             depth,
             stencil: ShaderStencil::None,
         });
@@ -342,7 +342,7 @@ mod tests {
     fn what_would_round_is_read_by_default() {
         let found_end = |format, samples, wanted| {
             let scene = scene(format, samples, PathTarget::Plain, wanted);
-            end(&scene, 0, &support(ReadPlan::Packed))
+            end(&scene, 0, &support(ReadBackPath::Packed))
         };
         let unorm = TextureFormat::Rgba8Unorm;
         assert_eq!(found_end(unorm, 1, PathEnd::Blit), PathEnd::Store);

@@ -2,7 +2,7 @@
 
 use crate::context::Context;
 use crate::enums::address;
-use crate::query::Query;
+use crate::query::QueryObject;
 use crate::surface::{Surface, SurfaceKind, framebuffer};
 use etalon_backend::BackendError;
 use etalon_scene::{FilterMode, Sampler};
@@ -27,18 +27,18 @@ type TargetKey = (Vec<Option<u64>>, Option<u64>, bool);
 
 /// Unused objects.
 #[derive(Default)]
-pub(crate) struct Pool {
+pub(crate) struct ObjectPool {
     surfaces: HashMap<(SurfaceKind, [u32; 2]), Vec<Surface>>,
     count: usize,
     bytes: u64,
     targets: HashMap<TargetKey, Vec<glow::Framebuffer>>,
     buffers: Vec<glow::Buffer>,
-    queries: Vec<Query>,
+    queries: Vec<QueryObject>,
     /// All samplers, used or not.
     samplers: HashMap<Sampler, glow::Sampler>,
 }
 
-impl Pool {
+impl ObjectPool {
     /// Returns a surface of this kind and size with undefined contents.
     pub(crate) fn surface(
         &mut self,
@@ -150,18 +150,22 @@ impl Pool {
     }
 
     /// Returns a query of this target.
-    pub(crate) fn query(&mut self, context: &Context, target: u32) -> Result<Query, BackendError> {
+    pub(crate) fn query(
+        &mut self,
+        context: &Context,
+        target: u32,
+    ) -> Result<QueryObject, BackendError> {
         if let Some(index) = self.queries.iter().position(|q| q.target == target) {
             return Ok(self.queries.swap_remove(index));
         }
         // SAFETY: the context is current.
         let object = unsafe { context.gl.create_query() }
             .map_err(|e| BackendError::refused("a query", e))?;
-        Ok(Query { target, object })
+        Ok(QueryObject { target, object })
     }
 
     /// Returns a query to the pool. It must not be active.
-    pub(crate) fn put_query(&mut self, context: &Context, query: Query) {
+    pub(crate) fn put_query(&mut self, context: &Context, query: QueryObject) {
         if self.queries.len() < MAX_FREE {
             self.queries.push(query);
         } else {

@@ -1,43 +1,43 @@
 //! A scene prepared for drawing.
 
-use crate::attachment::{self, Attachment, InitialContents};
+use crate::attachment::{self, Attachment, SubmitContents};
 use crate::clear::{self, ClearCall};
 use crate::codes;
 use crate::context::Context;
 use crate::counters::{self, Counters};
-use crate::draw::{self, DrawCall, Inputs, Pass, Resolve};
+use crate::draw::{self, DrawBuffers, DrawCall, GlPass, ResolveBlit};
 use crate::enums::topology;
 use crate::objects::Objects;
 use crate::path::{self, Variant};
-use crate::pool::Pool;
+use crate::pool::ObjectPool;
 use crate::program::FragmentForm;
-use crate::query::Query;
+use crate::query::QueryObject;
 use crate::read::{ReadObjects, ReadSource};
 use crate::recording;
 use crate::state::{self, DrawState};
 use crate::surface::{Surface, SurfaceKind, upload};
-use crate::vertices::{Arguments, Fetched, Geometry};
+use crate::vertices::{Arguments, BufferedGeometry, Fetched};
 use etalon_backend::{BackendError, FrameTime, Phase, Prepared};
 use etalon_frame::{
     Frame, PathCommands, PathDraws, PathEnd, PathState, PathTarget, PathValue, PathViews,
     Requirement, TextureFormat,
 };
-use etalon_scene::{Contents, Draw, Enclosing, Path, Scene};
+use etalon_scene::{AttachmentContents, Draw, Enclosing, Path, Scene};
 use glow::HasContext;
 use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
 /// A scene's objects. They return to the pool on drop.
-pub(crate) struct PreparedScene<'a> {
+pub(crate) struct GlScene<'a> {
     context: &'a Context,
     objects: &'a Objects,
     attachments: Vec<Attachment>,
-    passes: Vec<Pass>,
+    passes: Vec<GlPass>,
     path: Path,
     pool: Option<etalon_scene::Pool>,
     /// The attachments that are read, and how each reaches the host.
     read: Vec<(usize, PathEnd)>,
-    inputs: Inputs,
+    inputs: DrawBuffers,
     /// The attachments that the path leaves out of passes.
     gaps: BTreeSet<usize>,
     counters: Counters,
@@ -55,10 +55,10 @@ struct Unused {
     /// The offset of the next parameter block.
     params: i32,
     /// The queries of the scene.
-    queries: Vec<(etalon_scene::Query, Query)>,
+    queries: Vec<(etalon_scene::Query, QueryObject)>,
 }
 
-impl<'a> PreparedScene<'a> {
+impl<'a> GlScene<'a> {
     pub(crate) fn new(
         context: &'a Context,
         objects: &'a Objects,
@@ -75,7 +75,7 @@ impl<'a> PreparedScene<'a> {
                 .collect(),
             pool: scene.pool,
             read: ends(objects, scene),
-            inputs: Inputs::default(),
+            inputs: DrawBuffers::default(),
             counters: Counters::new(context, scene),
             submitted: false,
             reusable: false,
@@ -125,7 +125,7 @@ impl<'a> PreparedScene<'a> {
 
     fn attachment(
         &mut self,
-        pool: &mut Pool,
+        pool: &mut ObjectPool,
         attachment: &etalon_scene::Attachment,
         kind: SurfaceKind,
         drawn: bool,
@@ -137,29 +137,30 @@ impl<'a> PreparedScene<'a> {
         let complete = surface.is_complete();
         let initial = match &attachment.contents {
             // `rgba32float` is the only supported format that might not be drawable.
-            Contents::Color(color) if !complete => InitialContents::Upload(codes::pack(
-                format,
-                &color.map(f32::to_bits).repeat(texels),
-            )),
-            Contents::Color(color) if format.is_integer() => {
-                InitialContents::Integers(color.map(|value| value as u32))
+            AttachmentContents::Color(color) if !complete => {
+                SubmitContents::Upload(codes::pack(format, &color.map(f32::to_bits).repeat(texels)))
             }
-            Contents::Color(color) => InitialContents::Color(*color),
-            Contents::DepthStencil { depth, stencil } => {
-                InitialContents::DepthStencil(*depth, *stencil)
+            AttachmentContents::Color(color) if format.is_integer() => {
+                SubmitContents::Integers(color.map(|value| value as u32))
             }
-            Contents::Texels(codes) if codes.len() != texels * format.color_channels().len() => {
+            AttachmentContents::Color(color) => SubmitContents::Color(*color),
+            AttachmentContents::DepthStencil { depth, stencil } => {
+                SubmitContents::DepthStencil(*depth, *stencil)
+            }
+            AttachmentContents::Texels(codes)
+                if codes.len() != texels * format.color_channels().len() =>
+            {
                 return Err(BackendError::internal_of(
                     "an upload does not fill its attachment",
                     format!("{} codes for {texels} texels of {format}", codes.len()),
                 ));
             }
-            Contents::Texels(codes) => InitialContents::Upload(codes::pack(format, codes)),
+            AttachmentContents::Texels(codes) => SubmitContents::Upload(codes::pack(format, codes)),
         };
         let initial = match initial {
-            InitialContents::Upload(bytes) if !drawn => {
+            SubmitContents::Upload(bytes) if !drawn => {
                 upload(context, format, &surface, &bytes);
-                InitialContents::Uploaded
+                SubmitContents::Uploaded
             }
             initial => initial,
         };
@@ -202,11 +203,11 @@ impl<'a> PreparedScene<'a> {
     /// the location of each draw's geometry, and of its arguments if it is indirect.
     fn buffers(
         &mut self,
-        pool: &mut Pool,
+        pool: &mut ObjectPool,
         scene: &Scene,
     ) -> Result<Vec<(Fetched, Option<Arguments>)>, BackendError> {
         let context = self.context;
-        let mut geometry = Geometry::default();
+        let mut geometry = BufferedGeometry::default();
         let mut places = Vec::new();
         let mut params = Vec::new();
         for draw in scene.passes.iter().flat_map(|pass| &pass.draws) {
@@ -231,7 +232,7 @@ impl<'a> PreparedScene<'a> {
             let made = (!bytes.is_empty()).then(|| pool.buffer(context, bytes));
             Ok(made.transpose()?.map(|buffer| (buffer, bytes.len())))
         };
-        self.inputs = Inputs {
+        self.inputs = DrawBuffers {
             vertices: buffer(&geometry.vertices)?,
             indices: buffer(&geometry.indices)?,
             params: buffer(&params)?,
@@ -251,7 +252,7 @@ impl<'a> PreparedScene<'a> {
 
     fn pass(
         &mut self,
-        pool: &mut Pool,
+        pool: &mut ObjectPool,
         pass: &etalon_scene::Pass,
         layered: bool,
         unused: &mut Unused,
@@ -281,7 +282,7 @@ impl<'a> PreparedScene<'a> {
             let surface = &attachment(to)?.surface;
             let between = moved.contains(&location);
             let between = between.then(|| pool.surface(context, surface.kind, surface.size()));
-            resolves.push(Resolve {
+            resolves.push(ResolveBlit {
                 from,
                 to,
                 between: between.transpose()?,
@@ -315,7 +316,7 @@ impl<'a> PreparedScene<'a> {
                 self.attachments[index].drawn.0 = target.framebuffer;
             }
         }
-        self.passes.push(Pass {
+        self.passes.push(GlPass {
             target,
             draws,
             loads: ClearCall::loads(pass, &integers, self.path.clears, packed),
@@ -330,7 +331,7 @@ impl<'a> PreparedScene<'a> {
 
     fn draw(
         &mut self,
-        pool: &mut Pool,
+        pool: &mut ObjectPool,
         draw: &Draw,
         (read_only, layered): (bool, bool),
         unused: &mut Unused,
@@ -502,7 +503,7 @@ fn ends(objects: &Objects, scene: &Scene) -> Vec<(usize, PathEnd)> {
     scene.read.iter().map(|i| (*i, end(i))).collect()
 }
 
-impl Prepared for PreparedScene<'_> {
+impl Prepared for GlScene<'_> {
     fn submit(&mut self) -> Result<FrameTime, BackendError> {
         let result = self.try_submit();
         self.reusable &= result.is_ok();
@@ -526,7 +527,7 @@ impl Prepared for PreparedScene<'_> {
     }
 }
 
-impl Drop for PreparedScene<'_> {
+impl Drop for GlScene<'_> {
     fn drop(&mut self) {
         let context = self.context;
         if context.make_current().is_err() {

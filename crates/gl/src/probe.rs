@@ -9,7 +9,7 @@ use crate::context::Context;
 use crate::features;
 use crate::format::gl_format;
 use crate::program::translates;
-use crate::support::{ReadPlan, ShaderStencil, Support};
+use crate::support::{ReadBackPath, ShaderStencil, Support};
 use crate::surface::{Surface, SurfaceKind};
 use etalon_frame::{ChannelEncoding, Feature, FormatSupport, ReadPath, Requirement, TextureFormat};
 use etalon_scene::{EarlyTests, Shader};
@@ -126,7 +126,7 @@ fn with_surface<T>(
 fn examine(context: &Context, format: TextureFormat, surface: &Surface) -> Option<Support> {
     let done = |samples: &[u32], blendable, depth: &[ChannelEncoding], read| {
         let path = match read {
-            ReadPlan::Shader { depth: true, .. } => ReadPath::Shader,
+            ReadBackPath::Shader { depth: true, .. } => ReadPath::Shader,
             _ => ReadPath::Copy,
         };
         Some(Support {
@@ -143,7 +143,7 @@ fn examine(context: &Context, format: TextureFormat, surface: &Surface) -> Optio
     if format == TextureFormat::Rgba32Float && !surface.is_complete() {
         // Every version has this format as a texture, and thus as an exact source of values, even if it is
         // not drawable.
-        return done(&[], false, &[], ReadPlan::Fetched);
+        return done(&[], false, &[], ReadBackPath::Fetched);
     }
     // Without the extension, ES has no rules for drawing to this format.
     if format == TextureFormat::Rgba8Snorm && !context.caps.snorm_attachments {
@@ -178,7 +178,7 @@ fn read_plan(
     context: &Context,
     format: TextureFormat,
     depth: Option<ChannelEncoding>,
-) -> Option<ReadPlan> {
+) -> Option<ReadBackPath> {
     let caps = &context.caps;
     if let Some(encoding) = depth {
         return if caps.es {
@@ -188,47 +188,47 @@ fn read_plan(
         };
     }
     if format == TextureFormat::Stencil8 {
-        let shader = ReadPlan::Shader {
+        let shader = ReadBackPath::Shader {
             depth: false,
             stencil: ShaderStencil::Shader,
         };
         return if caps.es {
             (caps.stencil_textures && caps.stencil_texturing).then_some(shader)
         } else {
-            Some(ReadPlan::Stencil)
+            Some(ReadBackPath::Stencil)
         };
     }
     let first = format.color_channels().first()?;
     Some(match first {
-        ChannelEncoding::Uint(_) => ReadPlan::Integers,
-        ChannelEncoding::Snorm(_) if caps.es => ReadPlan::Fetched,
-        ChannelEncoding::Snorm(_) if caps.version < (4, 2) => ReadPlan::Floats,
-        _ if !caps.es || format == TextureFormat::Rgb10a2Unorm => ReadPlan::Packed,
-        ChannelEncoding::Unorm(_) | ChannelEncoding::Srgb8 => ReadPlan::Bytes,
-        _ => ReadPlan::Floats,
+        ChannelEncoding::Uint(_) => ReadBackPath::Integers,
+        ChannelEncoding::Snorm(_) if caps.es => ReadBackPath::Fetched,
+        ChannelEncoding::Snorm(_) if caps.version < (4, 2) => ReadBackPath::Floats,
+        _ if !caps.es || format == TextureFormat::Rgb10a2Unorm => ReadBackPath::Packed,
+        ChannelEncoding::Unorm(_) | ChannelEncoding::Srgb8 => ReadBackPath::Bytes,
+        _ => ReadBackPath::Floats,
     })
 }
 
-fn by_shader(context: &Context, format: TextureFormat) -> Option<ReadPlan> {
+fn by_shader(context: &Context, format: TextureFormat) -> Option<ReadBackPath> {
     let stencil = match (format.has_stencil(), context.caps.es) {
         (false, _) => ShaderStencil::None,
         (true, false) => ShaderStencil::Copy,
         (true, true) if context.caps.stencil_texturing => ShaderStencil::Shader,
         (true, true) => return None,
     };
-    Some(ReadPlan::Shader {
+    Some(ReadBackPath::Shader {
         depth: true,
         stencil,
     })
 }
 
-fn copy_plan(format: TextureFormat, encoding: ChannelEncoding) -> ReadPlan {
+fn copy_plan(format: TextureFormat, encoding: ChannelEncoding) -> ReadBackPath {
     match (encoding, format.has_stencil()) {
-        (ChannelEncoding::Unorm(16), _) => ReadPlan::Depth16,
-        (ChannelEncoding::Float32, false) => ReadPlan::DepthFloat,
-        (ChannelEncoding::Float32, true) => ReadPlan::DepthFloatStencil8,
-        (_, false) => ReadPlan::Depth24,
-        (_, true) => ReadPlan::Depth24Stencil8,
+        (ChannelEncoding::Unorm(16), _) => ReadBackPath::Depth16,
+        (ChannelEncoding::Float32, false) => ReadBackPath::DepthFloat,
+        (ChannelEncoding::Float32, true) => ReadBackPath::DepthFloatStencil8,
+        (_, false) => ReadBackPath::Depth24,
+        (_, true) => ReadBackPath::Depth24Stencil8,
     }
 }
 
@@ -381,7 +381,7 @@ mod tests {
                 depth,
                 read,
             },
-            read: ReadPlan::Depth24,
+            read: ReadBackPath::Depth24,
             fetched_exactly: false,
         };
         let long = vec![ChannelEncoding::Unorm(24)];

@@ -37,7 +37,7 @@ const STORAGE: ResourceBinding = ResourceBinding {
 #[derive(Default)]
 pub(crate) struct Programs {
     shaders: HashMap<(Shader, FragmentForm, Variant, Option<FrontFace>), glow::Program>,
-    readers: HashMap<(Reader, View), (glow::Program, Option<glow::UniformLocation>)>,
+    readers: HashMap<(ReadType, View), (glow::Program, Option<glow::UniformLocation>)>,
 }
 
 /// The properties of a draw that change its fragment shader.
@@ -50,7 +50,7 @@ pub(crate) struct FragmentForm {
 
 /// The type of the values that a read-back program fetches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Reader {
+pub(crate) enum ReadType {
     /// The bits of colours or depths as floats.
     Floats,
     /// Stencil values or integer colours.
@@ -86,7 +86,7 @@ impl Programs {
             return Ok(*program);
         }
         let fail = |message: String| BackendError::shader(shader.name(), message);
-        let translated = Translated::new(context, shader, form.tests).map_err(fail)?;
+        let translated = GlslShader::new(context, shader, form.tests).map_err(fail)?;
         let vertex = varied(context, translated.vertex, variant);
         let mut stages = vec![(glow::VERTEX_SHADER, vertex)];
         let fragment = translated.fragment.map(|text| match form.blend {
@@ -120,7 +120,7 @@ impl Programs {
     pub(crate) fn reader(
         &mut self,
         context: &Context,
-        reader: Reader,
+        reader: ReadType,
         view: View,
     ) -> Result<(glow::Program, Option<glow::UniformLocation>), BackendError> {
         if let Some(known) = self.readers.get(&(reader, view)) {
@@ -133,8 +133,8 @@ impl Programs {
                vec2 corner = vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1));\n\
                gl_Position = vec4(corner * 4.0 - 1.0, 0.5, 1.0);\n}\n";
         let prefix = match reader {
-            Reader::Floats => "",
-            Reader::Integers => "u",
+            ReadType::Floats => "",
+            ReadType::Integers => "u",
         };
         let (sampler, place) = match view {
             View::Plain => ("sampler2D", "ivec2(gl_FragCoord.xy), 0"),
@@ -144,8 +144,8 @@ impl Programs {
         };
         let fetched = format!("texelFetch(source, {place})");
         let (name, value) = match reader {
-            Reader::Floats => ("read floats", format!("floatBitsToUint({fetched})")),
-            Reader::Integers => ("read integers", fetched),
+            ReadType::Floats => ("read floats", format!("floatBitsToUint({fetched})")),
+            ReadType::Integers => ("read integers", fetched),
         };
         let fragment = header
             + &format!(
@@ -241,11 +241,11 @@ fn allowing(context: &Context, fragment: &str, mode: AdvancedBlend) -> String {
 
 /// Returns true if naga can write a shader in the context's GLSL.
 pub(crate) fn translates(context: &Context, shader: Shader, tests: EarlyTests) -> bool {
-    Translated::new(context, shader, tests).is_ok()
+    GlslShader::new(context, shader, tests).is_ok()
 }
 
 /// A shader in GLSL.
-struct Translated {
+struct GlslShader {
     vertex: String,
     /// `None` for a vertex shader alone.
     fragment: Option<String>,
@@ -255,7 +255,7 @@ struct Translated {
     textures: Vec<(String, u32)>,
 }
 
-impl Translated {
+impl GlslShader {
     fn new(context: &Context, shader: Shader, tests: EarlyTests) -> Result<Self, String> {
         let source = &*shader.wgsl_with(tests);
         let module = naga::front::wgsl::parse_str(source).map_err(|e| e.emit_to_string(source))?;

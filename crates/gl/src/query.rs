@@ -6,12 +6,12 @@ use glow::HasContext;
 
 /// A query object with the target of its first use, which it keeps.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Query {
+pub(crate) struct QueryObject {
     pub(crate) target: u32,
     pub(crate) object: glow::Query,
 }
 
-impl Query {
+impl QueryObject {
     pub(crate) fn begin(self, context: &Context) {
         // SAFETY: the context is current and owns the object.
         unsafe { context.gl.begin_query(self.target, self.object) };

@@ -3,34 +3,34 @@
 use crate::codes;
 use crate::context::Context;
 use crate::format::gl_format;
-use crate::pool::Pool;
-use crate::program::{Programs, Reader, View};
+use crate::pool::ObjectPool;
+use crate::program::{Programs, ReadType, View};
 use crate::recording;
 use crate::state;
-use crate::support::{ReadPlan, ShaderStencil};
+use crate::support::{ReadBackPath, ShaderStencil};
 use crate::surface::{Storage, Surface, SurfaceKind};
 use etalon_backend::codes::code_of_float;
-use etalon_backend::{BackendError, Blits, Fault, Form, Piece, halves};
+use etalon_backend::{BackendError, BlitPiece, Blits, Fault, NumberForm, halves};
 use etalon_frame::{Aspect, ChannelEncoding, Image, PathEnd, ReadPath, TextureFormat};
 use glow::HasContext;
 
 /// The objects that reading needs in addition to the surface.
 pub(crate) struct ReadObjects<'a> {
     pub(crate) context: &'a Context,
-    pub(crate) pool: &'a mut Pool,
+    pub(crate) pool: &'a mut ObjectPool,
     pub(crate) programs: &'a mut Programs,
     /// A vertex array without attributes.
     pub(crate) no_vertices: glow::VertexArray,
 }
 
 /// The codes of depth and stencil, each if the format has it.
-type DepthStencil = (Option<Vec<u32>>, Option<Vec<u32>>);
+type DepthStencilCodes = (Option<Vec<u32>>, Option<Vec<u32>>);
 
 /// An attachment to read.
 pub(crate) struct ReadSource<'a> {
     pub(crate) name: &'a str,
     pub(crate) format: TextureFormat,
-    pub(crate) plan: ReadPlan,
+    pub(crate) plan: ReadBackPath,
     pub(crate) depth: &'a [ChannelEncoding],
     pub(crate) surface: &'a Surface,
     /// The size of the attachment.
@@ -56,7 +56,7 @@ impl ReadSource<'_> {
     }
 
     /// Returns the parts in which an aspect is read, each with its position in the result.
-    fn pieces(&self, aspect: Aspect) -> Vec<Piece> {
+    fn pieces(&self, aspect: Aspect) -> Vec<BlitPiece> {
         match self.blits {
             Some(blits) => blits.pieces(aspect),
             None if self.end == PathEnd::Part && !self.is_fetched() => {
@@ -75,8 +75,8 @@ impl ReadSource<'_> {
 }
 
 /// Returns a part that is not moved.
-fn piece(place: [u32; 2], size: [u32; 2]) -> Piece {
-    Piece {
+fn piece(place: [u32; 2], size: [u32; 2]) -> BlitPiece {
+    BlitPiece {
         from: place,
         to: place,
         size,
@@ -144,7 +144,7 @@ impl ReadObjects<'_> {
         let mut images = Vec::new();
         if let Some(mut codes) = depth {
             let (channels, path) = match source.plan {
-                ReadPlan::Shader { .. } => (vec![ChannelEncoding::Float32], ReadPath::Shader),
+                ReadBackPath::Shader { .. } => (vec![ChannelEncoding::Float32], ReadPath::Shader),
                 _ => (source.depth.to_vec(), ReadPath::Copy),
             };
             self.plant(source, &channels, &mut codes);
@@ -177,17 +177,17 @@ impl ReadObjects<'_> {
     fn stored_color(&mut self, source: &ReadSource<'_>) -> Result<Vec<u32>, BackendError> {
         let format = source.format;
         let channels = format.color_channels();
-        if !source.is_fetched() && source.plan != ReadPlan::Fetched {
+        if !source.is_fetched() && source.plan != ReadBackPath::Fetched {
             return Ok(copy(self.context, source, source.plan).0);
         }
         if format.is_integer() {
-            let wide = self.fetch(source, Reader::Integers, Aspect::Color)?;
+            let wide = self.fetch(source, ReadType::Integers, Aspect::Color)?;
             let texels = wide.chunks_exact(4);
             return Ok(texels
                 .flat_map(|texel| texel.iter().take(channels.len()).copied())
                 .collect());
         }
-        let wide = self.fetch(source, Reader::Floats, Aspect::Color)?;
+        let wide = self.fetch(source, ReadType::Floats, Aspect::Color)?;
         Ok(narrowed(&wide, channels))
     }
 
@@ -197,20 +197,23 @@ impl ReadObjects<'_> {
         source: &ReadSource<'_>,
         encoding: ChannelEncoding,
     ) -> Result<Vec<u32>, BackendError> {
-        let wide = self.fetch(source, Reader::Floats, Aspect::Depth)?;
+        let wide = self.fetch(source, ReadType::Floats, Aspect::Depth)?;
         Ok(narrowed(&wide, &[encoding]))
     }
 
     fn fetched_stencil(&mut self, source: &ReadSource<'_>) -> Result<Vec<u32>, BackendError> {
-        let wide = self.fetch(source, Reader::Integers, Aspect::Stencil)?;
+        let wide = self.fetch(source, ReadType::Integers, Aspect::Stencil)?;
         Ok(wide.chunks_exact(4).map(|texel| texel[0]).collect())
     }
 
-    fn depth_stencil(&mut self, source: &ReadSource<'_>) -> Result<DepthStencil, BackendError> {
+    fn depth_stencil(
+        &mut self,
+        source: &ReadSource<'_>,
+    ) -> Result<DepthStencilCodes, BackendError> {
         let format = source.format;
         let fetched = source.is_fetched();
         let (depth, stencil) = match source.plan {
-            ReadPlan::Shader { depth, stencil } => (depth, stencil),
+            ReadBackPath::Shader { depth, stencil } => (depth, stencil),
             _ if fetched => (format.has_depth(), ShaderStencil::Copy),
             plan => {
                 let (first, second) = copy(self.context, source, plan);
@@ -221,7 +224,7 @@ impl ReadObjects<'_> {
                 });
             }
         };
-        let as_float = matches!(source.plan, ReadPlan::Shader { .. });
+        let as_float = matches!(source.plan, ReadBackPath::Shader { .. });
         let encoding = match source.depth.first() {
             Some(encoding) if !as_float => *encoding,
             _ => ChannelEncoding::Float32,
@@ -235,7 +238,7 @@ impl ReadObjects<'_> {
             _ if !format.has_stencil() => None,
             ShaderStencil::None => None,
             ShaderStencil::Copy if !fetched => {
-                Some(copy(self.context, source, ReadPlan::Stencil).0)
+                Some(copy(self.context, source, ReadBackPath::Stencil).0)
             }
             ShaderStencil::Copy | ShaderStencil::Shader => Some(self.fetched_stencil(source)?),
         };
@@ -247,7 +250,7 @@ impl ReadObjects<'_> {
     fn fetch(
         &mut self,
         source: &ReadSource<'_>,
-        reader: Reader,
+        reader: ReadType,
         aspect: Aspect,
     ) -> Result<Vec<u32>, BackendError> {
         let context = self.context;
@@ -280,7 +283,7 @@ impl ReadObjects<'_> {
         state::reset(context);
         let has_stencil = surface.kind.format().is_some_and(|f| f.has_stencil());
         let set_mode = |mode: u32| {
-            if reader == Reader::Integers && has_stencil && context.caps.stencil_texturing {
+            if reader == ReadType::Integers && has_stencil && context.caps.stencil_texturing {
                 // SAFETY: the texture is bound and the context has the parameter.
                 unsafe {
                     gl.tex_parameter_i32(binding, glow::DEPTH_STENCIL_TEXTURE_MODE, mode as i32)
@@ -309,8 +312,8 @@ impl ReadObjects<'_> {
             let (format, kind) = (glow::RGBA_INTEGER, glow::UNSIGNED_INT);
             read_pixels(gl, source.size[0], format, kind, &mut wide, &pieces);
             let form = match reader {
-                Reader::Integers => Form::Code,
-                Reader::Floats => Form::Float,
+                ReadType::Integers => NumberForm::Code,
+                ReadType::Floats => NumberForm::Float,
             };
             recording::plane(aspect, 16, each(4, 32), form);
             for (texel, values) in wide.chunks_exact(4).enumerate() {
@@ -338,12 +341,14 @@ fn narrowed(wide: &[u32], channels: &[ChannelEncoding]) -> Vec<u32> {
 fn copy(
     context: &Context,
     source: &ReadSource<'_>,
-    plan: ReadPlan,
+    plan: ReadBackPath,
 ) -> (Vec<u32>, Option<Vec<u32>>) {
     let (surface, format) = (source.surface, source.format);
     let first = match (format.is_color(), plan) {
         (true, _) => Aspect::Color,
-        (false, ReadPlan::Stencil | ReadPlan::Fetched | ReadPlan::Shader { .. }) => Aspect::Stencil,
+        (false, ReadBackPath::Stencil | ReadBackPath::Fetched | ReadBackPath::Shader { .. }) => {
+            Aspect::Stencil
+        }
         (false, _) => Aspect::Depth,
     };
     let pieces = source.pieces(first);
@@ -360,7 +365,7 @@ fn copy(
             gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
         }
     };
-    let words_of = |pieces: &[Piece], format, kind, per_texel: usize| {
+    let words_of = |pieces: &[BlitPiece], format, kind, per_texel: usize| {
         let mut words = vec![0_u32; texels * per_texel];
         read_pixels(gl, width, format, kind, &mut words, pieces);
         words
@@ -373,14 +378,14 @@ fn copy(
     };
     let depth = glow::DEPTH_COMPONENT;
     let codes = match plan {
-        ReadPlan::Packed => {
+        ReadBackPath::Packed => {
             let mut bytes = vec![0_u8; texels * codes::texel_bytes(format)];
             if let Some(client) = gl_format(format) {
                 read_pixels(gl, width, client.format, client.kind, &mut bytes, &pieces);
             }
             (codes::unpack(format, &bytes), None)
         }
-        ReadPlan::Bytes => {
+        ReadBackPath::Bytes => {
             let mut bytes = vec![0_u8; texels * 4];
             let (format, kind) = (glow::RGBA, glow::UNSIGNED_BYTE);
             read_pixels(gl, width, format, kind, &mut bytes, &pieces);
@@ -392,25 +397,25 @@ fn copy(
             }
             (codes, None)
         }
-        ReadPlan::Floats => {
+        ReadBackPath::Floats => {
             let wide = words(glow::RGBA, glow::FLOAT, 4);
             (narrowed(&wide, format.color_channels()), None)
         }
         // Every version reads unsigned integers as four channels.
-        ReadPlan::Integers => (words(glow::RGBA_INTEGER, glow::UNSIGNED_INT, 4), None),
-        ReadPlan::Depth16 => {
+        ReadBackPath::Integers => (words(glow::RGBA_INTEGER, glow::UNSIGNED_INT, 4), None),
+        ReadBackPath::Depth16 => {
             let mut codes = vec![0_u16; texels];
             let kind = glow::UNSIGNED_SHORT;
             read_pixels(gl, width, depth, kind, &mut codes, &pieces);
             (codes.into_iter().map(u32::from).collect(), None)
         }
-        ReadPlan::Depth24 => {
+        ReadBackPath::Depth24 => {
             let mut codes = words(depth, glow::UNSIGNED_INT, 1);
             codes.iter_mut().for_each(|code| *code >>= 8);
             (codes, None)
         }
-        ReadPlan::DepthFloat => (words(depth, glow::FLOAT, 1), None),
-        ReadPlan::Depth24Stencil8 => {
+        ReadBackPath::DepthFloat => (words(depth, glow::FLOAT, 1), None),
+        ReadBackPath::Depth24Stencil8 => {
             let kind = glow::UNSIGNED_INT_24_8;
             let both = words(glow::DEPTH_STENCIL, kind, 1);
             note_depth(plan);
@@ -419,7 +424,7 @@ fn copy(
             let stencil = stencil.iter().map(|word| word & 0xff).collect();
             (both.iter().map(|word| word >> 8).collect(), Some(stencil))
         }
-        ReadPlan::DepthFloatStencil8 => {
+        ReadBackPath::DepthFloatStencil8 => {
             let kind = glow::FLOAT_32_UNSIGNED_INT_24_8_REV;
             let both = words(glow::DEPTH_STENCIL, kind, 2);
             note_depth(plan);
@@ -431,7 +436,7 @@ fn copy(
             let stencil = stencil.into_iter().map(|word| word & 0xff).collect();
             (every(&both, 0), Some(stencil))
         }
-        ReadPlan::Stencil | ReadPlan::Fetched | ReadPlan::Shader { .. } => {
+        ReadBackPath::Stencil | ReadBackPath::Fetched | ReadBackPath::Shader { .. } => {
             let mut values = vec![0_u8; texels];
             let (format, kind) = (glow::STENCIL_INDEX, glow::UNSIGNED_BYTE);
             read_pixels(gl, width, format, kind, &mut values, &pieces);
@@ -443,36 +448,43 @@ fn copy(
 }
 
 /// Records where the codes are that were just copied.
-fn note_planes(plan: ReadPlan, format: TextureFormat) {
+fn note_planes(plan: ReadBackPath, format: TextureFormat) {
     let plane = |aspect, texel, channels, form| recording::plane(aspect, texel, channels, form);
     let place = |bit, bits| vec![[bit, bits]];
     match plan {
-        ReadPlan::Packed => {
+        ReadBackPath::Packed => {
             let texel = codes::texel_bytes(format) as u32;
-            plane(Aspect::Color, texel, codes::places(format), Form::Code);
+            plane(
+                Aspect::Color,
+                texel,
+                codes::places(format),
+                NumberForm::Code,
+            );
         }
-        ReadPlan::Bytes => plane(Aspect::Color, 4, each(4, 8), Form::Byte),
-        ReadPlan::Floats => plane(Aspect::Color, 16, each(4, 32), Form::Float),
-        ReadPlan::Integers => plane(Aspect::Color, 16, each(4, 32), Form::Code),
-        ReadPlan::Depth16 => plane(Aspect::Depth, 2, place(0, 16), Form::Code),
-        ReadPlan::Depth24 => plane(Aspect::Depth, 4, place(8, 24), Form::Code),
-        ReadPlan::DepthFloat => plane(Aspect::Depth, 4, place(0, 32), Form::Code),
+        ReadBackPath::Bytes => plane(Aspect::Color, 4, each(4, 8), NumberForm::Byte),
+        ReadBackPath::Floats => plane(Aspect::Color, 16, each(4, 32), NumberForm::Float),
+        ReadBackPath::Integers => plane(Aspect::Color, 16, each(4, 32), NumberForm::Code),
+        ReadBackPath::Depth16 => plane(Aspect::Depth, 2, place(0, 16), NumberForm::Code),
+        ReadBackPath::Depth24 => plane(Aspect::Depth, 4, place(8, 24), NumberForm::Code),
+        ReadBackPath::DepthFloat => plane(Aspect::Depth, 4, place(0, 32), NumberForm::Code),
         // `note_depth` records depth when it is read.
-        ReadPlan::Depth24Stencil8 => plane(Aspect::Stencil, 4, place(0, 8), Form::Code),
-        ReadPlan::DepthFloatStencil8 => plane(Aspect::Stencil, 8, place(32, 8), Form::Code),
-        ReadPlan::Stencil | ReadPlan::Fetched | ReadPlan::Shader { .. } => {
-            plane(Aspect::Stencil, 1, place(0, 8), Form::Code);
+        ReadBackPath::Depth24Stencil8 => plane(Aspect::Stencil, 4, place(0, 8), NumberForm::Code),
+        ReadBackPath::DepthFloatStencil8 => {
+            plane(Aspect::Stencil, 8, place(32, 8), NumberForm::Code)
+        }
+        ReadBackPath::Stencil | ReadBackPath::Fetched | ReadBackPath::Shader { .. } => {
+            plane(Aspect::Stencil, 1, place(0, 8), NumberForm::Code);
         }
     }
 }
 
 /// Records the position of depth within the depth-stencil texels that were just copied.
-fn note_depth(plan: ReadPlan) {
+fn note_depth(plan: ReadBackPath) {
     let (texel, place) = match plan {
-        ReadPlan::DepthFloatStencil8 => (8, [0, 32]),
+        ReadBackPath::DepthFloatStencil8 => (8, [0, 32]),
         _ => (4, [8, 24]),
     };
-    recording::plane(Aspect::Depth, texel, vec![place], Form::Code);
+    recording::plane(Aspect::Depth, texel, vec![place], NumberForm::Code);
 }
 
 /// Returns the offsets and sizes of `channels` consecutive channels of `bits` bits each.
@@ -498,7 +510,7 @@ fn read_pixels<T: bytemuck::Pod>(
     format: u32,
     kind: u32,
     into: &mut [T],
-    pieces: &[Piece],
+    pieces: &[BlitPiece],
 ) {
     recording::memory(bytemuck::cast_slice(into));
     for piece in pieces {

@@ -4,7 +4,7 @@ use etalon_frame::FormatSupport;
 
 /// The way to read back an attachment's codes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum ReadPlan {
+pub(crate) enum ReadBackPath {
     /// `glReadPixels` of colours in the format and type of uploads.
     Packed,
     /// `glReadPixels` of four bytes per texel. Shorter channels are widened to bytes.
@@ -52,7 +52,7 @@ pub(crate) enum ShaderStencil {
 pub(crate) struct Support {
     pub(crate) limits: FormatSupport,
     /// The way to read one sample. A shader always fetches multisampled attachments.
-    pub(crate) read: ReadPlan,
+    pub(crate) read: ReadBackPath,
     /// True if a shader's fetch determines the codes that `read` returns.
     pub(crate) fetched_exactly: bool,
 }

@@ -101,14 +101,14 @@ impl SurfaceKind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Storage {
     /// A part of a texture.
-    Texture(TexturePart),
+    Texture(TextureImage),
     /// A renderbuffer.
     Renderbuffer(glow::Renderbuffer),
 }
 
 /// One image of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct TexturePart {
+pub(crate) struct TextureImage {
     pub(crate) texture: glow::Texture,
     /// The target that the texture is bound to.
     pub(crate) binding: u32,
@@ -117,7 +117,7 @@ pub(crate) struct TexturePart {
     pub(crate) layer: i32,
 }
 
-impl TexturePart {
+impl TextureImage {
     /// Returns the only image of a texture.
     fn whole(texture: glow::Texture, binding: u32) -> Self {
         Self {
@@ -196,7 +196,7 @@ impl Surface {
         let storage = match (kind, storage) {
             (SurfaceKind::Layered(_, layer, _), Storage::Texture(part)) => {
                 let layer = i32::from(layer);
-                Storage::Texture(TexturePart { layer, ..part })
+                Storage::Texture(TextureImage { layer, ..part })
             }
             _ => storage,
         };
@@ -314,7 +314,7 @@ fn texture(
                 continue;
             }
             for layer in 0..shape.layers {
-                let image = TexturePart { layer, ..part }.image();
+                let image = TextureImage { layer, ..part }.image();
                 gl.tex_image_2d(
                     image,
                     level,
@@ -366,8 +366,8 @@ struct TextureShape {
 
 impl TextureShape {
     /// Returns the part of a texture of this shape that is used.
-    fn part(self, texture: glow::Texture) -> TexturePart {
-        TexturePart {
+    fn part(self, texture: glow::Texture) -> TextureImage {
+        TextureImage {
             texture,
             binding: self.binding,
             level: self.level,
@@ -460,7 +460,7 @@ fn multisample_texture(
             let internal = internal as i32;
             gl.tex_image_2d_multisample(target, samples, internal, width, height, true);
         }
-        Ok(Storage::Texture(TexturePart::whole(texture, target)))
+        Ok(Storage::Texture(TextureImage::whole(texture, target)))
     }
 }
 
@@ -475,7 +475,7 @@ fn view(
     format: GlFormat,
     size: [u32; 2],
     stored: u32,
-) -> Result<(TexturePart, glow::Texture), BackendError> {
+) -> Result<(TextureImage, glow::Texture), BackendError> {
     let gl = &context.gl;
     let samples = kind.samples();
     let mut shape = TextureShape::of(kind.target(), size);

@@ -22,7 +22,7 @@ const COLOR: u32 = 1;
 
 /// The contents of the buffers.
 #[derive(Default)]
-pub(crate) struct Geometry {
+pub(crate) struct BufferedGeometry {
     pub(crate) vertices: Vec<u8>,
     pub(crate) indices: Vec<u8>,
     /// The arguments of indirect draws.
@@ -106,7 +106,7 @@ pub(crate) struct Own {
     first_instance: u32,
 }
 
-impl Geometry {
+impl BufferedGeometry {
     /// Adds a draw's vertices, indices and instances.
     pub(crate) fn place(&mut self, draw: &Draw) -> Fetched {
         let call = draw.call();

@@ -14,12 +14,12 @@ pub struct CaseHistory {
     pub timeline: Rc<str>,
     /// The case's points by the times of their runs; at least one. Runs without a record of the case have no
     /// point.
-    pub points: Vec<Point>,
+    pub points: Vec<RunPoint>,
 }
 
 /// The record of one case on one adapter in one run.
 #[derive(Clone, Debug)]
-pub struct Point {
+pub struct RunPoint {
     /// The run.
     pub run: RunId,
     /// The outcome; see [`History::outcome`].
@@ -28,7 +28,7 @@ pub struct Point {
     pub place: usize,
 }
 
-impl Point {
+impl RunPoint {
     /// Returns the adapter as the run found it.
     pub fn adapter<'a>(&self, history: &'a History) -> &'a AdapterRun {
         &history.adapter_runs()[self.place]
@@ -89,7 +89,7 @@ impl History {
                 });
                 found.len() - 1
             });
-            found[index].points.push(Point {
+            found[index].points.push(RunPoint {
                 run: part.run,
                 outcome,
                 place,

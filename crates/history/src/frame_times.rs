@@ -5,7 +5,7 @@
 
 use etalon_frame::CaseId;
 use etalon_record::{BenchRecord, Time, Times};
-use etalon_stats::{Point, median_interval, quantile};
+use etalon_stats::{TimedRun, median_interval, quantile};
 
 /// Frame times of one case on one adapter in one run, in seconds. For a bench, each list has the median of
 /// each round; for a method case in a run, a single median. A list is empty if that time was not measured
@@ -62,7 +62,7 @@ impl FrameTimes {
 
     /// Returns the point of this run in a series of one time; `None` if the time was not measured or is
     /// invalid.
-    pub fn point(&self, time: Time) -> Option<Point> {
+    pub fn point(&self, time: Time) -> Option<TimedRun> {
         let is_time = |t: &f64| t.is_finite() && *t > 0.0;
         let mut rounds: Vec<f64> = self.of(time).iter().map(|t| f64::from(*t)).collect();
         rounds.sort_unstable_by(f64::total_cmp);
@@ -74,7 +74,7 @@ impl FrameTimes {
         let holds = |[low, high]: &[f64; 2]| {
             is_time(low) && is_time(high) && *low <= median && median <= *high
         };
-        Some(Point {
+        Some(TimedRun {
             median,
             interval: interval.filter(holds),
             ruler: self.ruler_median().filter(is_time),

@@ -44,7 +44,7 @@ mod triage_log;
 mod writer;
 
 pub use adapter::Adapter;
-pub use case_history::{CaseHistory, Point};
+pub use case_history::{CaseHistory, RunPoint};
 pub use dates::ReleaseDates;
 pub use error::HistoryError;
 pub use frame_times::FrameTimes;
@@ -60,5 +60,5 @@ pub use schema::SCHEMA;
 pub use series::{SeriesKey, TimePoint};
 pub use tally::Tally;
 pub use time::{format_time, parse_time};
-pub use triage::{Step, Subject, TriageEntry, TriageState, TriageStates};
+pub use triage::{TimeStep, TriageEntry, TriageState, TriageStates, TriageSubject};
 pub use writer::{Added, Writer};

@@ -45,22 +45,22 @@ impl fmt::Display for TriageState {
 }
 
 /// The last entry about each subject.
-pub type TriageStates = BTreeMap<Subject, TriageEntry>;
+pub type TriageStates = BTreeMap<TriageSubject, TriageEntry>;
 
 /// The subject of an entry: the verdict of a case, or a step of its frame times.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Subject {
+pub struct TriageSubject {
     /// The case's id.
     pub case: String,
     /// The timeline of the adapter.
     pub timeline: String,
     /// The step; `None` if the entry is about the verdict.
-    pub step: Option<Step>,
+    pub step: Option<TimeStep>,
 }
 
 /// A step of a series of frame times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Step {
+pub struct TimeStep {
     /// The machine of the series.
     pub machine: MachineId,
     /// The kind of time.
@@ -77,7 +77,7 @@ pub struct TriageEntry {
     /// The name of its author, or empty.
     pub author: String,
     /// The entry's subject.
-    pub subject: Subject,
+    pub subject: TriageSubject,
     /// The state.
     pub state: TriageState,
     /// The reason, or empty.

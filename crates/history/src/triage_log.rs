@@ -3,7 +3,7 @@
 use crate::error::HistoryError;
 use crate::history::History;
 use crate::ids::{MachineId, RunId};
-use crate::triage::{Step, Subject, TriageEntry, TriageState, TriageStates};
+use crate::triage::{TimeStep, TriageEntry, TriageState, TriageStates, TriageSubject};
 use etalon_record::Time;
 
 impl History {
@@ -24,7 +24,7 @@ impl History {
                 let entry = TriageEntry {
                     at: row.get(0)?,
                     author: row.get(1)?,
-                    subject: Subject {
+                    subject: TriageSubject {
                         case: row.get(2)?,
                         timeline: row.get(3)?,
                         step: None,
@@ -46,7 +46,7 @@ impl History {
             entry.state = TriageState::of(&state).ok_or_else(|| damaged("state", &state))?;
             if let (Some(machine), Some(name), Some(run)) = step {
                 let time = Time::ALL.into_iter().find(|t| t.name() == name);
-                entry.subject.step = Some(Step {
+                entry.subject.step = Some(TimeStep {
                     machine: MachineId(machine),
                     time: time.ok_or_else(|| damaged("time", &name))?,
                     run: RunId(run),

@@ -13,7 +13,7 @@ const MESSAGE_BYTES: usize = 1000;
 
 /// How much the record of a failure shows.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Shown {
+pub enum ShownDetail {
     /// Everything: the failure is new, or all known ones are kept.
     Whole,
     /// An example of all cases with the same known failure.
@@ -23,7 +23,7 @@ pub enum Shown {
 }
 
 /// Shortens a record to what it shows. `has_frame` is true if its frame is kept in a file.
-pub fn shorten(record: &mut Record, shown: Shown, has_frame: bool) {
+pub fn shorten(record: &mut Record, shown: ShownDetail, has_frame: bool) {
     record.accuracy.retain(|aspect| aspect.max > 0.0);
     match shown {
         _ if record.verdict == Verdict::Imprecise => {
@@ -35,15 +35,15 @@ pub fn shorten(record: &mut Record, shown: Shown, has_frame: bool) {
                 record.story = None;
             }
         }
-        Shown::Whole if !record.due_fail => {}
+        ShownDetail::Whole if !record.due_fail => {}
         // The case itself makes this failure, so its cause needs no search.
-        Shown::Example if record.due_fail => {
+        ShownDetail::Example if record.due_fail => {
             record.wrong.truncate(1);
             record.story = None;
         }
         // The frame file, if it is kept, shows the rest.
-        Shown::Whole | Shown::Example => record.wrong.truncate(SHOWN_WRONG),
-        Shown::By(case) => record.refer_to(case),
+        ShownDetail::Whole | ShownDetail::Example => record.wrong.truncate(SHOWN_WRONG),
+        ShownDetail::By(case) => record.refer_to(case),
     }
 }
 

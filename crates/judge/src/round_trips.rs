@@ -8,7 +8,7 @@
 use etalon_case::{Case, CaseError, Library};
 use etalon_frame::TextureFormat;
 use etalon_record::{FailedRoundTrip, LossKind, ProcessEnd, Reason, Record, Verdict};
-use etalon_scene::Contents;
+use etalon_scene::AttachmentContents;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The start of the ids of round trips, before the format.
@@ -50,7 +50,7 @@ fn leans_on(case: &Case) -> BTreeSet<TextureFormat> {
     let mut formats = BTreeSet::new();
     for scene in case.scenes() {
         for (index, attachment) in scene.attachments.iter().enumerate() {
-            let uploaded = matches!(attachment.contents, Contents::Texels(_));
+            let uploaded = matches!(attachment.contents, AttachmentContents::Texels(_));
             if attachment.format.is_color() && (uploaded || scene.read.contains(&index)) {
                 formats.insert(attachment.format);
             }

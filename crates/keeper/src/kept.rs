@@ -1,6 +1,6 @@
 //! A program, the process that keeps it, and the worker's handle of that process.
 
-use etalon_process::Group;
+use etalon_process::ProcessGroup;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
@@ -19,7 +19,7 @@ const PAUSE: Duration = Duration::from_millis(20);
 
 /// A program with a folder of its own.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Program {
+pub struct KeptProgram {
     /// The name in messages, such as "the browser".
     pub name: String,
     /// The words of its command.
@@ -46,7 +46,7 @@ impl Kept {
     ///
     /// # Errors
     /// If the keeper cannot be started.
-    pub fn start(mut keeper: Command, program: &Program) -> io::Result<Self> {
+    pub fn start(mut keeper: Command, program: &KeptProgram) -> io::Result<Self> {
         // A separate process group, so that the worker's signals do not reach it.
         etalon_process::separate(&mut keeper);
         let mut keeper = keeper.stdin(Stdio::piped()).stdout(Stdio::null()).spawn()?;
@@ -105,11 +105,11 @@ pub fn token() -> String {
 /// guard, which ends the program if the keeper is killed; see [`guard`](crate::guard()).
 ///
 /// # Errors
-/// If the first line of `input` is not a [`Program`], or it cannot be started.
+/// If the first line of `input` is not a [`KeptProgram`], or it cannot be started.
 pub fn keep(mut input: impl BufRead + Send + 'static, guard: Option<Command>) -> io::Result<()> {
     let mut line = String::new();
     input.read_line(&mut line)?;
-    let program: Program = serde_json::from_str(&line)?;
+    let program: KeptProgram = serde_json::from_str(&line)?;
     make(&program.folder)?;
     let kept = keep_started(&program, input, guard);
     remove(&program.folder);
@@ -117,7 +117,7 @@ pub fn keep(mut input: impl BufRead + Send + 'static, guard: Option<Command>) ->
 }
 
 fn keep_started(
-    program: &Program,
+    program: &KeptProgram,
     mut input: impl BufRead + Send + 'static,
     guard: Option<Command>,
 ) -> io::Result<()> {
@@ -155,7 +155,7 @@ fn make(folder: &Path) -> io::Result<()> {
     builder.create(folder)
 }
 
-fn start(program: &Program, guard: Option<Command>) -> io::Result<(Child, Group)> {
+fn start(program: &KeptProgram, guard: Option<Command>) -> io::Result<(Child, ProcessGroup)> {
     let (name, words) = program.command.split_first().unzip();
     let name = name.map_or("", String::as_str);
     let mut command = match guard {
@@ -179,12 +179,12 @@ fn start(program: &Program, guard: Option<Command>) -> io::Result<(Child, Group)
             None => command.env_remove(variable),
         };
     }
-    Group::start(&mut command)
+    ProcessGroup::start(&mut command)
         .map_err(|error| io::Error::new(error.kind(), format!("{name}: {error}")))
 }
 
 /// Ends a program and all its processes.
-fn end(child: &mut Child, group: &Group) {
+fn end(child: &mut Child, group: &ProcessGroup) {
     if group.ask() {
         within_grace(|| matches!(child.try_wait(), Ok(Some(_))));
     }

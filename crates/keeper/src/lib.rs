@@ -9,5 +9,5 @@ mod kept;
 mod server;
 
 pub use guard::guard;
-pub use kept::{Kept, Program, keep, new_folder, token};
+pub use kept::{Kept, KeptProgram, keep, new_folder, token};
 pub use server::{NotServed, Served, Server};

@@ -4,7 +4,7 @@
 //! Each worker has its own server. Some libraries look only at one fixed path. A link at that path leads to the server
 //! of the worker that is opening its driver. A library connects once, and workers open one at a time.
 
-use crate::kept::{Kept, Program, new_folder};
+use crate::kept::{Kept, KeptProgram, new_folder};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
@@ -119,7 +119,7 @@ impl Server {
         let socket = folder.join("socket");
         let text = socket.display().to_string();
         let words = self.command.iter();
-        let program = Program {
+        let program = KeptProgram {
             name: format!("the server {}", name()),
             command: words.map(|word| word.replace(SOCKET, &text)).collect(),
             environment: self.environment.clone(),

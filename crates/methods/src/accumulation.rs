@@ -14,7 +14,7 @@ use crate::error::{ParameterError, within};
 use crate::method_scene::MethodScene;
 use crate::polygon::{self, Polygon};
 use crate::stage::{self, Stage};
-use crate::truth::{Coverage, Truth};
+use crate::truth::{TexelCoverage, Truth};
 use etalon_frame::TextureFormat;
 use etalon_scene::Shader;
 use schemars::JsonSchema;
@@ -32,9 +32,9 @@ const SIZE: [u32; 2] = [2 * CELLS, 2 * CELLS];
 /// Layers over a background.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Wire {
-    scene: SceneName,
-    method: MethodName,
+pub struct AccumulationWire {
+    scene: AccumulationScene,
+    method: AccumulationMethod,
     /// The number of layers, 1 to 1024.
     layers: u32,
     /// The alpha of the layers, above 0 and up to 1.
@@ -43,14 +43,14 @@ pub struct Wire {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-enum SceneName {
+enum AccumulationScene {
     /// Sixteen colours in columns over sixteen backgrounds in rows.
     Columns,
 }
 
 /// The format in which layers are blended, in their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-enum MethodName {
+enum AccumulationMethod {
     /// `rgba8unorm`.
     #[serde(rename = "ordered-8-bit")]
     Bits8,
@@ -65,7 +65,7 @@ enum MethodName {
     Float,
 }
 
-impl MethodName {
+impl AccumulationMethod {
     fn format(self) -> TextureFormat {
         match self {
             Self::Bits8 => TextureFormat::Rgba8Unorm,
@@ -109,9 +109,9 @@ fn rows() -> Vec<Polygon> {
     (0..CELLS).map(row).collect()
 }
 
-pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
-    let Wire {
-        scene: SceneName::Columns,
+pub(crate) fn make(wire: &AccumulationWire) -> Result<MethodScene, ParameterError> {
+    let AccumulationWire {
+        scene: AccumulationScene::Columns,
         method,
         layers,
         alpha,
@@ -134,7 +134,7 @@ pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
     let truth = Truth {
         size: SIZE,
         background: [0.0; 3],
-        coverage: Coverage::Center,
+        coverage: TexelCoverage::Center,
         surfaces: back.iter().chain(&seen).map(Polygon::surface).collect(),
     };
     Ok(MethodScene {

@@ -18,7 +18,7 @@ pub struct Claim {
     /// empty.
     pub families: &'static [&'static str],
     /// The values of the parameter that count.
-    pub values: Values,
+    pub values: ClaimedValues,
     /// The quantities that are compared.
     pub test: Test,
     /// Two methods; the claim is decided only on adapters on which the first method runs fewer fragment
@@ -31,7 +31,7 @@ pub struct Claim {
 
 /// The values of a scene's parameter that count.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Values {
+pub enum ClaimedValues {
     /// All values.
     All,
     /// Values between two bounds, inclusive.
@@ -48,7 +48,7 @@ pub enum Test {
         /// The method.
         of: &'static str,
         /// The condition.
-        holds: Condition,
+        holds: FigureCondition,
     },
     /// A sum of one quantity over several methods, divided by another such sum; each term is a method and
     /// its factor.
@@ -60,7 +60,7 @@ pub enum Test {
         /// The denominator.
         over: &'static [(&'static str, f64)],
         /// The condition.
-        holds: Condition,
+        holds: FigureCondition,
     },
     /// Two methods with the same error.
     Same {
@@ -74,7 +74,7 @@ pub enum Test {
         /// The method.
         of: &'static str,
         /// The condition.
-        holds: Condition,
+        holds: FigureCondition,
     },
     /// A method that is within 1 % RMSE at every value, compared with one that exceeds it at some value.
     Unlike {
@@ -99,7 +99,7 @@ pub enum Test {
         /// The method that it is compared with.
         over: &'static str,
         /// The condition.
-        holds: Condition,
+        holds: FigureCondition,
     },
     /// A method with `samples + 1` levels of its parameter, from 0 to 1: within 0.5 % RMSE on the levels,
     /// and at least four times as far off halfway between them.
@@ -114,7 +114,7 @@ pub enum Test {
         /// The method.
         of: &'static str,
         /// The condition.
-        holds: Condition,
+        holds: FigureCondition,
     },
 }
 
@@ -138,7 +138,7 @@ pub enum Quantity {
 /// The condition that a figure meets. A figure with an interval meets it if the whole interval does, and
 /// fails it if no part of the interval does.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Condition {
+pub enum FigureCondition {
     /// Less than this.
     Below(f64),
     /// More than this.
@@ -149,7 +149,7 @@ pub enum Condition {
     Between(f64, f64),
 }
 
-impl Condition {
+impl FigureCondition {
     /// Returns true if a figure meets the condition.
     pub fn met(self, figure: f64) -> bool {
         match self {
@@ -188,7 +188,7 @@ impl Claim {
             source,
             question,
             families: &[],
-            values: Values::All,
+            values: ClaimedValues::All,
             test,
             fewer: None,
             note: "",
@@ -202,7 +202,7 @@ impl Claim {
 
     /// Restricts the claim to these values.
     pub(crate) const fn between(self, low: f64, high: f64) -> Self {
-        let values = Values::Between(low, high);
+        let values = ClaimedValues::Between(low, high);
         Self { values, ..self }
     }
 

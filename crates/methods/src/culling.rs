@@ -11,7 +11,7 @@ use crate::grid::settle;
 use crate::method_scene::MethodScene;
 use crate::polygon::{self, Polygon};
 use crate::stage::{self, SIZE, Stage};
-use crate::truth::{Coverage, Truth};
+use crate::truth::{TexelCoverage, Truth};
 use crate::view::{Face, View, cuboid};
 use etalon_frame::TextureFormat;
 use etalon_scene::{CompareFunction, CullMode, Draw, FrontFace, Shader};
@@ -25,46 +25,46 @@ const BACKGROUND: [f64; 3] = [0.12, 0.14, 0.2];
 /// Solids, and what is culled.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(tag = "scene", rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Wire {
+pub enum CullingWire {
     /// A closed box through which the eye flies; the near plane cuts it on the way.
     FlyThrough {
         /// The culling.
-        method: MethodName,
+        method: CullingMethod,
         /// The distance of the eye from the middle of the box, whose sides are 2 long: 0 to 8.
         eye: f64,
     },
     /// A box without a lid, tilted towards the viewer.
     OpenMesh {
         /// The culling.
-        method: MethodName,
+        method: CullingMethod,
         /// The tilt in degrees, -90 to 90.
         angle: f64,
     },
     /// A box and its mirror image, which has the other winding.
     Mirrored {
         /// The culling.
-        method: MethodName,
+        method: CullingMethod,
         /// The angle by which the box is turned in degrees, -180 to 180.
         angle: f64,
     },
     /// A box with transparent faces around another box.
     SeeThrough {
         /// The culling.
-        method: MethodName,
+        method: CullingMethod,
         /// The faces' alpha, 0 to 1.
         alpha: f64,
     },
     /// A torus, with its triangles from back to front, so that depth tests save nothing.
     ClosedMesh {
         /// The culling.
-        method: MethodName,
+        method: CullingMethod,
         /// The number of segments around the torus's hole, 4 to 64; its tube has half as many.
         segments: u32,
     },
     /// A grid of boxes, one draw per box; the picture shows a ninth of the grid.
     Field {
         /// The culling.
-        method: MethodName,
+        method: CullingMethod,
         /// The number of objects, 1 to 1024.
         objects: u32,
     },
@@ -73,7 +73,7 @@ pub enum Wire {
 /// The culling.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum MethodName {
+pub enum CullingMethod {
     /// Culls nothing.
     None,
     /// Culls back faces.
@@ -96,29 +96,29 @@ struct ShownSolids {
     polygons: Vec<Polygon>,
 }
 
-pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
+pub(crate) fn make(wire: &CullingWire) -> Result<MethodScene, ParameterError> {
     let ShownSolids { draws, polygons } = match *wire {
-        Wire::FlyThrough { method, eye } => {
+        CullingWire::FlyThrough { method, eye } => {
             within("eye", eye, 0.0..=8.0)?;
             fly_through(method, eye)
         }
-        Wire::OpenMesh { method, angle } => {
+        CullingWire::OpenMesh { method, angle } => {
             within("angle", angle, -90.0..=90.0)?;
             open_mesh(method, angle)
         }
-        Wire::Mirrored { method, angle } => {
+        CullingWire::Mirrored { method, angle } => {
             within("angle", angle, -180.0..=180.0)?;
             mirrored(method, angle)
         }
-        Wire::SeeThrough { method, alpha } => {
+        CullingWire::SeeThrough { method, alpha } => {
             within("alpha", alpha, 0.0..=1.0)?;
             see_through(method, alpha)
         }
-        Wire::ClosedMesh { method, segments } => {
+        CullingWire::ClosedMesh { method, segments } => {
             within("segments", segments.into(), 4.0..=64.0)?;
             closed_mesh(method, segments)
         }
-        Wire::Field { method, objects } => {
+        CullingWire::Field { method, objects } => {
             within("objects", objects.into(), 1.0..=1024.0)?;
             field(method, objects)
         }
@@ -131,7 +131,7 @@ pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
     let truth = Truth {
         size: SIZE,
         background: BACKGROUND,
-        coverage: Coverage::Center,
+        coverage: TexelCoverage::Center,
         surfaces: polygons.iter().map(Polygon::surface).collect(),
     };
     Ok(MethodScene {
@@ -142,12 +142,12 @@ pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
 
 /// Returns the faces that a method culls in its single pass over an object; refuses methods that need more
 /// than one pass.
-fn one_pass(method: MethodName) -> Result<CullMode, ParameterError> {
+fn one_pass(method: CullingMethod) -> Result<CullMode, ParameterError> {
     match method {
-        MethodName::None => Ok(CullMode::None),
-        MethodName::Back => Ok(CullMode::Back),
-        MethodName::Front => Ok(CullMode::Front),
-        MethodName::BackFlipped | MethodName::FrontThenBack | MethodName::Frustum => {
+        CullingMethod::None => Ok(CullMode::None),
+        CullingMethod::Back => Ok(CullMode::Back),
+        CullingMethod::Front => Ok(CullMode::Front),
+        CullingMethod::BackFlipped | CullingMethod::FrontThenBack | CullingMethod::Frustum => {
             let message = "this scene is drawn by `none`, `back` and `front`";
             Err(ParameterError::new("method", message))
         }
@@ -189,7 +189,7 @@ fn moved(faces: &[Face], by: DMat4) -> Vec<Face> {
     faces.iter().map(|face| face.moved(&by)).collect()
 }
 
-fn fly_through(method: MethodName, eye: f64) -> Result<ShownSolids, ParameterError> {
+fn fly_through(method: CullingMethod, eye: f64) -> Result<ShownSolids, ParameterError> {
     let turn = DMat4::from_rotation_x(0.26) * DMat4::from_rotation_y(0.52);
     let from = DVec3::new(0.0, 0.0, eye);
     let view = View::perspective(SIZE, [from, from - DVec3::Z], 60.0, [0.1, 20.0]);
@@ -206,7 +206,7 @@ fn front_view(distance: f64) -> View {
     View::perspective(SIZE, [eye, DVec3::ZERO], 40.0, [0.5, 20.0])
 }
 
-fn open_mesh(method: MethodName, angle: f64) -> Result<ShownSolids, ParameterError> {
+fn open_mesh(method: CullingMethod, angle: f64) -> Result<ShownSolids, ParameterError> {
     let mut faces = colored_box(1.0);
     // The lid.
     faces.remove(3);
@@ -218,9 +218,9 @@ fn open_mesh(method: MethodName, angle: f64) -> Result<ShownSolids, ParameterErr
     })
 }
 
-fn mirrored(method: MethodName, angle: f64) -> Result<ShownSolids, ParameterError> {
+fn mirrored(method: CullingMethod, angle: f64) -> Result<ShownSolids, ParameterError> {
     let (cull, flips) = match method {
-        MethodName::BackFlipped => (CullMode::Back, true),
+        CullingMethod::BackFlipped => (CullMode::Back, true),
         other => (one_pass(other)?, false),
     };
     let turn = DMat4::from_rotation_x(0.44) * DMat4::from_rotation_y(angle.to_radians());
@@ -244,9 +244,9 @@ fn mirrored(method: MethodName, angle: f64) -> Result<ShownSolids, ParameterErro
     Ok(shown)
 }
 
-fn see_through(method: MethodName, alpha: f64) -> Result<ShownSolids, ParameterError> {
+fn see_through(method: CullingMethod, alpha: f64) -> Result<ShownSolids, ParameterError> {
     let passes = match method {
-        MethodName::FrontThenBack => vec![CullMode::Front, CullMode::Back],
+        CullingMethod::FrontThenBack => vec![CullMode::Front, CullMode::Back],
         other => vec![one_pass(other)?],
     };
     let turn = DMat4::from_rotation_x(0.4) * DMat4::from_rotation_y(0.7);
@@ -272,7 +272,7 @@ fn see_through(method: MethodName, alpha: f64) -> Result<ShownSolids, ParameterE
     })
 }
 
-fn closed_mesh(method: MethodName, segments: u32) -> Result<ShownSolids, ParameterError> {
+fn closed_mesh(method: CullingMethod, segments: u32) -> Result<ShownSolids, ParameterError> {
     let turn = DMat4::from_rotation_x(0.7) * DMat4::from_rotation_y(0.3);
     let faces = moved(&torus(segments), turn);
     let mut polygons = settle(SIZE, &front_view(4.6).see(&faces));
@@ -309,9 +309,9 @@ fn torus(segments: u32) -> Vec<Face> {
     faces
 }
 
-fn field(method: MethodName, objects: u32) -> Result<ShownSolids, ParameterError> {
+fn field(method: CullingMethod, objects: u32) -> Result<ShownSolids, ParameterError> {
     let (cull, by_object) = match method {
-        MethodName::Frustum => (CullMode::None, true),
+        CullingMethod::Frustum => (CullMode::None, true),
         other => (one_pass(other)?, false),
     };
     // The picture is 2 wide, the grid 6.

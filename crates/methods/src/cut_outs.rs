@@ -5,10 +5,11 @@ use crate::method_scene::MethodScene;
 use crate::noise::Noise;
 use crate::polygon::{Polygon, mesh};
 use crate::stage::{SIZE, Stage, depth, draw, over};
-use crate::truth::{Coverage, Paint, Surface, Texture, Truth};
+use crate::truth::{FlatSurface, Paint, StraightTexture, TexelCoverage, Truth};
 use etalon_frame::TextureFormat;
 use etalon_scene::{
-    AddressMode, CompareFunction, Contents, Draw, FilterMode, Params, Sampler, Scene, Shader,
+    AddressMode, AttachmentContents, CompareFunction, Draw, FilterMode, Params, Sampler, Scene,
+    Shader,
 };
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -163,7 +164,7 @@ fn card(rect: [f64; 4], [left, right]: [f64; 2]) -> Polygon {
 /// Returns the cards with their texture clamped at its border, whatever the sampler does, because this is
 /// the texture as painted.
 fn truth(cards: &[Polygon]) -> Truth {
-    let texture = Texture {
+    let texture = StraightTexture {
         size: [TEXTURE; 2],
         texels: grass()
             .iter()
@@ -171,7 +172,7 @@ fn truth(cards: &[Polygon]) -> Truth {
             .collect(),
         address: [AddressMode::ClampToEdge; 2],
     };
-    let surface = |card: &Polygon| Surface {
+    let surface = |card: &Polygon| FlatSurface {
         corners: card.corners.clone(),
         paint: Paint::Texture {
             texture: texture.clone(),
@@ -181,7 +182,7 @@ fn truth(cards: &[Polygon]) -> Truth {
     Truth {
         size: SIZE,
         background: BACKGROUND,
-        coverage: Coverage::Area,
+        coverage: TexelCoverage::Area,
         surfaces: cards.iter().map(surface).collect(),
     }
 }
@@ -193,7 +194,7 @@ fn clear() -> [f64; 4] {
 
 /// Adds the texture, and returns a draw of the cards with it.
 fn textured(stage: &mut Stage, shader: Shader, cards: &[Polygon], address: AddressMode) -> Draw {
-    let contents = Contents::Texels(grass().concat());
+    let contents = AttachmentContents::Texels(grass().concat());
     let texture = stage.attachment(
         "grass",
         TextureFormat::Rgba8Unorm,
@@ -244,7 +245,7 @@ fn blend_sorted(cards: &[Polygon], address: AddressMode) -> Scene {
 fn alpha_to_coverage(cards: &[Polygon], address: AddressMode) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear());
-    let contents = Contents::Color(clear().map(|c| c as f32));
+    let contents = AttachmentContents::Color(clear().map(|c| c as f32));
     let samples = stage.attachment("samples", PICTURE, SIZE, 4, contents);
     let depth_stencil = stage.depth("depth", DEPTH, SIZE, 4, 1.0);
     let mut draw = textured(&mut stage, Shader::SampledColor, cards, address);

@@ -15,7 +15,7 @@ use crate::error::{ParameterError, within};
 use crate::method_scene::MethodScene;
 use crate::polygon::{self, Polygon};
 use crate::stage::{self, SIZE, Stage};
-use crate::truth::{Coverage, Surface, Truth};
+use crate::truth::{FlatSurface, TexelCoverage, Truth};
 use crate::view::window_depth;
 use etalon_frame::TextureFormat;
 use etalon_scene::{CompareFunction, DepthBias, Draw, Shader};
@@ -31,9 +31,9 @@ const BACKGROUND: [f64; 3] = [0.2, 0.3, 0.4];
 /// Two surfaces that nearly touch.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Wire {
-    scene: SceneName,
-    method: MethodName,
+pub struct DepthPrecisionWire {
+    scene: DepthPrecisionScene,
+    method: DepthPrecisionMethod,
     /// In `planes`, the distance from the nearer to the farther plane. In `slanted` and `decal`, the
     /// fraction of the distance by which the front surface is nearer.
     gap: f64,
@@ -48,7 +48,7 @@ fn usual_near() -> f64 {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-enum SceneName {
+enum DepthPrecisionScene {
     /// Pairs of planes that face the viewer, at distances from 2 to 900.
     Planes,
     /// Two planes that lead away from the viewer, from 10 to 500.
@@ -60,7 +60,7 @@ enum SceneName {
 /// The depth buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-enum MethodName {
+enum DepthPrecisionMethod {
     /// 16 bits, normalized.
     Depth16,
     /// At least 24 bits.
@@ -109,18 +109,18 @@ impl Quad {
         }
     }
 
-    fn surface(&self) -> Surface {
+    fn surface(&self) -> FlatSurface {
         let corners = self.corners.map(|[x, y, inverse]| [x, y, -inverse]);
         Polygon::new(corners.to_vec(), self.color).surface()
     }
 }
 
 /// Returns the quads in drawing order; where two touch, the later one is in front.
-fn quads(wire: &Wire) -> Vec<Quad> {
+fn quads(wire: &DepthPrecisionWire) -> Vec<Quad> {
     match wire.scene {
-        SceneName::Planes => planes(wire.gap),
-        SceneName::Slanted => slanted(wire.gap),
-        SceneName::Decal => decal(wire.gap),
+        DepthPrecisionScene::Planes => planes(wire.gap),
+        DepthPrecisionScene::Slanted => slanted(wire.gap),
+        DepthPrecisionScene::Decal => decal(wire.gap),
     }
 }
 
@@ -195,7 +195,7 @@ struct DepthBuffer {
 }
 
 impl DepthBuffer {
-    fn new(method: MethodName, near: f64) -> Self {
+    fn new(method: DepthPrecisionMethod, near: f64) -> Self {
         let usual = Self {
             format: TextureFormat::Depth24Plus,
             near,
@@ -205,43 +205,43 @@ impl DepthBuffer {
             bias: DepthBias::default(),
         };
         match method {
-            MethodName::Depth24 => usual,
-            MethodName::Depth16 => Self {
+            DepthPrecisionMethod::Depth24 => usual,
+            DepthPrecisionMethod::Depth16 => Self {
                 format: TextureFormat::Depth16Unorm,
                 ..usual
             },
-            MethodName::Depth32float => Self {
+            DepthPrecisionMethod::Depth32float => Self {
                 format: TextureFormat::Depth32Float,
                 ..usual
             },
-            MethodName::ReversedDepth => Self {
+            DepthPrecisionMethod::ReversedDepth => Self {
                 format: TextureFormat::Depth32Float,
                 reversed: true,
                 ..usual
             },
-            MethodName::InfiniteDepth => Self {
+            DepthPrecisionMethod::InfiniteDepth => Self {
                 far: f64::INFINITY,
                 ..usual
             },
-            MethodName::InfiniteReversedDepth => Self {
+            DepthPrecisionMethod::InfiniteReversedDepth => Self {
                 format: TextureFormat::Depth32Float,
                 far: f64::INFINITY,
                 reversed: true,
                 ..usual
             },
-            MethodName::LinearDepth => Self {
+            DepthPrecisionMethod::LinearDepth => Self {
                 shader: Shader::LinearDepth,
                 ..usual
             },
-            MethodName::LogarithmicDepth => Self {
+            DepthPrecisionMethod::LogarithmicDepth => Self {
                 shader: Shader::LogarithmicDepth,
                 ..usual
             },
-            MethodName::LargerNear => Self {
+            DepthPrecisionMethod::LargerNear => Self {
                 near: near * 10.0,
                 ..usual
             },
-            MethodName::PolygonOffset => Self {
+            DepthPrecisionMethod::PolygonOffset => Self {
                 bias: DepthBias {
                     constant: -1,
                     slope: -1.0,
@@ -292,15 +292,15 @@ impl DepthBuffer {
     }
 }
 
-pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
+pub(crate) fn make(wire: &DepthPrecisionWire) -> Result<MethodScene, ParameterError> {
     let most = match wire.scene {
-        SceneName::Planes => 100.0,
-        SceneName::Slanted | SceneName::Decal => 0.5,
+        DepthPrecisionScene::Planes => 100.0,
+        DepthPrecisionScene::Slanted | DepthPrecisionScene::Decal => 0.5,
     };
     within("gap", wire.gap, 1e-9..=most)?;
     within("near", wire.near, 1e-6..=50.0)?;
-    let offset = wire.method == MethodName::PolygonOffset;
-    if offset && wire.scene != SceneName::Decal {
+    let offset = wire.method == DepthPrecisionMethod::PolygonOffset;
+    if offset && wire.scene != DepthPrecisionScene::Decal {
         let message = "`polygon-offset` is for the scene `decal`";
         return Err(ParameterError::new("method", message));
     }
@@ -320,7 +320,7 @@ pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
     let truth = Truth {
         size: SIZE,
         background: BACKGROUND,
-        coverage: Coverage::Center,
+        coverage: TexelCoverage::Center,
         surfaces: quads.iter().map(Quad::surface).collect(),
     };
     Ok(MethodScene {

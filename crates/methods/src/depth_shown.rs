@@ -9,10 +9,10 @@ use crate::error::{ParameterError, within};
 use crate::method_scene::MethodScene;
 use crate::polygon::{self, Polygon};
 use crate::stage::{self, SIZE, Stage};
-use crate::truth::{Coverage, Paint, Surface, Truth};
+use crate::truth::{FlatSurface, Paint, TexelCoverage, Truth};
 use crate::view::window_depth;
 use etalon_frame::TextureFormat;
-use etalon_scene::{BlendFactor, CompareFunction, Contents, Shader};
+use etalon_scene::{AttachmentContents, BlendFactor, CompareFunction, Shader};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -28,7 +28,7 @@ const CELLS: u32 = 16;
 /// A scene of depth or of a dissolve.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(tag = "scene", rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Wire {
+pub enum DepthShownWire {
     /// Planes at a slant, from 12 to 900.
     Slanted {
         /// Depth shown as a colour.
@@ -66,13 +66,13 @@ pub enum DissolveMethod {
     Dissolve,
 }
 
-pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
+pub(crate) fn make(wire: &DepthShownWire) -> Result<MethodScene, ParameterError> {
     match *wire {
-        Wire::Slanted { method, near } => {
+        DepthShownWire::Slanted { method, near } => {
             within("near", near, 1e-4..=10.0)?;
             Ok(slanted(method, near))
         }
-        Wire::Pictures {
+        DepthShownWire::Pictures {
             method: DissolveMethod::Dissolve,
             t,
         } => {
@@ -140,7 +140,7 @@ fn slanted(method: DepthMethod, near: f64) -> MethodScene {
     stage.pass(&[picture], Some(depth), vec![draw]);
     let surface = |polygon: &Polygon| {
         let [red, green, blue, _] = polygon.color;
-        Surface {
+        FlatSurface {
             corners: polygon.corners.clone(),
             paint: match method {
                 DepthMethod::Grey => Paint::Depth,
@@ -159,13 +159,13 @@ fn slanted(method: DepthMethod, near: f64) -> MethodScene {
 }
 
 /// Returns a scene with this picture and its surfaces, over black.
-fn made(stage: Stage, picture: usize, surfaces: Vec<Surface>) -> MethodScene {
+fn made(stage: Stage, picture: usize, surfaces: Vec<FlatSurface>) -> MethodScene {
     MethodScene {
         scene: stage.read(&[picture]),
         truth: Truth {
             size: SIZE,
             background: [0.0; 3],
-            coverage: Coverage::Center,
+            coverage: TexelCoverage::Center,
             surfaces,
         },
     }
@@ -196,7 +196,7 @@ fn dissolve(t: f64) -> MethodScene {
             [r, g, b, 255]
         };
         let codes = (0..SIZE[0] * SIZE[1]).flat_map(codes).collect();
-        let texture = stage.attachment(name, format, SIZE, 1, Contents::Texels(codes));
+        let texture = stage.attachment(name, format, SIZE, 1, AttachmentContents::Texels(codes));
         let mut draw = stage::draw(Shader::TexelColor, polygon::cover());
         draw.textures = vec![texture];
         if i == 1 {

@@ -34,10 +34,10 @@ mod validity;
 mod view;
 mod visibility_cost;
 
-pub use claim::{Claim, Condition, Quantity, Test, Values};
+pub use claim::{Claim, ClaimedValues, FigureCondition, Quantity, Test};
 pub use error::ParameterError;
 pub use lesson::Lesson;
-pub use method::{Method, Parameter};
+pub use method::{Method, MethodParameter};
 pub use method_scene::MethodScene;
 pub use question::{MethodWire, claims, lessons, make};
-pub use truth::{Coverage, Paint, Surface, Texture, Truth};
+pub use truth::{FlatSurface, Paint, StraightTexture, TexelCoverage, Truth};

@@ -12,14 +12,14 @@ pub struct Method {
     /// The method, as the id names it: `depth-peeling`.
     pub name: String,
     /// The parameter that the stability curve is drawn over.
-    pub parameter: Option<Parameter>,
+    pub parameter: Option<MethodParameter>,
     /// The truth of the first attachment that is read back, ignoring alpha.
     pub truth: Truth,
 }
 
 /// A parameter of a family of method cases.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Parameter {
+pub struct MethodParameter {
     /// The axis.
     pub name: String,
     /// The parameter's value in this case.

@@ -1,6 +1,6 @@
 //! Polygons, and meshes of them.
 
-use crate::truth::{Paint, Surface};
+use crate::truth::{FlatSurface, Paint};
 use etalon_scene::{Mesh, Vertex};
 
 /// A flat convex polygon that is drawn.
@@ -40,8 +40,8 @@ impl Polygon {
     }
 
     /// Returns the polygon as a surface of the truth, in its own colour.
-    pub(crate) fn surface(&self) -> Surface {
-        Surface {
+    pub(crate) fn surface(&self) -> FlatSurface {
+        FlatSurface {
             corners: self.corners.clone(),
             paint: Paint::Flat(self.color),
         }

@@ -16,23 +16,23 @@ use serde::Deserialize;
 #[serde(tag = "question", rename_all = "kebab-case")]
 pub enum MethodWire {
     /// Transparency: the composition of surfaces that let light through.
-    Transparency(transparency::Wire),
+    Transparency(transparency::TransparencyWire),
     /// Cut-outs: holes in a texture.
     CutOuts(cut_outs::Wire),
     /// Anti-aliasing.
-    AntiAliasing(anti_aliasing::Wire),
+    AntiAliasing(anti_aliasing::AntiAliasingWire),
     /// Depth precision.
-    DepthPrecision(depth_precision::Wire),
+    DepthPrecision(depth_precision::DepthPrecisionWire),
     /// The cost of visibility.
-    VisibilityCost(visibility_cost::Wire),
+    VisibilityCost(visibility_cost::VisibilityWire),
     /// Culling.
-    Culling(culling::Wire),
+    Culling(culling::CullingWire),
     /// Stencil effects.
-    StencilEffects(stencil_effects::Wire),
+    StencilEffects(stencil_effects::StencilEffectsWire),
     /// The rounding errors of repeated blending.
-    Accumulation(accumulation::Wire),
+    Accumulation(accumulation::AccumulationWire),
     /// Depth shown as a colour.
-    DepthShown(depth_shown::Wire),
+    DepthShown(depth_shown::DepthShownWire),
     /// The sampling of a texture without smaller levels.
     TextureSampling(texture_sampling::Wire),
 }

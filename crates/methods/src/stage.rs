@@ -3,8 +3,8 @@
 use crate::polygon::cover;
 use etalon_frame::TextureFormat;
 use etalon_scene::{
-    AddressMode, Attachment, BlendComponent, BlendFactor, BlendOperation, BlendState,
-    CompareFunction, Contents, DepthState, Draw, FilterMode, Mesh, Pass, Path, Pool, QueryScope,
+    AddressMode, Attachment, AttachmentContents, BlendComponent, BlendFactor, BlendOperation,
+    BlendState, CompareFunction, DepthState, Draw, FilterMode, Mesh, Pass, Path, Pool, QueryScope,
     Sampler, Scene, Shader, Viewport,
 };
 
@@ -83,7 +83,7 @@ impl Stage {
         format: TextureFormat,
         size: [u32; 2],
         samples: u32,
-        contents: Contents,
+        contents: AttachmentContents,
     ) -> usize {
         self.attachments.push(Attachment {
             name: name.into(),
@@ -103,7 +103,7 @@ impl Stage {
         size: [u32; 2],
         clear: [f64; 4],
     ) -> usize {
-        let contents = Contents::Color(clear.map(|c| c as f32));
+        let contents = AttachmentContents::Color(clear.map(|c| c as f32));
         self.attachment(name, format, size, 1, contents)
     }
 
@@ -116,7 +116,7 @@ impl Stage {
         samples: u32,
         clear: f32,
     ) -> usize {
-        let contents = Contents::DepthStencil {
+        let contents = AttachmentContents::DepthStencil {
             depth: clear,
             stencil: 0,
         };

@@ -8,10 +8,12 @@ use crate::method_scene::MethodScene;
 use crate::noise::Noise;
 use crate::polygon::Polygon;
 use crate::stage::{SIZE, Stage, draw};
-use crate::truth::{Coverage, Truth};
+use crate::truth::{TexelCoverage, Truth};
 use crate::view::{Face, View};
 use etalon_frame::TextureFormat;
-use etalon_scene::{AddressMode, Contents, Draw, FilterMode, Mesh, Sampler, Shader, Vertex};
+use etalon_scene::{
+    AddressMode, AttachmentContents, Draw, FilterMode, Mesh, Sampler, Shader, Vertex,
+};
 use glam::DVec3;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -154,7 +156,7 @@ fn seen(per_unit: f64) -> Vec<Polygon> {
 
 /// Returns a draw of the ground with its texture.
 fn textured(stage: &mut Stage, mesh: Mesh, filter: FilterMode) -> Draw {
-    let contents = Contents::Texels(tiles().concat());
+    let contents = AttachmentContents::Texels(tiles().concat());
     let format = TextureFormat::Rgba8Unorm;
     let texture = stage.attachment("tiles", format, [TEXTURE; 2], 1, contents);
     let mut draw = draw(Shader::SampledColor, mesh);
@@ -195,7 +197,7 @@ pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
         truth: Truth {
             size: SIZE,
             background: BACKGROUND,
-            coverage: Coverage::Area,
+            coverage: TexelCoverage::Area,
             surfaces: seen(tiles).iter().map(Polygon::surface).collect(),
         },
     })

@@ -10,14 +10,14 @@ pub struct Truth {
     /// Red, green and blue behind everything, 0 to 1.
     pub background: [f64; 3],
     /// The part of a texel that counts.
-    pub coverage: Coverage,
+    pub coverage: TexelCoverage,
     /// The surfaces, in any order. Of two surfaces at the same depth, the later one is in front.
-    pub surfaces: Vec<Surface>,
+    pub surfaces: Vec<FlatSurface>,
 }
 
 /// The part of a texel that its colour represents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Coverage {
+pub enum TexelCoverage {
     /// The texel's centre: for questions in which edges do not matter, or whose methods take one sample.
     Center,
     /// The mean over the texel's area.
@@ -26,7 +26,7 @@ pub enum Coverage {
 
 /// A flat convex polygon.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Surface {
+pub struct FlatSurface {
     /// At least three corners in order around it, in either direction: x and y in texels from the top left
     /// corner, and a depth that grows away from the eye and is linear in x and y (a window depth, or
     /// minus 1 over the distance).
@@ -64,7 +64,7 @@ pub enum Paint {
     /// A texture, filtered linearly.
     Texture {
         /// The texture's texels.
-        texture: Texture,
+        texture: StraightTexture,
         /// Texture coordinates of each corner, linear in x and y.
         uv: Vec<[f64; 2]>,
     },
@@ -72,7 +72,7 @@ pub enum Paint {
 
 /// A texture of straight colours.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Texture {
+pub struct StraightTexture {
     /// Width and height in texels.
     pub size: [u32; 2],
     /// Red, green, blue and alpha, row by row from the top.

@@ -1,6 +1,6 @@
 //! Checks that methods' scenes keep the promises of the scene model.
 
-use etalon_scene::{Contents, Pool, Scene};
+use etalon_scene::{AttachmentContents, Pool, Scene};
 
 /// Asserts what the model promises of every scene: indices are in range, sizes and samples agree, no pass
 /// reads what it draws to, and the shader writes all targets.
@@ -10,7 +10,7 @@ pub(crate) fn assert_valid(scene: &Scene) {
     for a in &scene.attachments {
         let named = scene.attachments.iter().filter(|b| b.name == a.name);
         assert_eq!(named.count(), 1, "{}", a.name);
-        if let Contents::Texels(codes) = &a.contents {
+        if let AttachmentContents::Texels(codes) = &a.contents {
             let channels = a.format.color_channels().len();
             assert_eq!(codes.len(), (a.size[0] * a.size[1]) as usize * channels);
             assert_eq!(a.samples, 1);

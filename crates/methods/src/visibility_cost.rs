@@ -12,7 +12,7 @@ use crate::grid::settle;
 use crate::method_scene::MethodScene;
 use crate::polygon::{self, Polygon};
 use crate::stage::{self, SIZE, Stage};
-use crate::truth::{Coverage, Truth};
+use crate::truth::{TexelCoverage, Truth};
 use crate::view::{Face, View, cuboid};
 use etalon_frame::TextureFormat;
 use etalon_scene::{CompareFunction, Draw, EarlyTests, Mesh, Shader};
@@ -32,16 +32,16 @@ const MOST: u32 = 32;
 /// Rooms behind rooms.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Wire {
-    scene: SceneName,
-    method: MethodName,
+pub struct VisibilityWire {
+    scene: VisibilityScene,
+    method: VisibilityMethod,
     /// The number of walls behind each other, 1 to 32, which is about the depth complexity.
     layers: u32,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-enum SceneName {
+enum VisibilityScene {
     /// Walls with openings, and boxes between them.
     Rooms,
 }
@@ -49,7 +49,7 @@ enum SceneName {
 /// The drawing order, and the tests that reject hidden surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-enum MethodName {
+enum VisibilityMethod {
     /// Painter's order: back to front, without a depth buffer.
     NoTest,
     /// A depth test, triangles in no particular order.
@@ -157,7 +157,7 @@ fn shade(shader: Shader, mesh: Mesh, compare: CompareFunction) -> Draw {
     draw
 }
 
-fn draws(method: MethodName, back_to_front: &[Polygon]) -> Vec<Draw> {
+fn draws(method: VisibilityMethod, back_to_front: &[Polygon]) -> Vec<Draw> {
     let mesh = |polygons: &[Polygon]| polygon::mesh(SIZE, polygons);
     let unsorted = || mesh(&shuffled(back_to_front));
     let front_to_back = || {
@@ -166,27 +166,29 @@ fn draws(method: MethodName, back_to_front: &[Polygon]) -> Vec<Draw> {
     };
     let less = CompareFunction::Less;
     match method {
-        MethodName::NoTest => {
+        VisibilityMethod::NoTest => {
             let mut draw = shade(Shader::ExpensiveColor, mesh(back_to_front), less);
             draw.depth = None;
             vec![draw]
         }
-        MethodName::Unsorted => vec![shade(Shader::ExpensiveColor, unsorted(), less)],
-        MethodName::FrontToBack => vec![shade(Shader::ExpensiveColor, front_to_back(), less)],
-        MethodName::DepthPrepass => {
+        VisibilityMethod::Unsorted => vec![shade(Shader::ExpensiveColor, unsorted(), less)],
+        VisibilityMethod::FrontToBack => vec![shade(Shader::ExpensiveColor, front_to_back(), less)],
+        VisibilityMethod::DepthPrepass => {
             let mut depth = stage::draw(Shader::FlatColor, unsorted());
             depth.depth = stage::depth(less, true);
             depth.targets[0].write_mask = 0;
             let equal = CompareFunction::Equal;
             vec![depth, shade(Shader::ExpensiveColor, unsorted(), equal)]
         }
-        MethodName::ForcedEarlyTest => {
+        VisibilityMethod::ForcedEarlyTest => {
             let mut draw = shade(Shader::ExpensiveDiscard, front_to_back(), less);
             draw.early_tests = EarlyTests::Forced;
             vec![draw]
         }
-        MethodName::Discard => vec![shade(Shader::ExpensiveDiscard, front_to_back(), less)],
-        MethodName::WrittenDepth => vec![shade(Shader::ExpensiveDepth, front_to_back(), less)],
+        VisibilityMethod::Discard => vec![shade(Shader::ExpensiveDiscard, front_to_back(), less)],
+        VisibilityMethod::WrittenDepth => {
+            vec![shade(Shader::ExpensiveDepth, front_to_back(), less)]
+        }
     }
 }
 
@@ -199,9 +201,9 @@ fn triangles(layers: u32) -> Vec<Polygon> {
     settle(SIZE, &view.see(&rooms(eye, layers)))
 }
 
-pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
-    let Wire {
-        scene: SceneName::Rooms,
+pub(crate) fn make(wire: &VisibilityWire) -> Result<MethodScene, ParameterError> {
+    let VisibilityWire {
+        scene: VisibilityScene::Rooms,
         method,
         layers,
     } = *wire;
@@ -210,13 +212,13 @@ pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
     let mut stage = Stage::new();
     let background = [BACKGROUND[0], BACKGROUND[1], BACKGROUND[2], 1.0];
     let picture = stage.color("picture", TextureFormat::Rgba8Unorm, SIZE, background);
-    let depth = (method != MethodName::NoTest)
+    let depth = (method != VisibilityMethod::NoTest)
         .then(|| stage.depth("depth", TextureFormat::Depth24Plus, SIZE, 1, 1.0));
     stage.pass(&[picture], depth, draws(method, &triangles));
     let truth = Truth {
         size: SIZE,
         background: BACKGROUND,
-        coverage: Coverage::Center,
+        coverage: TexelCoverage::Center,
         surfaces: triangles.iter().map(Polygon::surface).collect(),
     };
     Ok(MethodScene {

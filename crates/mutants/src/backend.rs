@@ -5,7 +5,7 @@ use super::plant::{Plant, all_draws};
 use crate::mutants;
 use etalon_backend::{Backend, BackendError, FrameTime, Prepared};
 use etalon_cpu::steps::Faithful;
-use etalon_cpu::{CpuBackend, PreparedScene};
+use etalon_cpu::{CpuBackend, CpuScene};
 use etalon_frame::{AdapterInfo, Frame, Limits};
 use etalon_scene::{RESTART, Scene};
 use std::cell::RefCell;
@@ -79,20 +79,20 @@ impl Backend for MutantBackend {
         }
         let believed = self.believed(scene);
         Ok(match &self.mutant.plant {
-            Plant::Steps(hooks) => Box::new(PreparedScene::new(believed, hooks.as_ref())),
-            Plant::Memory(bug) => Box::new(PreparedScene::new(believed, bug())),
+            Plant::Steps(hooks) => Box::new(CpuScene::new(believed, hooks.as_ref())),
+            Plant::Memory(bug) => Box::new(CpuScene::new(believed, bug())),
             Plant::Frame(bug) => Box::new(PreparedMutant {
                 inner: self.inner.prepare(&believed)?,
                 scene: believed,
                 bug,
             }),
             Plant::Again(from, _) => Box::new(PreparedAgain {
-                right: PreparedScene::new(scene.clone(), Faithful),
-                wrong: PreparedScene::new(believed, Faithful),
+                right: CpuScene::new(scene.clone(), Faithful),
+                wrong: CpuScene::new(believed, Faithful),
                 from: *from,
                 submissions: 0,
             }),
-            Plant::Scene(_) | Plant::Draws(_) => Box::new(PreparedScene::new(believed, Faithful)),
+            Plant::Scene(_) | Plant::Draws(_) => Box::new(CpuScene::new(believed, Faithful)),
         })
     }
 }

@@ -4,10 +4,11 @@ pub(super) mod advanced;
 pub(super) mod precision;
 
 use crate::fields::{
-    ALPHA_EQUATION, ALPHA_FACTORS, BLEND, COLOR_EQUATION, COLOR_FACTORS, EQUATIONS, Places, TARGETS,
+    ALPHA_EQUATION, ALPHA_FACTORS, BLEND, COLOR_EQUATION, COLOR_FACTORS, EQUATIONS, FieldPlaces,
+    TARGETS,
 };
 use crate::hooks::{blending, faithful_blend};
-use crate::list::{CONFUSION, List, bugs, rows};
+use crate::list::{CONFUSION, MutantList, bugs, rows};
 use crate::plant::{Plant, each, set, swapped};
 use crate::tables::{factor_neighbours, place, round, same_for_alpha};
 use etalon_frame::ChannelEncoding;
@@ -17,13 +18,13 @@ use etalon_scene::{BlendComponent, BlendFactor, BlendOperation, BlendState};
 pub(super) type Input = BlendInput<[f32; 1]>;
 pub(super) type Encodings = [ChannelEncoding; 4];
 
-const COLOR_OPERATION: Places<BlendOperation> = |d| {
+const COLOR_OPERATION: FieldPlaces<BlendOperation> = |d| {
     COLOR_EQUATION(d)
         .into_iter()
         .map(|c| &mut c.operation)
         .collect()
 };
-const ALPHA_OPERATION: Places<BlendOperation> = |d| {
+const ALPHA_OPERATION: FieldPlaces<BlendOperation> = |d| {
     ALPHA_EQUATION(d)
         .into_iter()
         .map(|c| &mut c.operation)
@@ -31,7 +32,7 @@ const ALPHA_OPERATION: Places<BlendOperation> = |d| {
 };
 
 /// Adds swaps of factors, for colour and for alpha.
-pub(super) fn factors(list: &mut List, pairs: &[(BlendFactor, BlendFactor)]) {
+pub(super) fn factors(list: &mut MutantList, pairs: &[(BlendFactor, BlendFactor)]) {
     let different = |(right, wrong): &(_, _)| !same_for_alpha(*right, *wrong);
     let (for_color, for_alpha) = (
         pairs.iter().copied(),

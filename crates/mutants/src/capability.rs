@@ -3,15 +3,17 @@
 use crate::list::bugs;
 use crate::plant::{Plant, contents, images_of};
 use etalon_frame::{Image, TextureFormat};
-use etalon_scene::{Attachment, Contents};
+use etalon_scene::{Attachment, AttachmentContents};
 
 /// Makes some attachments start from 0.
 fn uncleared(which: impl Fn(&Attachment) -> bool + Send + Sync + 'static) -> Plant {
     contents(move |attachment| {
         let strikes = which(attachment);
         match &mut attachment.contents {
-            Contents::Color(color) if strikes => *color = [0.0; 4],
-            Contents::DepthStencil { depth, stencil } if strikes => (*depth, *stencil) = (0.0, 0),
+            AttachmentContents::Color(color) if strikes => *color = [0.0; 4],
+            AttachmentContents::DepthStencil { depth, stencil } if strikes => {
+                (*depth, *stencil) = (0.0, 0)
+            }
             _ => {}
         }
     })

@@ -4,11 +4,11 @@ use crate::hooks::{clear_code, code};
 use crate::list::{CONFUSION, ROUNDED, SMALL, STEPS, bugs};
 use crate::plant::{Plant, contents, in_bits, nudge};
 use etalon_frame::ChannelEncoding::{self, Float32, Unorm};
-use etalon_scene::Contents;
+use etalon_scene::AttachmentContents;
 
 fn colors(bug: impl Fn(&mut [f32; 4]) + Send + Sync + 'static) -> Plant {
     contents(move |attachment| {
-        if let Contents::Color(color) = &mut attachment.contents {
+        if let AttachmentContents::Color(color) = &mut attachment.contents {
             bug(color);
         }
     })
@@ -16,7 +16,7 @@ fn colors(bug: impl Fn(&mut [f32; 4]) + Send + Sync + 'static) -> Plant {
 
 fn depths_and_stencils(bug: impl Fn(&mut f32, &mut u8) + Send + Sync + 'static) -> Plant {
     contents(move |attachment| {
-        if let Contents::DepthStencil { depth, stencil } = &mut attachment.contents {
+        if let AttachmentContents::DepthStencil { depth, stencil } = &mut attachment.contents {
             bug(depth, stencil);
         }
     })

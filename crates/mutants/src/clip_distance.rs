@@ -1,19 +1,19 @@
 //! Bugs of clip distances.
 
-use crate::fields::Places;
+use crate::fields::FieldPlaces;
 use crate::list::bugs;
 use crate::plant::{Plant, draws, each, from_draw, set};
 use PrimitiveTopology as T;
 use etalon_scene::{Draw, PrimitiveTopology, Shader, Vertex};
 
 /// The vertices of draws that have clip distances.
-const VERTICES: Places<Vertex> = |d| {
+const VERTICES: FieldPlaces<Vertex> = |d| {
     let clips = d.shader.clip_distances() > 0;
     d.mesh.vertices.iter_mut().filter(|_| clips).collect()
 };
 
 /// The bits that enable clip distances.
-const ENABLES: Places<u8> = |d| vec![&mut d.clip_distances];
+const ENABLES: FieldPlaces<u8> = |d| vec![&mut d.clip_distances];
 
 /// Disables clipping. If the shader has two distances, they become positive.
 fn unclipped(draw: &mut Draw) {

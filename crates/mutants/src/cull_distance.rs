@@ -1,12 +1,12 @@
 //! Bugs of cull distances.
 
-use crate::fields::Places;
+use crate::fields::FieldPlaces;
 use crate::list::bugs;
 use crate::plant::{draws, each};
 use etalon_scene::{Draw, PrimitiveTopology, Vertex};
 
 /// The vertices of draws that have cull distances.
-const VERTICES: Places<Vertex> = |d| {
+const VERTICES: FieldPlaces<Vertex> = |d| {
     let culls = d.shader.cull_distances() > 0;
     d.mesh.vertices.iter_mut().filter(|_| culls).collect()
 };

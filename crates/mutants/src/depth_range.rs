@@ -1,12 +1,12 @@
 //! Bugs of depth clamp and the viewport's depth range.
 
-use crate::fields::Places;
+use crate::fields::FieldPlaces;
 use crate::hooks::held_to_range;
 use crate::list::{CONFUSION, bugs};
 use crate::plant::{each, in_bits, set};
 
-const RANGE: Places<[f32; 2]> = |d| vec![&mut d.viewport.depth];
-const CLAMP: Places<bool> = |d| vec![&mut d.depth_clamp];
+const RANGE: FieldPlaces<[f32; 2]> = |d| vec![&mut d.viewport.depth];
+const CLAMP: FieldPlaces<bool> = |d| vec![&mut d.depth_clamp];
 
 bugs! {
     class "depth-range", "depth";

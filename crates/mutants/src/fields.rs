@@ -8,12 +8,12 @@ use etalon_scene::{
 
 /// Returns references to a field of a draw: none if the field is off, several if each face or target has its
 /// own.
-pub(super) type Places<T> = for<'a> fn(&'a mut Draw) -> Vec<&'a mut T>;
+pub(super) type FieldPlaces<T> = for<'a> fn(&'a mut Draw) -> Vec<&'a mut T>;
 
-/// Declares [`Places`] from expressions that can be iterated.
+/// Declares [`FieldPlaces`] from expressions that can be iterated.
 macro_rules! places {
     ($($name:ident: $type:ty = |$draw:ident| $places:expr;)+) => {
-        $(pub(super) const $name: Places<$type> = |$draw| $places.into_iter().collect();)+
+        $(pub(super) const $name: FieldPlaces<$type> = |$draw| $places.into_iter().collect();)+
     };
 }
 
@@ -72,7 +72,7 @@ pub(super) enum Shows {
 }
 
 /// A field that can be stale.
-pub(super) struct Field {
+pub(super) struct StaleField {
     pub(super) shows: Shows,
     pub(super) area: &'static str,
     pub(super) name: &'static str,
@@ -81,7 +81,7 @@ pub(super) struct Field {
     pub(super) take_when_off: Option<Take>,
 }
 
-impl Field {
+impl StaleField {
     /// Returns the name for use in a sentence.
     pub(super) fn words(&self) -> String {
         self.name.replace('-', " ")
@@ -99,7 +99,7 @@ impl Field {
 }
 
 /// Copies a part of a field from another draw, for each face or target.
-fn part<T>(places: Places<T>, before: &Draw, draw: &mut Draw, part: fn(&mut T, &T)) {
+fn part<T>(places: FieldPlaces<T>, before: &Draw, draw: &mut Draw, part: fn(&mut T, &T)) {
     let mut before = before.clone();
     let places = places(draw).into_iter().zip(places(&mut before));
     places.for_each(|(to, from)| part(to, from));
@@ -111,7 +111,7 @@ fn take_default<T: Clone + Default + PartialEq>(to: &mut T, from: &T) {
     }
 }
 
-/// Writes a [`Take`] that copies a field of the draw (`.field`), whole [`Places`] (`in PLACES`), a field of
+/// Writes a [`Take`] that copies a field of the draw (`.field`), whole [`FieldPlaces`] (`in PLACES`), a field of
 /// each of them (`in PLACES.field`, with `?` if it can be off on either side), or anything else (`=
 /// function`).
 macro_rules! take {
@@ -131,7 +131,7 @@ macro_rules! take {
 /// Lists fields by area. Fields that can be switched off name the places for this (`off PLACES`).
 macro_rules! fields {
     ($($area:literal { $($shows:ident $name:literal $take:tt $(off $places:ident)?;)+ })+) => {
-        pub(super) const FIELDS: &[Field] = &[$($(Field {
+        pub(super) const FIELDS: &[StaleField] = &[$($(StaleField {
             shows: Shows::$shows,
             area: $area,
             name: $name,

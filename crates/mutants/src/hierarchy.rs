@@ -7,12 +7,12 @@
 use crate::aspects::reaches;
 use crate::hooks::code;
 use crate::list::bugs;
-use crate::memory::{Area, Memory, copy, texel_rows};
+use crate::memory::{Area, StoredDataBug, copy, texel_rows};
 use crate::plant::{Plant, memory};
 use CompareFunction::{Always, Equal, Greater, GreaterEqual, Less, LessEqual};
 use etalon_backend::Prepared;
 use etalon_cpu::steps::{Moment, Stored};
-use etalon_cpu::{PreparedScene, Surface};
+use etalon_cpu::{CpuScene, CpuSurface};
 use etalon_frame::{Aspect, ChannelEncoding};
 use etalon_pipeline::{Plain, window_position};
 use etalon_scene::{
@@ -86,7 +86,7 @@ struct Coarse {
     before: Option<DepthState>,
     /// The tiles that are rejected, and copies of the attachments before the draw.
     rejected: Vec<Area>,
-    kept: Vec<(usize, Surface)>,
+    kept: Vec<(usize, CpuSurface)>,
 }
 
 fn encoding(scene: &Scene, index: usize) -> Option<ChannelEncoding> {
@@ -95,7 +95,7 @@ fn encoding(scene: &Scene, index: usize) -> Option<ChannelEncoding> {
 }
 
 /// Returns the range of the depths in an area.
-fn range(surface: &Surface, area: Area) -> CodeRange {
+fn range(surface: &CpuSurface, area: Area) -> CodeRange {
     let codes = texel_rows(surface, area).flat_map(|texels| {
         let planes = surface.planes.iter();
         planes.flat_map(move |plane| &plane[texels.clone()])
@@ -169,7 +169,7 @@ impl Coarse {
     }
 
     /// Records the depths of an attachment.
-    fn note(&mut self, scene: &Scene, index: usize, surfaces: &[Surface]) {
+    fn note(&mut self, scene: &Scene, index: usize, surfaces: &[CpuSurface]) {
         if encoding(scene, index).is_none() {
             return;
         }
@@ -238,12 +238,12 @@ impl Coarse {
     }
 
     /// Returns the number of columns and rows of tiles.
-    fn size(&self, surface: &Surface) -> [usize; 2] {
+    fn size(&self, surface: &CpuSurface) -> [usize; 2] {
         [surface.width, surface.height].map(|length| length.div_ceil(self.unit.side))
     }
 
     /// Finds the tiles in which a draw is rejected.
-    fn reject(&mut self, scene: &Scene, pass: &Pass, draw: &Draw, surfaces: &[Surface]) {
+    fn reject(&mut self, scene: &Scene, pass: &Pass, draw: &Draw, surfaces: &[CpuSurface]) {
         let Some(index) = pass.depth_stencil else {
             return;
         };
@@ -279,7 +279,7 @@ impl Coarse {
     }
 
     /// Records what a draw wrote.
-    fn drawn(&mut self, scene: &Scene, number: usize, draw: &Draw, surfaces: &[Surface]) {
+    fn drawn(&mut self, scene: &Scene, number: usize, draw: &Draw, surfaces: &[CpuSurface]) {
         let (Some(index), Some(depth)) = (scene.passes[number].depth_stencil, draw.depth) else {
             return;
         };
@@ -311,7 +311,7 @@ pub fn with_faithful_hierarchy(scene: Scene) -> impl Prepared {
     let mut coarse = Coarse::default();
     let memory =
         move |moment, scene: &Scene, stored: Stored<'_>| coarse.reached(moment, scene, stored);
-    PreparedScene::new(scene, Memory::new(memory))
+    CpuScene::new(scene, StoredDataBug::new(memory))
 }
 
 fn coarse(unit: DepthRules) -> Plant {

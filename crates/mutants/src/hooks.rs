@@ -1,8 +1,8 @@
 //! The rasterizer's steps, with one of them replaced.
 
-use etalon_cpu::Surface;
+use etalon_cpu::CpuSurface;
 use etalon_cpu::steps::{
-    Codes, ExportedReference, Faithful, InputBit, LANES, Mask, Real, Steps, TestOutcome, Tests,
+    ExportedReference, Faithful, InputBit, LANES, LaneCodes, Mask, Real, Steps, TestOutcome, Tests,
     WrittenTexels,
 };
 use etalon_frame::{Aspect, ChannelEncoding};
@@ -114,7 +114,7 @@ hooks! {
 
         /// Fetches, redirected to `bug([x, y], [width, height])`.
         fetch([u32; 2], [u32; 2]) -> [u32; 2]:
-        fetch(surface: &Surface, x: usize, y: usize) -> [Real; 4] = |bug| {
+        fetch(surface: &CpuSurface, x: usize, y: usize) -> [Real; 4] = |bug| {
             let size = [surface.width as u32, surface.height as u32];
             planes(from_fn(|i| {
                 let [x, y] = bug([(x + i) as u32, y as u32], size);
@@ -125,7 +125,7 @@ hooks! {
 
         /// The conversion of depths in 0..1.
         depth_code(ChannelEncoding, f32) -> u32:
-        depth_codes(encoding: ChannelEncoding, depth: Real) -> Codes =
+        depth_codes(encoding: ChannelEncoding, depth: Real) -> LaneCodes =
             |bug| depth.map(|v| bug(encoding, v.clamp(0.0, 1.0)));
 
         /// Returns which of colour and depth are written, given whether a texel is covered, passes the
@@ -154,11 +154,11 @@ hooks! {
 
         /// The conversion of colours at the store.
         color_code(ChannelEncoding, f32) -> u32:
-        color_codes(encoding: ChannelEncoding, value: Real) -> Codes = |bug| value.map(|v| bug(encoding, v));
+        color_codes(encoding: ChannelEncoding, value: Real) -> LaneCodes = |bug| value.map(|v| bug(encoding, v));
 
         /// The conversion of stored colours to blend operands.
         color_value(ChannelEncoding, u32) -> f32:
-        color_value(encoding: ChannelEncoding, codes: Codes) -> Real = |bug| codes.map(|c| bug(encoding, c));
+        color_value(encoding: ChannelEncoding, codes: LaneCodes) -> Real = |bug| codes.map(|c| bug(encoding, c));
 
         /// The second source after alpha to one.
         second_source(&Multisample, [f32; 4]) -> [f32; 4]:
@@ -169,8 +169,8 @@ hooks! {
         /// source and destination.
         logic(bool, ChannelEncoding, LogicOperation, u32, u32) -> u32:
         logic(
-            obeys: bool, encoding: ChannelEncoding, operation: LogicOperation, src: Codes, dst: Codes
-        ) -> Codes = |bug| from_fn(|i| bug(obeys, encoding, operation, src[i], dst[i]));
+            obeys: bool, encoding: ChannelEncoding, operation: LogicOperation, src: LaneCodes, dst: LaneCodes
+        ) -> LaneCodes = |bug| from_fn(|i| bug(obeys, encoding, operation, src[i], dst[i]));
 
         /// Returns true if a fragment's alpha covers a sample, given its index and the number of samples.
         alpha_covers(f32, usize, usize) -> bool:

@@ -1,6 +1,6 @@
 //! Bugs of interpolation: how attributes vary over a primitive, and where they are sampled.
 
-use crate::fields::{Places, VERTICES};
+use crate::fields::{FieldPlaces, VERTICES};
 use crate::hooks::interpolation;
 use crate::list::bugs;
 use crate::plant::{Plant, draws, each};
@@ -9,7 +9,7 @@ use InterpolationSampling::{Center, Centroid, Sample};
 use etalon_scene::{Interpolation, InterpolationSampling, Shader, Vertex};
 
 /// The vertices of draws that read interpolated coordinates.
-const READ: Places<Vertex> = |d| {
+const READ: FieldPlaces<Vertex> = |d| {
     let reads = d.shader.uses_uv();
     d.mesh.vertices.iter_mut().filter(|_| reads).collect()
 };

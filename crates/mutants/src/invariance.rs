@@ -3,7 +3,7 @@
 use crate::list::{SMALL, bugs};
 use crate::plant::{Plant, frames, nudge};
 use etalon_frame::{Aspect, Image};
-use etalon_scene::{Contents, Draw, Scene};
+use etalon_scene::{AttachmentContents, Draw, Scene};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Raises all values that are not at an end of their range by one step, in some images of some scenes.
@@ -54,7 +54,7 @@ bugs! {
         });
     "contents-move-values: Over a background that is not black, values are one step off." =>
         scenes(|scene| {
-            let light = |c: &Contents| matches!(c, Contents::Color(v) if *v != [0.0; 4]);
+            let light = |c: &AttachmentContents| matches!(c, AttachmentContents::Color(v) if *v != [0.0; 4]);
             scene.attachments.iter().any(|a| light(&a.contents))
         });
     "second-attachment-differs: The second colour attachment is one step off." =>

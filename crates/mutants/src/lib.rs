@@ -70,11 +70,11 @@ pub use backend::MutantBackend;
 pub use hierarchy::with_faithful_hierarchy;
 pub use mutant::Mutant;
 
-use list::List;
+use list::MutantList;
 use std::sync::LazyLock;
 
 /// Adds the mutants of a class.
-type Class = fn(&mut List);
+type Class = fn(&mut MutantList);
 
 #[rustfmt::skip]
 const CLASSES: &[Class] = &[
@@ -92,7 +92,7 @@ const CLASSES: &[Class] = &[
 /// Returns all mutants, class by class.
 pub fn mutants() -> &'static [Mutant] {
     static ALL: LazyLock<Vec<Mutant>> = LazyLock::new(|| {
-        let mut list = List::default();
+        let mut list = MutantList::default();
         CLASSES.iter().for_each(|add| add(&mut list));
         list.mutants
     });

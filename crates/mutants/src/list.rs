@@ -1,6 +1,6 @@
 //! The list of mutants while classes add to it.
 
-use crate::fields::Places;
+use crate::fields::FieldPlaces;
 use crate::mutant::Mutant;
 use crate::plant::{Plant, swapped};
 use etalon_scene::Draw;
@@ -28,14 +28,14 @@ pub(super) const PRECISION: &str = "Vulkan: Blending: precision no lower than th
 
 /// The mutants so far, and the class, area and source of the next ones.
 #[derive(Debug, Default)]
-pub(super) struct List {
+pub(super) struct MutantList {
     class: &'static str,
     area: &'static str,
     source: &'static str,
     pub(super) mutants: Vec<Mutant>,
 }
 
-impl List {
+impl MutantList {
     /// Sets the class of the following mutants, and the area that must catch them.
     pub(super) fn class(&mut self, class: &'static str, area: &'static str) {
         (self.class, self.area, self.source) = (class, area, CONFUSION);
@@ -68,7 +68,7 @@ impl List {
         &mut self,
         name: &str,
         about: &str,
-        field: Places<T>,
+        field: FieldPlaces<T>,
         pairs: impl IntoIterator<Item = (T, T)>,
     ) {
         for (right, wrong) in pairs {
@@ -93,7 +93,7 @@ pub(super) struct Facts {
 macro_rules! bugs {
     ($($row:tt)+) => {
         /// Adds the mutants of this file.
-        pub(crate) fn add(list: &mut $crate::list::List) {
+        pub(crate) fn add(list: &mut $crate::list::MutantList) {
             $crate::list::rows! { list; $($row)+ }
         }
     };

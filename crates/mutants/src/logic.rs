@@ -1,6 +1,6 @@
 //! Bugs of logic operations.
 
-use crate::fields::{LOGIC, Places};
+use crate::fields::{FieldPlaces, LOGIC};
 use crate::hooks::{code, logic};
 use crate::list::bugs;
 use crate::plant::{draws, set};
@@ -25,7 +25,7 @@ fn bits(bits: u8, operation: LogicOperation, s: u32, d: u32) -> u32 {
 
 bugs! {
     class "logic", "blend";
-    let field: Places<LogicOperation> = |d| d.logic.iter_mut().collect();
+    let field: FieldPlaces<LogicOperation> = |d| d.logic.iter_mut().collect();
     swaps "", "The operation ", field, logic_neighbours();
     "off: Logic operations are off." => set(LOGIC, None), source "lavapipe: logic operations lost";
     "write-mask-ignored: Logic operations write all channels." =>

@@ -1,8 +1,8 @@
 //! Planting a bug in the scene, in a step, or in the frame.
 
-use crate::fields::Places;
+use crate::fields::FieldPlaces;
 use crate::hooks::Hooks;
-use crate::memory::Memory;
+use crate::memory::StoredDataBug;
 use etalon_cpu::steps::{Moment, Stored};
 use etalon_frame::{Aspect, ChannelEncoding, Frame, Image};
 use etalon_scene::{Attachment, Draw, Pass, Scene};
@@ -10,7 +10,7 @@ use std::fmt;
 
 type SceneBug = dyn Fn(Option<&Scene>, &mut Scene) + Send + Sync;
 type DrawBug = dyn Fn(&mut Draw) + Send + Sync;
-type MemoryBug = dyn Fn() -> Memory + Send + Sync;
+type MemoryBug = dyn Fn() -> StoredDataBug + Send + Sync;
 type FrameBug = dyn Fn(&Scene, &mut Frame) + Send + Sync;
 
 /// A planted bug.
@@ -62,7 +62,7 @@ pub(super) fn memory<S: Default + 'static>(
 ) -> Plant {
     Plant::Memory(Box::new(move || {
         let (bug, mut state) = (bug.clone(), S::default());
-        Memory::new(move |moment, scene, stored| bug(&mut state, moment, scene, stored))
+        StoredDataBug::new(move |moment, scene, stored| bug(&mut state, moment, scene, stored))
     }))
 }
 
@@ -98,7 +98,7 @@ pub(super) fn draws(bug: impl Fn(&mut Draw) + Send + Sync + 'static) -> Plant {
 
 /// Changes a field of every draw that has it.
 pub(super) fn each<T: 'static>(
-    field: Places<T>,
+    field: FieldPlaces<T>,
     bug: impl Fn(&mut T) + Send + Sync + 'static,
 ) -> Plant {
     draws(move |draw| field(draw).into_iter().for_each(&bug))
@@ -106,20 +106,20 @@ pub(super) fn each<T: 'static>(
 
 /// Returns a function that sets a field of a draw to a value.
 pub(super) fn put<T: Copy + Send + Sync + 'static>(
-    field: Places<T>,
+    field: FieldPlaces<T>,
     value: T,
 ) -> impl Fn(&mut Draw) + Copy + Send + Sync + 'static {
     move |draw| field(draw).into_iter().for_each(|place| *place = value)
 }
 
 /// Sets a field of every draw to a value.
-pub(super) fn set<T: Copy + Send + Sync + 'static>(field: Places<T>, value: T) -> Plant {
+pub(super) fn set<T: Copy + Send + Sync + 'static>(field: FieldPlaces<T>, value: T) -> Plant {
     draws(put(field, value))
 }
 
 /// Makes one value of a field act as another.
 pub(super) fn swapped<T: Copy + PartialEq + Send + Sync + 'static>(
-    field: Places<T>,
+    field: FieldPlaces<T>,
     right: T,
     wrong: T,
 ) -> Plant {

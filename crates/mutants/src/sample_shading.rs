@@ -1,11 +1,11 @@
 //! Bugs of sample shading: the fraction of a texel's samples that have their own shader run.
 
-use crate::fields::Places;
+use crate::fields::FieldPlaces;
 use crate::hooks::{shaded_at, shader_runs};
 use crate::list::{CONFUSION, bugs};
 use crate::plant::{Plant, each, set};
 
-const SHARE: Places<Option<f32>> = |d| vec![&mut d.multisample.min_sample_shading];
+const SHARE: FieldPlaces<Option<f32>> = |d| vec![&mut d.multisample.min_sample_shading];
 
 /// Replaces the number of runs under sample shading.
 fn runs(bug: fn(f32, usize) -> usize) -> Plant {

@@ -5,7 +5,7 @@ use crate::list::{CONFUSION, SMALL, bugs};
 use crate::plant::{Plant, all_draws, draws, passes, scene, set, sized};
 use crate::tables::ONE_TEXEL;
 use etalon_scene::{
-    CompareFunction, Contents, DepthState, Draw, Scene, StencilFace, StencilOperation,
+    AttachmentContents, CompareFunction, DepthState, Draw, Scene, StencilFace, StencilOperation,
 };
 
 /// Changes scissor rectangles, given the size of the attachments.
@@ -133,7 +133,7 @@ bugs! {
             let Some(([left, top, w, h], [width, height])) = first_rect(scene) else { return; };
             for index in scene.passes[0].color.clone() {
                 let attachment = &mut scene.attachments[index];
-                if let (Contents::Color(color), 1) = (&attachment.contents, attachment.samples) {
+                if let (AttachmentContents::Color(color), 1) = (&attachment.contents, attachment.samples) {
                     let channels = attachment.format.color_channels().iter().zip(color);
                     let codes = channels.map(|(e, v)| e.nearest_code(f64::from(*v)));
                     let codes: Vec<u32> = codes.collect();
@@ -142,7 +142,7 @@ bugs! {
                         let inside = (left..left + w).contains(&x) && (top..top + h).contains(&y);
                         codes.iter().map(move |c| c * u32::from(inside))
                     });
-                    attachment.contents = Contents::Texels(texels.collect());
+                    attachment.contents = AttachmentContents::Texels(texels.collect());
                 }
             }
         });

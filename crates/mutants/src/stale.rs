@@ -1,12 +1,12 @@
 //! Stale fields: values of the previous case or draw, or the default when a pass begins.
 
 use crate::fields::{FIELDS, Take};
-use crate::list::{List, rows};
+use crate::list::{MutantList, rows};
 use crate::plant::{Plant, from_case, from_draw, passes};
 use etalon_scene::{ColorTarget, Draw, Viewport};
 
 /// Adds the class `sticky`: each field has the value of the previous case or draw.
-pub(super) fn sticky(list: &mut List) {
+pub(super) fn sticky(list: &mut MutantList) {
     type Before = fn(Take) -> Plant;
     let kinds: [(&str, Before); 2] = [("case", from_case), ("draw", from_draw)];
     for (kind, before) in kinds {
@@ -38,7 +38,7 @@ const PARAMETERS: [&str; 5] = [
 ];
 
 /// Adds the fields that a new pass resets.
-pub(super) fn reset(list: &mut List) {
+pub(super) fn reset(list: &mut MutantList) {
     let acts = |name| !PARAMETERS.contains(&name);
     for field in FIELDS.iter().filter(|f| f.in_cases() && acts(f.name)) {
         let (name, words, take) = (field.name, field.words(), field.take);
@@ -58,7 +58,7 @@ pub(super) fn reset(list: &mut List) {
 
 /// Adds bugs that each keep one field of the draw before, as a driver does whose state tracking misses a
 /// change.
-pub(super) fn stays(list: &mut List) {
+pub(super) fn stays(list: &mut MutantList) {
     for field in FIELDS.iter().filter(|field| field.in_sequences()) {
         let (name, words, take) = (field.name, field.words(), field.take);
         rows! { list;

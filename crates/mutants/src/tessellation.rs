@@ -1,12 +1,12 @@
 //! Bugs of the facing of tessellated triangles.
 
-use crate::fields::{CULL, FRONT_FACE, Places, STENCIL};
+use crate::fields::{CULL, FRONT_FACE, FieldPlaces, STENCIL};
 use crate::list::bugs;
 use crate::plant::{draws, each, from_draw, set};
 use crate::tables::turned;
 use etalon_scene::{CullMode, DomainOrigin, Draw, FrontFace, PolygonMode, Shader, Tessellation};
 
-const TESSELLATION: Places<Tessellation> = |d| d.tessellation.iter_mut().collect();
+const TESSELLATION: FieldPlaces<Tessellation> = |d| d.tessellation.iter_mut().collect();
 
 /// Returns true for draws whose triangles face the opposite way to their patch.
 fn turns(draw: &Draw) -> bool {

@@ -1,14 +1,14 @@
 //! Bugs of textures that shaders sample.
 
-use crate::fields::{Places, SAMPLER};
+use crate::fields::{FieldPlaces, SAMPLER};
 use crate::list::{CONFUSION, SMALL, bugs};
 use crate::plant::{Plant, each, passes, scene};
 use crate::tables::pairs;
-use etalon_scene::{AddressMode, Contents, Draw, FilterMode};
+use etalon_scene::{AddressMode, AttachmentContents, Draw, FilterMode};
 use std::collections::BTreeSet;
 
 /// The texture coordinates of draws that sample textures.
-const COORDINATES: Places<[f32; 2]> = |d| {
+const COORDINATES: FieldPlaces<[f32; 2]> = |d| {
     let samples = d.shader.samples_texture();
     let vertices = d.mesh.vertices.iter_mut().filter(|_| samples);
     vertices.map(|v| &mut v.uv).collect()
@@ -41,7 +41,7 @@ fn texels(bug: fn(usize, &mut [u32])) -> Plant {
         for texture in sampled {
             let attachment = &mut scene.attachments[texture];
             let channels = attachment.format.color_channels().len();
-            if let Contents::Texels(codes) = &mut attachment.contents {
+            if let AttachmentContents::Texels(codes) = &mut attachment.contents {
                 let texels = codes.chunks_exact_mut(channels).enumerate();
                 texels.for_each(|(number, texel)| bug(number, texel));
             }

@@ -7,10 +7,12 @@ use crate::list::bugs;
 use crate::memory::{Area, texel_rows};
 use crate::plant::{Plant, all_draws, calls, draws, memory, moved, scene, sized};
 use PrimitiveTopology::{LineList, LineStrip, PointList};
-use etalon_cpu::Surface;
+use etalon_cpu::CpuSurface;
 use etalon_cpu::steps::Moment;
 use etalon_frame::{Aspect, ChannelEncoding};
-use etalon_scene::{Attachment, Contents, Draw, PolygonMode, PrimitiveTopology, PrimitiveVertices};
+use etalon_scene::{
+    Attachment, AttachmentContents, Draw, PolygonMode, PrimitiveTopology, PrimitiveVertices,
+};
 
 /// The sides of tiles, in texels.
 const TILES: [u32; 4] = [8, 16, 32, 64];
@@ -59,7 +61,7 @@ fn long(
 }
 
 /// Changes the codes of the texels in an area, in one aspect.
-fn spoil(surface: &mut Surface, attachment: &Attachment, aspect: Aspect, area: Area) {
+fn spoil(surface: &mut CpuSurface, attachment: &Attachment, aspect: Aspect, area: Area) {
     let encodings: &[ChannelEncoding] = match aspect {
         Aspect::Color => attachment.format.color_channels(),
         _ => attachment.format.depth_encodings(),
@@ -86,7 +88,7 @@ fn uncleared(
 ) -> Plant {
     memory(move |(), moment, scene, stored| {
         for (surface, attachment) in stored.surfaces.iter_mut().zip(&scene.attachments) {
-            let cleared = !matches!(attachment.contents, Contents::Texels(_));
+            let cleared = !matches!(attachment.contents, AttachmentContents::Texels(_));
             let has = attachment.format.aspects().contains(&aspect);
             if moment == Moment::Initial
                 && cleared

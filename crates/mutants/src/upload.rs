@@ -4,14 +4,14 @@ use crate::list::{SMALL, bugs};
 use crate::plant::{Plant, contents, in_bits};
 use etalon_frame::ChannelEncoding::Float16;
 use etalon_frame::TextureFormat::{self, Rgba8Unorm, Rgba32Float};
-use etalon_scene::Contents;
+use etalon_scene::AttachmentContents;
 
 /// Changes the codes of uploads, given the format and the number of codes per texel and per row.
 fn texels(bug: impl Fn(&mut Vec<u32>, TextureFormat, [usize; 2]) + Send + Sync + 'static) -> Plant {
     contents(move |attachment| {
         let texel = attachment.format.color_channels().len();
         let row = texel * attachment.size[0] as usize;
-        if let Contents::Texels(codes) = &mut attachment.contents {
+        if let AttachmentContents::Texels(codes) = &mut attachment.contents {
             bug(codes, attachment.format, [texel, row]);
         }
     })

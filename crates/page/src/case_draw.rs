@@ -5,14 +5,14 @@ use etalon_case::Case;
 use etalon_frame::Frame;
 use etalon_judge::{FrameSeconds, Timing};
 use etalon_scene::Scene;
-use etalon_webgpu::message::{Answer, Request, Times, packed, take_contents, unpacked};
-use etalon_webgpu::{CallList, Device, Reading, lower, plant};
+use etalon_webgpu::message::{Answer, PageTimes, Request, packed, take_contents, unpacked};
+use etalon_webgpu::{CallList, Device, MappedReading, lower, plant};
 
 /// The requests for the frames of a case.
 pub(crate) struct CaseDraw {
     pub(crate) requests: Vec<Vec<u8>>,
     /// The meaning of the bytes of each answer.
-    readings: Vec<Reading>,
+    readings: Vec<MappedReading>,
 }
 
 impl CaseDraw {
@@ -115,7 +115,7 @@ pub(crate) fn timed_request(
 /// If the device failed.
 pub(crate) fn times(answer: &[u8]) -> Result<Vec<FrameSeconds>, BackendError> {
     let (answer, _) = received(answer)?;
-    let seconds = |times: &Times| FrameSeconds {
+    let seconds = |times: &PageTimes| FrameSeconds {
         wall: times.wall / 1e3,
         cpu: times.cpu / 1e3,
         gpu: times.gpu.map(|gpu| gpu / 1e3),

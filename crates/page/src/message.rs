@@ -86,7 +86,7 @@ pub(crate) enum NextStep {
         renew: bool,
     },
     /// The record.
-    Outcome(Outcome),
+    Outcome(PageRecord),
 }
 
 /// The answers of a device.
@@ -114,7 +114,7 @@ pub(crate) struct Charts {
 
 /// A record.
 #[derive(Debug, Serialize)]
-pub(crate) struct Outcome {
+pub(crate) struct PageRecord {
     pub(crate) number: usize,
     pub(crate) verdict: Verdict,
     /// True if the record counts against the run.

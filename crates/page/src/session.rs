@@ -2,7 +2,7 @@
 
 use crate::case_draw::{CaseDraw, timed_request, times};
 use crate::message::{DeviceAnswers, NextStep, split};
-use crate::verdict::{Observation, outcome};
+use crate::verdict::{PageObservation, outcome};
 use etalon_backend::{BackendError, Fault};
 use etalon_case::{Case, CaseRef, Method};
 use etalon_diagnose::Symptom;
@@ -54,14 +54,14 @@ enum SessionStage {
     /// The frames of the case.
     Drawn,
     /// The frames once more, on a fresh device. The first observation was bad.
-    DrawnAgain(Observation),
+    DrawnAgain(PageObservation),
     /// Frames that are timed, after the case was judged.
-    Timed(Timing, Observation),
+    Timed(Timing, PageObservation),
     /// Everything.
-    Judged(Observation),
+    Judged(PageObservation),
 }
 
-fn judged(observed: Observation) -> (SessionStage, (NextStep, Vec<u8>)) {
+fn judged(observed: PageObservation) -> (SessionStage, (NextStep, Vec<u8>)) {
     let renew = observed.ends_device;
     let step = (NextStep::Judged { renew }, Vec::new());
     (SessionStage::Judged(observed), step)
@@ -119,7 +119,7 @@ impl Session {
         let case = self.built(number)?;
         let record = undrawn(&case, &self.adapter, &self.expectations, Some(&self.trips));
         if let Some(record) = record {
-            return self.recorded(number, Observation::of(record));
+            return self.recorded(number, PageObservation::of(record));
         }
         match CaseDraw::new(&case, &self.device, self.fault) {
             Ok(draw) => {
@@ -136,7 +136,7 @@ impl Session {
             Err(error) => {
                 let mut record = failed(&case, &self.adapter.info.name, &error);
                 record.due_fail = is_due_to_fail(&case, &self.adapter.limits);
-                self.recorded(number, Observation::of(record))
+                self.recorded(number, PageObservation::of(record))
             }
         }
     }
@@ -207,9 +207,9 @@ impl Session {
     fn recorded(
         &self,
         number: usize,
-        observed: Observation,
+        observed: PageObservation,
     ) -> Result<(NextStep, Vec<u8>), String> {
-        let Observation {
+        let PageObservation {
             record,
             frame,
             pictures,
@@ -221,7 +221,11 @@ impl Session {
     }
 
     /// Returns the worse of two drawings, the second on a fresh device.
-    fn confirmed(&mut self, mut first: Observation, second: Observation) -> Observation {
+    fn confirmed(
+        &mut self,
+        mut first: PageObservation,
+        second: PageObservation,
+    ) -> PageObservation {
         let (verdict, repeat) = (first.record.verdict, second.record.verdict);
         first.ends_device = second.ends_device;
         if verdict == repeat {
@@ -243,7 +247,7 @@ impl Session {
     fn timed(
         &self,
         pending: &Pending,
-        observed: Observation,
+        observed: PageObservation,
     ) -> (SessionStage, (NextStep, Vec<u8>)) {
         if observed.record.measured.is_none() || observed.record.verdict.is_bad() {
             return judged(observed);
@@ -255,7 +259,7 @@ impl Session {
         &self,
         pending: &Pending,
         timing: Timing,
-        observed: Observation,
+        observed: PageObservation,
     ) -> (SessionStage, (NextStep, Vec<u8>)) {
         match timed_request(&pending.case, &self.device, self.fault, timing) {
             Ok(request) => (
@@ -270,7 +274,7 @@ impl Session {
         &self,
         pending: &Pending,
         timing: Timing,
-        mut observed: Observation,
+        mut observed: PageObservation,
         drawn: &DeviceAnswers,
         answers: &[&[u8]],
     ) -> (SessionStage, (NextStep, Vec<u8>)) {
@@ -301,7 +305,12 @@ impl Session {
         }
     }
 
-    fn observe(&self, pending: &Pending, drawn: &DeviceAnswers, answers: &[&[u8]]) -> Observation {
+    fn observe(
+        &self,
+        pending: &Pending,
+        drawn: &DeviceAnswers,
+        answers: &[&[u8]],
+    ) -> PageObservation {
         let Pending {
             case, draw, judge, ..
         } = pending;
@@ -309,9 +318,9 @@ impl Session {
         let mut observed = if drawn.timeout {
             let mut record = Record::new(&case.id, &adapter.info.name, Verdict::Timeout);
             record.reasons = vec![NO_ANSWER];
-            Observation {
+            PageObservation {
                 ends_device: true,
-                ..Observation::of(record)
+                ..PageObservation::of(record)
             }
         } else {
             match draw.frames(answers, self.fault) {
@@ -323,18 +332,18 @@ impl Session {
                         &adapter.limits,
                         &frames,
                     );
-                    let mut observed = Observation {
+                    let mut observed = PageObservation {
                         frame,
-                        ..Observation::of(record)
+                        ..PageObservation::of(record)
                     };
                     if let (Some(method), Some(frame)) = (&case.method, frames.first()) {
                         self.measure(drawn.number, case, method, frame, &mut observed);
                     }
                     observed
                 }
-                Err(error) => Observation {
+                Err(error) => PageObservation {
                     ends_device: error.ends_drawing(),
-                    ..Observation::of(failed(case, &adapter.info.name, &error))
+                    ..PageObservation::of(failed(case, &adapter.info.name, &error))
                 },
             }
         };
@@ -350,10 +359,10 @@ impl Session {
         case: &Case,
         method: &Method,
         frame: &Frame,
-        observed: &mut Observation,
+        observed: &mut PageObservation,
     ) {
         let truth = self.truths.get(method);
-        let Observation {
+        let PageObservation {
             record, pictures, ..
         } = observed;
         record.measured = measured(case, &truth, frame);

@@ -1,12 +1,12 @@
 //! A judged drawing, and its record as lines and a file.
 
-use crate::message::Outcome;
-use etalon_judge::{Shown, shorten};
+use crate::message::PageRecord;
+use etalon_judge::{ShownDetail, shorten};
 use etalon_record::{FrameFile, Record, Verdict, frame_file, record_line};
 use etalon_report::RecordLine;
 
 /// A judged drawing.
-pub(crate) struct Observation {
+pub(crate) struct PageObservation {
     pub(crate) record: Record,
     pub(crate) frame: Option<FrameFile>,
     /// The paths and files of pictures.
@@ -15,7 +15,7 @@ pub(crate) struct Observation {
     pub(crate) ends_device: bool,
 }
 
-impl Observation {
+impl PageObservation {
     /// Returns a record without a frame.
     pub(crate) fn of(record: Record) -> Self {
         Self {
@@ -36,7 +36,7 @@ pub(crate) fn outcome(
     mut record: Record,
     frame: Option<&FrameFile>,
     pictures: Vec<(String, Vec<u8>)>,
-) -> Result<(Outcome, Vec<u8>), String> {
+) -> Result<(PageRecord, Vec<u8>), String> {
     let is_kept = record.verdict.is_violation() || record.verdict == Verdict::Flaky;
     let is_kept = is_kept || record.verdict == Verdict::Imprecise;
     let file = match frame.filter(|_| is_kept) {
@@ -46,12 +46,12 @@ pub(crate) fn outcome(
     let line = |record: &Record| record_line(record).map_err(|error| error.to_string());
     let short_line = if record.verdict == Verdict::Imprecise && file.is_some() {
         let mut short = record.clone();
-        shorten(&mut short, Shown::Whole, false);
+        shorten(&mut short, ShownDetail::Whole, false);
         line(&short)?
     } else {
         Vec::new()
     };
-    shorten(&mut record, Shown::Whole, file.is_some());
+    shorten(&mut record, ShownDetail::Whole, file.is_some());
     record.frame = file.as_ref().map(|(path, _)| path.clone());
     let mut bytes = line(&record)?;
     let (length, short) = (bytes.len(), short_line.len());
@@ -63,7 +63,7 @@ pub(crate) fn outcome(
     let pictures = pictures.collect();
     let (frame, packed) = file.unzip();
     bytes.extend(packed.unwrap_or_default());
-    let outcome = Outcome {
+    let outcome = PageRecord {
         number,
         verdict: record.verdict,
         unexpected: record.unexpected(),

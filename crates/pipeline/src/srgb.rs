@@ -13,7 +13,7 @@ const SLOTS: usize = 2 * PARTS;
 
 /// The codes of values, in tables that fit into the processor's cache.
 #[derive(Debug)]
-pub(crate) struct Codes {
+pub(crate) struct SrgbCodes {
     /// The code of each part's first value.
     first: Box<[u8; SLOTS]>,
     /// The least value of each code, and infinity.
@@ -21,14 +21,14 @@ pub(crate) struct Codes {
 }
 
 /// The codes of linear values.
-pub(crate) static CODES: LazyLock<Codes> = LazyLock::new(Codes::new);
+pub(crate) static CODES: LazyLock<SrgbCodes> = LazyLock::new(SrgbCodes::new);
 
 /// The linear values of codes.
 pub(crate) static VALUES: LazyLock<[f32; 256]> = LazyLock::new(|| {
     std::array::from_fn(|c| ChannelEncoding::Srgb8.value_of_order(c as i64) as f32)
 });
 
-impl Codes {
+impl SrgbCodes {
     fn new() -> Self {
         let least = std::array::from_fn(|code| match code {
             0 => 0.0,

@@ -11,6 +11,6 @@ use unix as system;
 use windows as system;
 
 pub use system::{
-    Group, Parent, crash, end_group, end_like, end_with_thread, memory, private_output, replace,
-    report_large_files, separate, signal, wait_for_end_of_input, write_output,
+    Parent, ProcessGroup, crash, end_group, end_like, end_with_thread, memory, private_output,
+    replace, report_large_files, separate, signal, wait_for_end_of_input, write_output,
 };

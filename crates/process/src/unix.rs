@@ -21,9 +21,9 @@ pub fn separate(command: &mut Command) -> &mut Command {
 
 /// A program and all the processes that it starts.
 #[derive(Debug)]
-pub struct Group(Option<Pid>);
+pub struct ProcessGroup(Option<Pid>);
 
-impl Group {
+impl ProcessGroup {
     /// Starts a program in a group of its own.
     ///
     /// # Errors

@@ -24,9 +24,9 @@ pub fn separate(command: &mut Command) -> &mut Command {
 
 /// A program and all the processes that it starts. They end when this is dropped.
 #[derive(Debug)]
-pub struct Group(Option<OwnedHandle>);
+pub struct ProcessGroup(Option<OwnedHandle>);
 
-impl Group {
+impl ProcessGroup {
     /// Starts a program in a job object of its own.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use crate::adapter::AdapterRecord;
 use crate::driver_version::version_of;
-use crate::expected_symptom::Shown;
+use crate::expected_symptom::SymptomParts;
 use crate::known::{Entry, Known};
 use crate::verdict::Verdict;
 use etalon_glob::{Glob, GlobIndex};
@@ -205,7 +205,7 @@ impl Expectations {
     }
 
     /// Returns true if an expectation excuses a record. Its cases and adapters are not checked.
-    pub(crate) fn excuses(&self, number: usize, record: Shown<'_>) -> bool {
+    pub(crate) fn excuses(&self, number: usize, record: SymptomParts<'_>) -> bool {
         self.all
             .get(number)
             .is_some_and(|k| k.excuses_record(record))
@@ -252,7 +252,7 @@ impl Expectations {
         &self,
         adapter: &AdapterRecord,
         case: &str,
-        record: Shown<'_>,
+        record: SymptomParts<'_>,
     ) -> Expectation<'_> {
         let agrees = |known: &Known| known.excuses_record(record);
         self.find(adapter, case, record.verdict, agrees)

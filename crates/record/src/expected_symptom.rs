@@ -19,7 +19,7 @@ state_enum! {
 
 /// The parts of a record that a symptom is compared with.
 #[derive(Clone, Copy, Debug)]
-pub struct Shown<'a> {
+pub struct SymptomParts<'a> {
     /// The verdict.
     pub verdict: Verdict,
     /// The wrong samples that the record lists.
@@ -66,7 +66,7 @@ impl ExpectedSymptom {
     }
 
     /// Returns true if a record shows this symptom and nothing else.
-    pub fn is_shown_by(&self, record: Shown<'_>) -> bool {
+    pub fn is_shown_by(&self, record: SymptomParts<'_>) -> bool {
         let texels = record.wrong.iter().filter(|w| w.band > Band::Imprecise);
         let mut channels = texels.flat_map(|w| &w.channels).peekable();
         let has_texels = channels.peek().is_some();

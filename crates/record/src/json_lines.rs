@@ -28,7 +28,7 @@ pub(crate) struct JsonLines<'a> {
 const HEADER_REMEDY: &str = "the file cannot be read without its header; take it from a copy, or record again into another folder";
 
 /// The end of the readable part of a file.
-pub(crate) struct Extent {
+pub(crate) struct ReadableEnd {
     /// The length of the header and the whole lines, in bytes.
     pub(crate) bytes: u64,
     /// True if the last line was cut off.
@@ -48,7 +48,7 @@ impl JsonLines<'_> {
         file: impl Read,
         begin: impl FnOnce(H) -> T,
         take: impl Fn(&mut T, L) -> Result<(), String>,
-    ) -> Result<(T, Extent), RecordError> {
+    ) -> Result<(T, ReadableEnd), RecordError> {
         let mut lines = BufReader::new(file);
         let mut line = Vec::new();
         // A file that is one endless line must not exhaust memory.
@@ -101,7 +101,7 @@ impl JsonLines<'_> {
             number += 1;
         }
         let truncated = damaged.is_some();
-        Ok((result, Extent { bytes, truncated }))
+        Ok((result, ReadableEnd { bytes, truncated }))
     }
 
     fn header<H: DeserializeOwned>(&self, line: &[u8]) -> Result<H, RecordError> {

@@ -1,6 +1,6 @@
 //! One known verdict: the common form of an entry of a list and of a finding.
 
-use crate::expected_symptom::{ExpectedSymptom, Shown};
+use crate::expected_symptom::{ExpectedSymptom, SymptomParts};
 use crate::findings::Finding;
 use crate::grade::Grade;
 use crate::verdict::Verdict;
@@ -54,7 +54,7 @@ pub struct Entry {
 
 /// What an expectation's file says beyond what is looked up.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Source {
+pub enum KnownSource {
     /// An entry of a list.
     Entry {
         /// The entry's evidence.
@@ -98,7 +98,7 @@ pub struct Known {
     /// The number in a list, from 1; `None` for a finding.
     pub number: Option<usize>,
     /// The file form.
-    pub source: Source,
+    pub source: KnownSource,
 }
 
 impl Known {
@@ -117,7 +117,7 @@ impl Known {
             labels: entry.labels,
             path: Arc::clone(path),
             number: Some(number),
-            source: Source::Entry {
+            source: KnownSource::Entry {
                 evidence: entry.evidence,
                 grade: entry.grade,
                 link: entry.link,
@@ -140,13 +140,13 @@ impl Known {
             labels: finding.labels.clone(),
             path: path.into(),
             number: None,
-            source: Source::Finding(Box::new(finding)),
+            source: KnownSource::Finding(Box::new(finding)),
         }
     }
 
     /// Returns the entry that this expectation was read from; `None` for a finding.
     pub fn entry(&self) -> Option<Entry> {
-        let Source::Entry {
+        let KnownSource::Entry {
             evidence,
             grade,
             link,
@@ -193,7 +193,7 @@ impl Known {
     /// also excuses violations on weaker evidence, because its bug can show as a weaker violation in some
     /// cases. `flaky` excuses every bad verdict.
     pub fn excuses(&self, verdict: Verdict) -> bool {
-        let finding = matches!(self.source, Source::Finding(_));
+        let finding = matches!(self.source, KnownSource::Finding(_));
         self.verdict == verdict
             || self.verdict == Verdict::Flaky && verdict.is_bad()
             || finding
@@ -203,7 +203,7 @@ impl Known {
     }
 
     /// Returns true if the expectation excuses a record: its verdict, and for a violation also its symptom.
-    pub fn excuses_record(&self, record: Shown<'_>) -> bool {
+    pub fn excuses_record(&self, record: SymptomParts<'_>) -> bool {
         let shown = |symptom: &ExpectedSymptom| {
             !record.verdict.is_violation() || symptom.is_shown_by(record)
         };

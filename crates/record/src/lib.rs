@@ -66,8 +66,8 @@ pub use adapter::{AbsentAdapter, AdapterRecord, Release};
 
 pub use bench::{
     BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchRecord, BenchSettings, BenchWriter, CellRate,
-    Counted, Done, Ended, Enough, InstructionCounter, Measure, Picture, ProcessorLimits, Round,
-    Time, cell,
+    CountedInstructions, Done, Ended, Enough, InstructionCounter, Measure, Picture,
+    ProcessorLimits, Round, Time, cell,
 };
 pub use change::{CaseResult, Change};
 pub use content::{Content, check_folder, is_marked, overlap};
@@ -76,7 +76,7 @@ pub use driver_version::version_of;
 pub use error::RecordError;
 pub use etalon_stats::Standing;
 pub use expectations::{Expectation, Expectations};
-pub use expected_symptom::{ExpectedSymptom, Shown, Side};
+pub use expected_symptom::{ExpectedSymptom, Side, SymptomParts};
 pub use findings::{Evidence, Finding, Reading, ReadingVerdict, Seen};
 pub use folder::{
     BENCH_FILE, BESIDE_FILE, CASES_FILE, DEAD_FILE, FUZZ_FILE, FolderKind, HUNT_FILE, MISSING_FILE,
@@ -87,7 +87,7 @@ pub use frame_writer::FrameWriter;
 pub use grade::Grade;
 pub use header::{FORMAT, Header, Settings, Shard};
 pub use hunt::{AreaTally, Catch, HUNT_FORMAT, Hunt, MutantInfo, MutantRecord, Sighting};
-pub use known::{Entry, Known, Source};
+pub use known::{Entry, Known, KnownSource};
 pub use line::{frame_file, header_line, picture_file, record_line};
 pub use lists::{About, Imported, ListError, ListKind, Lists};
 pub use lock::FolderLock;

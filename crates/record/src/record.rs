@@ -3,7 +3,7 @@
 use crate::adapter::AdapterRecord;
 use crate::change::CaseResult;
 use crate::expectations::{Expectation, Expectations};
-use crate::expected_symptom::Shown;
+use crate::expected_symptom::SymptomParts;
 use crate::measured::Measured;
 use crate::process_end::ProcessEnd;
 use crate::reason::{self, Reason};
@@ -178,8 +178,8 @@ impl Record {
     }
 
     /// Returns the parts that expectations compare.
-    pub fn shown(&self) -> Shown<'_> {
-        Shown {
+    pub fn shown(&self) -> SymptomParts<'_> {
+        SymptomParts {
             verdict: self.verdict,
             wrong: &self.wrong,
             counters: &self.counters,

@@ -7,10 +7,10 @@ use crate::range::Range;
 use crate::rules::Resolve;
 use crate::sample::Sample;
 use crate::walk::Walk;
-use crate::world::{Cell, World};
+use crate::world::{SampleContents, World};
 use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, Codes, Origin, ResolveChoice, Step};
 use etalon_pipeline::Arithmetic;
-use etalon_scene::Contents;
+use etalon_scene::AttachmentContents;
 
 /// The sum of a channel over the samples of a texel.
 #[derive(Clone, Copy)]
@@ -199,7 +199,7 @@ impl Walk<'_> {
                 samples: codes(samples),
                 results: codes(results),
             };
-            let mut stored = Cell::default();
+            let mut stored = SampleContents::default();
             if let Some(channels) = results.first() {
                 stored.set_channels(*channels);
             }
@@ -209,24 +209,24 @@ impl Walk<'_> {
     }
 
     /// Returns the contents of a texel of an attachment before the first pass.
-    pub(crate) fn first_contents(&self, index: usize, [x, y]: [usize; 2]) -> Cell {
+    pub(crate) fn first_contents(&self, index: usize, [x, y]: [usize; 2]) -> SampleContents {
         let mut judging = Judging::new(self.rules);
         let attachment = &self.scene.attachments[index];
         let encodings = attachment.format.color_channels();
-        let mut cell = Cell::default();
+        let mut cell = SampleContents::default();
         match &attachment.contents {
-            Contents::Color(color) => {
+            AttachmentContents::Color(color) => {
                 for (c, encoding) in encodings.iter().enumerate() {
                     let value = judging.constant(color[c]);
                     cell.set_channel(c, judging.encode(*encoding, value));
                 }
             }
-            Contents::DepthStencil { depth, stencil } => {
+            AttachmentContents::DepthStencil { depth, stencil } => {
                 let value = judging.constant(*depth);
                 cell.set_channel(0, judging.encode(self.depth_encoding(index), value));
                 cell.stencil = *stencil;
             }
-            Contents::Texels(codes) => {
+            AttachmentContents::Texels(codes) => {
                 let start = (y * attachment.size[0] as usize + x) * encodings.len();
                 for (c, encoding) in encodings.iter().enumerate() {
                     let order = encoding.order_of_code(codes[start + c]);
@@ -252,7 +252,9 @@ impl Walk<'_> {
                     let contents = || self.all_contents(index, &cell);
                     let origin = || Origin::Attachment(attachment.name.clone());
                     match &attachment.contents {
-                        Contents::Texels(_) => notes.add(origin, || Step::Upload(contents()), None),
+                        AttachmentContents::Texels(_) => {
+                            notes.add(origin, || Step::Upload(contents()), None)
+                        }
                         _ => {
                             let citation = self.rules.store.citation;
                             notes.add(origin, || Step::Clear(contents()), Some(citation));

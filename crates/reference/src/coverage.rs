@@ -212,7 +212,7 @@ impl Walk<'_> {
             // The side is relative to the edge's canonical direction.
             let wanted = (inside == EdgeSide::Positive) == (a < b);
             let mut inside_worlds = SmallVec::new();
-            let edge = Edge { number: i, side };
+            let edge = SampleEdge { number: i, side };
             for world in pending {
                 match world.decided(decision) {
                     Some(outcome) if outcome == wanted => {
@@ -255,7 +255,7 @@ impl Walk<'_> {
         &self,
         notes: &mut Notes<'_>,
         place: &FragmentPlace<'_>,
-        edge: Edge,
+        edge: SampleEdge,
         covers: Option<bool>,
     ) {
         let effect = match covers {
@@ -280,7 +280,7 @@ impl Walk<'_> {
 
 /// An edge of a triangle, and the side of it that the sample is on.
 #[derive(Clone, Copy)]
-struct Edge {
+struct SampleEdge {
     number: usize,
     side: EdgeSide,
 }

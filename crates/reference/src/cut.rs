@@ -10,7 +10,7 @@
 use crate::bias::slope;
 use crate::context::PassContext;
 use crate::depth::Depth;
-use crate::distance::Distance;
+use crate::distance::ClipDistance;
 use crate::interval::Interval;
 use crate::primitive::{Edge, Triangle, VertexId};
 use crate::rules::DepthTerms;
@@ -135,7 +135,7 @@ impl<'a> VisiblePart<'a> {
 }
 
 /// The part of a triangle that clipping leaves.
-pub(crate) struct CutTriangle<'a> {
+pub(crate) struct ClippedTriangle<'a> {
     seen: VisiblePart<'a>,
     vertices: [usize; 3],
     homogeneous: HomogeneousTriangle,
@@ -146,7 +146,7 @@ pub(crate) struct CutTriangle<'a> {
     flatness: f64,
 }
 
-impl<'a> CutTriangle<'a> {
+impl<'a> ClippedTriangle<'a> {
     /// Returns the part of a triangle that clipping leaves; `None` if nothing is left.
     pub(crate) fn new(
         context: &'a PassContext<'a>,
@@ -323,11 +323,11 @@ impl<'a> CutTriangle<'a> {
     }
 
     /// Returns a clip distance.
-    pub(crate) fn distance(&self, values: [f64; 3]) -> Distance {
+    pub(crate) fn distance(&self, values: [f64; 3]) -> ClipDistance {
         if values.iter().all(|v| *v >= 0.0) || values.iter().all(|v| *v < 0.0) {
-            return Distance::between(&values);
+            return ClipDistance::between(&values);
         }
-        Distance::of_plane(self.over_w(values))
+        ClipDistance::of_plane(self.over_w(values))
     }
 
     /// Returns the slope per texel that a depth bias uses.

@@ -11,7 +11,7 @@ use crate::range::Range;
 use crate::rules::Resolve;
 use crate::sample::Sample;
 use crate::walk::Walk;
-use crate::world::{Cell, Worlds, merge};
+use crate::world::{SampleContents, Worlds, merge};
 use etalon_frame::{Aspect, ChannelEncoding, CodeInterval, Origin, Step};
 use etalon_pipeline::Arithmetic;
 use etalon_scene::{DepthStencilResolve, ResolveMode};
@@ -187,7 +187,7 @@ impl Walk<'_> {
         notes: &mut Notes<'_>,
         p: usize,
         (source, resolve): (usize, &DepthStencilResolve),
-        contents: Cell,
+        contents: SampleContents,
     ) {
         for (aspect, mode) in [
             (Aspect::Depth, resolve.depth),

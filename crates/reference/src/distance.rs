@@ -16,7 +16,7 @@ const EDGE_STEPS: f64 = 2.0;
 
 /// A clip distance over a primitive.
 #[derive(Clone, Debug)]
-pub(crate) enum Distance {
+pub(crate) enum ClipDistance {
     /// The least and the greatest value anywhere on the primitive.
     Between(Interval),
     /// Linear over a triangle.
@@ -29,7 +29,7 @@ pub(crate) enum Distance {
     Along { plane: DepthPlane, error: f64 },
 }
 
-impl Distance {
+impl ClipDistance {
     /// Returns a distance that is constant, or that varies between the vertices in an unknown way.
     pub(crate) fn between(values: &[f64]) -> Self {
         let intervals = values.iter().map(|v| Interval::exact(*v));
@@ -78,7 +78,7 @@ impl Distance {
         Self::Along { plane, error }
     }
 
-    /// Like [`Distance::keeps`], for any point in the texel that contains this one.
+    /// Like [`ClipDistance::keeps`], for any point in the texel that contains this one.
     pub(crate) fn keeps_in_texel(&self, at: Point, units: i64) -> Possible {
         let corner = |v: i64, step: i64| v.div_euclid(units) * units + step;
         let corners = [(0, 0), (units, 0), (0, units), (units, units)].map(|(dx, dy)| {
@@ -147,7 +147,7 @@ mod tests {
     fn a_plane_is_open_only_where_an_edge_may_lie() {
         let corners = [exact(0, 0), exact(16, 0), exact(0, 16)];
         let rules = rules();
-        let over = |values| Distance::over(corners, values, sixteenths(&rules), 1e-5);
+        let over = |values| ClipDistance::over(corners, values, sixteenths(&rules), 1e-5);
         // Zero between columns 5 and 6, half a texel from both centres.
         let between = over([-6.0, 10.0, -6.0]);
         assert_eq!(between.keeps(at(5)), Possible::Never);
@@ -167,7 +167,7 @@ mod tests {
     fn zero_is_inside_and_all_negative_is_outside() {
         let corners = [exact(0, 0), exact(16, 0), exact(0, 16)];
         let rules = rules();
-        let over = |values| Distance::over(corners, values, sixteenths(&rules), 1e-5);
+        let over = |values| ClipDistance::over(corners, values, sixteenths(&rules), 1e-5);
         assert_eq!(over([0.0; 3]).keeps(at(4)), Possible::Always);
         assert_eq!(over([0.0, 1.0, -0.0]).keeps(at(0)), Possible::Always);
         assert_eq!(over([-1.0, -0.5, -2.0]).keeps(at(4)), Possible::Never);
@@ -176,7 +176,7 @@ mod tests {
     #[test]
     fn a_line_is_open_within_two_texels_of_its_cut() {
         let ends = [exact(0, 3), exact(16, 3)];
-        let line = Distance::along(ends, [-8.0, 8.0], UNITS);
+        let line = ClipDistance::along(ends, [-8.0, 8.0], UNITS);
         assert_eq!(line.keeps(at(4)), Possible::Never);
         assert_eq!(line.keeps(at(8)), Possible::Maybe);
         assert_eq!(line.keeps(at(11)), Possible::Always);

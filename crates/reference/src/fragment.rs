@@ -10,7 +10,7 @@ use crate::range::Range;
 use crate::rules::{AlphaToCoverage, DepthOrder, DepthRange, EarlyUpdates, MaskOfOne, SameDepth};
 use crate::stencil_face::Face;
 use crate::walk::{FragmentPlace, Walk};
-use crate::world::{Cell, Increment, World, Worlds};
+use crate::world::{Increment, SampleContents, World, Worlds};
 use etalon_frame::{
     Aspect, ChannelEncoding, CodeInterval, CounterKind, DepthTest, Effect, Rejection, Step,
     ValueRange,
@@ -728,9 +728,9 @@ impl Walk<'_> {
         let Some(attachment) = self.scene.passes[place.pass].depth_stencil else {
             return;
         };
-        let stored = (after != before).then_some(Cell {
+        let stored = (after != before).then_some(SampleContents {
             stencil: after,
-            ..Cell::default()
+            ..SampleContents::default()
         });
         self.note_effect(notes, place, self.rules.stencil, stored, || {
             let target = self.target(attachment, Aspect::Stencil);
@@ -755,7 +755,7 @@ impl Walk<'_> {
         place: &FragmentPlace<'_>,
         function: CompareFunction,
         incoming: Incoming,
-        stored: Cell,
+        stored: SampleContents,
         encoding: ChannelEncoding,
         notes: &mut Notes<'_>,
     ) -> [bool; 2] {

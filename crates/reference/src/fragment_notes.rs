@@ -5,7 +5,7 @@ use crate::notes::{Note, Notes};
 use crate::range::Range;
 use crate::sample::Sample;
 use crate::walk::{FragmentPlace, Walk};
-use crate::world::Cell;
+use crate::world::SampleContents;
 use etalon_frame::{
     Aspect, BlendedChannel, ChannelEncoding, CodeInterval, Codes, Contents, Effect, Event,
     Rejection, Step, Target,
@@ -20,7 +20,7 @@ impl Walk<'_> {
         notes: &mut Notes<'_>,
         place: &FragmentPlace<'_>,
         citation: &str,
-        stored: Option<Cell>,
+        stored: Option<SampleContents>,
         operation: impl FnOnce() -> (Effect, Step),
     ) {
         notes.push(|| {
@@ -102,7 +102,7 @@ impl Walk<'_> {
         place: &FragmentPlace<'_>,
         attachment: usize,
         write_mask: u8,
-        cell: Cell,
+        cell: SampleContents,
         notes: &mut Notes<'_>,
     ) {
         let channels = self.scene.attachments[attachment].format.color_channels();
@@ -144,7 +144,12 @@ impl Walk<'_> {
     }
 
     /// Returns the contents of an aspect of an attachment as they are stored.
-    pub(crate) fn contents(&self, attachment: usize, aspect: Aspect, cell: &Cell) -> Contents {
+    pub(crate) fn contents(
+        &self,
+        attachment: usize,
+        aspect: Aspect,
+        cell: &SampleContents,
+    ) -> Contents {
         let Target {
             attachment: name, ..
         } = self.target(attachment, aspect);
@@ -162,7 +167,7 @@ impl Walk<'_> {
     }
 
     /// Returns the contents of all aspects of an attachment as they are stored.
-    pub(crate) fn all_contents(&self, attachment: usize, cell: &Cell) -> Vec<Contents> {
+    pub(crate) fn all_contents(&self, attachment: usize, cell: &SampleContents) -> Vec<Contents> {
         let aspects = self.scene.attachments[attachment].format.aspects().iter();
         aspects
             .map(|aspect| self.contents(attachment, *aspect, cell))

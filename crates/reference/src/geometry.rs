@@ -9,7 +9,7 @@ use crate::strokes::PassStrokes;
 use crate::texels::Texels;
 use crate::walk::Walk;
 use etalon_frame::Limits;
-use etalon_scene::{Attachment, Contents, Draw, Pass, Scene};
+use etalon_scene::{Attachment, AttachmentContents, Draw, Pass, Scene};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -163,8 +163,10 @@ fn same_geometry((a, a_limits): (&Scene, &Limits), (b, b_limits): (&Scene, &Limi
 /// Returns true if two textures have the same uploaded texels, or if both have none.
 fn same_texels(a: &Attachment, b: &Attachment) -> bool {
     match (&a.contents, &b.contents) {
-        (Contents::Texels(x), Contents::Texels(y)) => a.format == b.format && x == y,
-        (Contents::Texels(_), _) | (_, Contents::Texels(_)) => false,
+        (AttachmentContents::Texels(x), AttachmentContents::Texels(y)) => {
+            a.format == b.format && x == y
+        }
+        (AttachmentContents::Texels(_), _) | (_, AttachmentContents::Texels(_)) => false,
         _ => true,
     }
 }

@@ -4,7 +4,7 @@ use crate::interval::Interval;
 use crate::possible::Possible;
 use crate::primitive::{Shape, inside_of};
 use crate::range::Range;
-use crate::rules::InputMask;
+use crate::rules::InputMaskRule;
 use crate::sample::Sample;
 use crate::walk::{FragmentPlace, Walk};
 use etalon_scene::{Draw, EarlyTests};
@@ -62,11 +62,11 @@ impl Walk<'_> {
             self.rules.input_mask.value(),
             draw.multisample.min_sample_shading,
         ) {
-            (InputMask::AllOrOwn, _) if covered == sample_bit => smallvec![sample_bit],
-            (InputMask::AllOrOwn, _) => smallvec![covered, sample_bit],
+            (InputMaskRule::AllOrOwn, _) if covered == sample_bit => smallvec![sample_bit],
+            (InputMaskRule::AllOrOwn, _) => smallvec![covered, sample_bit],
             _ if draw.shader.runs_per_sample() => smallvec![sample_bit],
-            (InputMask::OfRun, None) => smallvec![covered],
-            (InputMask::OfRun | InputMask::OfAnyRun, Some(1.0)) => smallvec![sample_bit],
+            (InputMaskRule::OfRun, None) => smallvec![covered],
+            (InputMaskRule::OfRun | InputMaskRule::OfAnyRun, Some(1.0)) => smallvec![sample_bit],
             _ => smallvec![some],
         }
     }

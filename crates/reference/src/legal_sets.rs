@@ -8,7 +8,7 @@ use crate::picture::shapes;
 use crate::read_back::as_read;
 use crate::rules::Rules;
 use crate::ruling::ruling;
-use crate::sample::{Sample, Shape};
+use crate::sample::{Sample, SampleShape};
 use crate::snap::basis_bits;
 use crate::states::{OPEN, StateNumber};
 use crate::texels::Texels;
@@ -226,7 +226,7 @@ pub fn legal_set_of_texels(
 }
 
 /// Returns the shapes of passes with counters.
-fn counted(scene: &Scene) -> BTreeSet<Shape> {
+fn counted(scene: &Scene) -> BTreeSet<SampleShape> {
     let counts = scene
         .passes
         .iter()

@@ -1,7 +1,7 @@
 //! The notes of a walk, from which the story of a sample is made. Each has an event and, for a store, the new
 //! contents.
 
-use crate::world::Cell;
+use crate::world::SampleContents;
 use etalon_frame::{Effect, Event, Origin, Rejection, Step, Target};
 
 /// An operation with its effect.
@@ -9,7 +9,7 @@ use etalon_frame::{Effect, Event, Origin, Rejection, Step, Target};
 pub(crate) struct Note {
     pub(crate) event: Event,
     /// The new contents of the attachment, for a store.
-    pub(crate) stored: Option<Cell>,
+    pub(crate) stored: Option<SampleContents>,
 }
 
 impl Note {
@@ -18,7 +18,7 @@ impl Note {
         origin: Origin,
         step: Step,
         target: Target,
-        stored: Cell,
+        stored: SampleContents,
         citation: &str,
     ) -> Self {
         Self {

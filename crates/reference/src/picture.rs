@@ -4,14 +4,14 @@
 //! little on the number of texels.
 
 use crate::notes::Notes;
-use crate::sample::{Sample, Shape};
+use crate::sample::{Sample, SampleShape};
 use crate::signature::SampleKey;
 use crate::states::{OPEN, StateNumber, States};
 use crate::strokes::{PassStrokes, Strokes, Tracer, runs};
 use crate::texels::Lattice;
 use crate::walk::{Hit, Walk, in_scissor, resolved};
-use crate::world::{Cell, World, Worlds};
-use etalon_scene::{Contents, Scene};
+use crate::world::{SampleContents, World, Worlds};
+use etalon_scene::{AttachmentContents, Scene};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 use std::collections::BTreeSet;
@@ -48,7 +48,7 @@ impl DrawOutcomes {
 impl Walk<'_> {
     /// Walks the pictures of some shapes through all passes; [`Walk::earlier`] then answers for every judged
     /// sample. `strokes` are the kept strokes of each pass.
-    pub(crate) fn paint(&self, shapes: &[Shape], strokes: &[Option<PassStrokes>]) {
+    pub(crate) fn paint(&self, shapes: &[SampleShape], strokes: &[Option<PassStrokes>]) {
         {
             let mut pictures = self.pictures.borrow_mut();
             for shape in shapes {
@@ -64,7 +64,7 @@ impl Walk<'_> {
     }
 
     /// Returns the states before the first pass.
-    fn first_states(&self, (size, samples): Shape, states: &mut States) -> Vec<StateNumber> {
+    fn first_states(&self, (size, samples): SampleShape, states: &mut States) -> Vec<StateNumber> {
         let count = size[0] as usize * size[1] as usize * samples as usize;
         let lattice = self.texels.lattice(size);
         let attachments = || self.scene.attachments.iter().enumerate();
@@ -72,7 +72,7 @@ impl Walk<'_> {
         let held = held(self.scene, (size, samples));
         let uploaded = attachments().filter(|(index, _)| held[*index]);
         let uploaded: Vec<(usize, usize)> = uploaded
-            .filter(|(_, a)| matches!(a.contents, Contents::Texels(_)))
+            .filter(|(_, a)| matches!(a.contents, AttachmentContents::Texels(_)))
             .map(|(index, a)| (index, a.format.color_channels().len()))
             .collect();
         let sample_at = |x: u32, y: u32| Sample {
@@ -87,7 +87,7 @@ impl Walk<'_> {
                 if held[index] {
                     self.first_contents(index, [at.x as usize, at.y as usize])
                 } else {
-                    Cell::default()
+                    SampleContents::default()
                 }
             });
             let mut worlds: Worlds = SmallVec::new();
@@ -116,7 +116,8 @@ impl Walk<'_> {
             key.clear();
             let texel = y as usize * size[0] as usize + x as usize;
             for (index, channels) in &uploaded {
-                if let Contents::Texels(codes) = &self.scene.attachments[*index].contents {
+                if let AttachmentContents::Texels(codes) = &self.scene.attachments[*index].contents
+                {
                     key.extend_from_slice(&codes[texel * channels..(texel + 1) * channels]);
                 }
             }
@@ -182,7 +183,12 @@ impl Walk<'_> {
 
     /// Makes the samples of draws with unknown vertices open. Such draws can cover any texel, even one that
     /// no known primitive touches.
-    fn paint_open_draws(&self, p: usize, (size, samples): Shape, picture: &mut [StateNumber]) {
+    fn paint_open_draws(
+        &self,
+        p: usize,
+        (size, samples): SampleShape,
+        picture: &mut [StateNumber],
+    ) {
         let draws = self.scene.passes[p].draws.iter();
         for (draw, texts) in draws.zip(&self.open_texts[p]) {
             if !texts.vertices || draw.rasterizer_discard {
@@ -207,7 +213,7 @@ impl Walk<'_> {
     fn paint_clears(
         &self,
         (p, draw): (usize, usize),
-        (size, samples): Shape,
+        (size, samples): SampleShape,
         picture: &mut [StateNumber],
     ) {
         let clears = self.scene.passes[p].clears_before(draw);
@@ -287,7 +293,7 @@ impl Walk<'_> {
 
     fn paint_resolves(&self, p: usize) {
         let pass = &self.scene.passes[p];
-        let mut shapes: Vec<Shape> = Vec::new();
+        let mut shapes: Vec<SampleShape> = Vec::new();
         for target in pass.resolve_targets() {
             let attachment = &self.scene.attachments[target];
             let shape = (attachment.size, attachment.samples);
@@ -301,7 +307,7 @@ impl Walk<'_> {
     }
 
     /// Resolves into the attachments of one shape.
-    fn paint_resolves_into(&self, p: usize, (size, samples): Shape) {
+    fn paint_resolves_into(&self, p: usize, (size, samples): SampleShape) {
         let pass = &self.scene.passes[p];
         let source_samples = self.scene.pass_samples(pass);
         let mut picture = self.pictures.borrow().of_shape((size, samples)).to_vec();
@@ -359,7 +365,7 @@ impl Walk<'_> {
 }
 
 /// Returns for each attachment whether it has a shape and is drawn to or read back.
-fn held(scene: &Scene, (size, samples): Shape) -> Vec<bool> {
+fn held(scene: &Scene, (size, samples): SampleShape) -> Vec<bool> {
     let mut held = vec![false; scene.attachments.len()];
     for index in drawn_or_read(scene) {
         let attachment = &scene.attachments[index];
@@ -378,14 +384,14 @@ fn drawn_or_read(scene: &Scene) -> impl Iterator<Item = usize> {
 }
 
 /// Returns the shapes of all attachments that a scene draws to or reads back.
-pub(crate) fn shapes(scene: &Scene) -> Vec<Shape> {
+pub(crate) fn shapes(scene: &Scene) -> Vec<SampleShape> {
     let shape = |index: usize| {
         (
             scene.attachments[index].size,
             scene.attachments[index].samples,
         )
     };
-    let shapes: BTreeSet<Shape> = drawn_or_read(scene).map(shape).collect();
+    let shapes: BTreeSet<SampleShape> = drawn_or_read(scene).map(shape).collect();
     shapes.into_iter().collect()
 }
 

@@ -1,7 +1,7 @@
 //! Snapped primitives: the samples they can and must cover, and their depth there.
 
 use crate::depth::Depth;
-use crate::distance::Distance;
+use crate::distance::ClipDistance;
 use crate::interval::Interval;
 use crate::possible::Possible;
 use crate::range::Range as Values;
@@ -87,7 +87,7 @@ pub(crate) struct SnappedPrimitive {
     /// 1 over the clip-space w, if the shader reads it.
     pub(crate) reciprocal_w: Option<Box<Varying>>,
     /// The enabled clip distances.
-    pub(crate) distances: Box<[Distance]>,
+    pub(crate) distances: Box<[ClipDistance]>,
     /// A number that is equal for the same vertices under the same viewport; `None` if the draw tests no
     /// depth, or if no other fragment of the scene can have the same.
     pub(crate) geometry: Option<NonZeroU64>,

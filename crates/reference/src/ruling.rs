@@ -7,8 +7,8 @@ use crate::sample::Sample;
 use crate::walk::Walk;
 use crate::world::World;
 use etalon_frame::{
-    Allowed, Aspect, ChannelEncoding, CodeInterval, Codes, Contents, Demand, Effect, Event, Frame,
-    Initial, Reason, Rejection, Returned, Ruling, Source, Step, TexelSet, Values,
+    Allowed, Aspect, ChannelEncoding, CodeInterval, Codes, ContentSource, Contents, DecidingStep,
+    Demand, Effect, Event, Frame, Initial, Rejection, Returned, Ruling, Step, TexelSet, Values,
 };
 use etalon_scene as scene;
 
@@ -227,14 +227,14 @@ impl RuledSample<'_> {
             return Some(Returned::Kept {
                 contents: view.holding(values),
                 from: match note.event.origin.draw() {
-                    Some((pass, draw)) => Source::Draw { pass, draw },
-                    None => Source::Operation,
+                    Some((pass, draw)) => ContentSource::Draw { pass, draw },
+                    None => ContentSource::Operation,
                 },
             });
         }
         came_back(view.of(&self.initial)).then(|| Returned::Kept {
             contents: view.contents(&self.initial),
-            from: Source::Initial(self.first_source(view)),
+            from: ContentSource::Initial(self.first_source(view)),
         })
     }
 
@@ -260,15 +260,15 @@ impl RuledSample<'_> {
 
     /// Returns the operations that decide a view: the last draw that stores, and the rejections of later
     /// draws; then the number of rejected draws that are not listed.
-    fn reasons(&self, view: &AspectView) -> (Vec<Reason>, usize) {
+    fn reasons(&self, view: &AspectView) -> (Vec<DecidingStep>, usize) {
         let mut reasons = Vec::new();
         let mut since = None;
         if let Some((note, _)) = self.stores(view).last() {
             let event = &note.event;
             let Some(draw) = event.origin.draw() else {
                 let reason = match event.step {
-                    Step::Clear(_) => Reason::Cleared(event.clone()),
-                    _ => Reason::Resolved(event.clone()),
+                    Step::Clear(_) => DecidingStep::Cleared(event.clone()),
+                    _ => DecidingStep::Resolved(event.clone()),
                 };
                 return (vec![reason], 0);
             };
@@ -277,7 +277,7 @@ impl RuledSample<'_> {
                 matches!(e.effect, Effect::MayReject(_)) && e.origin.draw() == Some(draw)
             });
             reasons.push(match open {
-                Some(open) if self.set.worlds.len() > 1 => Reason::Open(open.clone()),
+                Some(open) if self.set.worlds.len() > 1 => DecidingStep::Open(open.clone()),
                 _ => self.stored(event, view.aspect),
             });
         }
@@ -292,12 +292,12 @@ impl RuledSample<'_> {
     }
 
     /// Returns the reason for the contents that the last storing draw leaves.
-    fn stored(&self, store: &Event, aspect: Aspect) -> Reason {
+    fn stored(&self, store: &Event, aspect: Aspect) -> DecidingStep {
         let of_fragment = || self.events().rev().filter(|e| e.origin == store.origin);
         let color = aspect == Aspect::Color;
         let shade = of_fragment().find(|e| color && matches!(e.step, Step::Shade { .. }));
         let mut steps = of_fragment().map(|e| &e.step);
-        Reason::Stored {
+        DecidingStep::Stored {
             store: store.clone(),
             shade: shade.cloned().map(Box::new),
             blended: steps.any(|s| matches!(s, Step::Blend(_) | Step::AdvancedBlend { .. })),
@@ -306,7 +306,7 @@ impl RuledSample<'_> {
 
     /// Returns the rejections of all draws, or of the draws after `since`. A rejection is the last operation
     /// that a draw reaches.
-    fn ends(&self, view: &AspectView, since: Option<(usize, usize)>) -> Vec<Reason> {
+    fn ends(&self, view: &AspectView, since: Option<(usize, usize)>) -> Vec<DecidingStep> {
         let mut draws: Vec<(usize, usize)> = Vec::new();
         let effective = self.events().filter(|e| !e.effect.is_none());
         for draw in effective.filter_map(|e| e.origin.draw()) {
@@ -314,12 +314,12 @@ impl RuledSample<'_> {
                 draws.push(draw);
             }
         }
-        let ends: Vec<Reason> = draws.iter().map(|draw| self.end(view, *draw)).collect();
+        let ends: Vec<DecidingStep> = draws.iter().map(|draw| self.end(view, *draw)).collect();
         // Adjacent draws that miss the sample for the same reason share an entry.
         let together = ends.chunk_by(|a, b| elsewhere(a).is_some() && elsewhere(a) == elsewhere(b));
         together
             .map(|group| match &group[0] {
-                Reason::Ended { by, .. } => Reason::Ended {
+                DecidingStep::Ended { by, .. } => DecidingStep::Ended {
                     by: by.clone(),
                     draws: group.len(),
                 },
@@ -329,7 +329,7 @@ impl RuledSample<'_> {
     }
 
     /// Returns the rejection of a draw that does not store to a view.
-    fn end(&self, view: &AspectView, (pass, draw): (usize, usize)) -> Reason {
+    fn end(&self, view: &AspectView, (pass, draw): (usize, usize)) -> DecidingStep {
         let events = || {
             let mine = |e: &&Event| e.origin.draw() == Some((pass, draw));
             self.events().filter(mine)
@@ -339,7 +339,7 @@ impl RuledSample<'_> {
             _ => false,
         });
         if let Some(kept) = keeps.next() {
-            return Reason::Kept(kept.clone());
+            return DecidingStep::Kept(kept.clone());
         }
         let certain = events().filter_map(|e| match e.effect {
             Effect::Rejects(rejection) => Some((rejection, e)),
@@ -351,11 +351,11 @@ impl RuledSample<'_> {
         });
         let last = certain.max_by_key(|(rejection, _)| *rejection);
         match last.or_else(|| possible.max_by_key(|(rejection, _)| *rejection)) {
-            Some((_, by)) => Reason::Ended {
+            Some((_, by)) => DecidingStep::Ended {
                 by: by.clone(),
                 draws: 1,
             },
-            None => Reason::Unwritten {
+            None => DecidingStep::Unwritten {
                 pass,
                 draw,
                 aspect: view.aspect,
@@ -366,15 +366,15 @@ impl RuledSample<'_> {
     /// Returns the source of a view's initial contents.
     fn first_source(&self, view: &AspectView) -> Initial {
         match &self.walk.scene.attachments[view.attachment].contents {
-            scene::Contents::Texels(_) => Initial::Upload,
+            scene::AttachmentContents::Texels(_) => Initial::Upload,
             _ => Initial::Clear,
         }
     }
 }
 
 /// Returns the rejection that keeps a draw away from a sample; `None` for a draw that reaches it.
-fn elsewhere(reason: &Reason) -> Option<Rejection> {
-    let Reason::Ended { by, .. } = reason else {
+fn elsewhere(reason: &DecidingStep) -> Option<Rejection> {
+    let DecidingStep::Ended { by, .. } = reason else {
         return None;
     };
     if matches!(by.step, Step::Coverage(coverage) if coverage.is_edge()) {

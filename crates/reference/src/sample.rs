@@ -5,7 +5,7 @@ use etalon_frame::Limits;
 use etalon_pipeline::Point;
 
 /// The size and the sample count of attachments.
-pub(crate) type Shape = ([u32; 2], u32);
+pub(crate) type SampleShape = ([u32; 2], u32);
 
 /// One sample of the attachments of one shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -2,9 +2,9 @@
 
 use crate::bias::{Biased, clamped_at_vertices, depth_bias, slopes};
 use crate::context::PassContext;
-use crate::cut::{CutLine, CutTriangle, is_cut, is_cut_line};
+use crate::cut::{ClippedTriangle, CutLine, is_cut, is_cut_line};
 use crate::depth::Depth;
-use crate::distance::Distance;
+use crate::distance::ClipDistance;
 use crate::interval::Interval;
 use crate::primitive::{Shape, SnappedPrimitive, Triangle, VertexId};
 use crate::snap::{SnapBox, area, units_per_texel};
@@ -151,7 +151,7 @@ struct ShapeData {
     bias: Interval,
     uv: Option<[Varying; 2]>,
     reciprocal_w: Option<Varying>,
-    distances: Vec<Distance>,
+    distances: Vec<ClipDistance>,
 }
 
 /// Returns the parts of a primitive; `None` if all of it is clipped.
@@ -324,7 +324,7 @@ fn point_behind(
         PrimitiveVertices::Point(i),
         Grid::Adapter,
     );
-    parts.distances.push(Distance::UNKNOWN);
+    parts.distances.push(ClipDistance::UNKNOWN);
     Some(parts)
 }
 
@@ -335,7 +335,7 @@ fn cut_triangle(
     vertices: &mut Vertices,
     triangle: [usize; 3],
 ) -> Option<ShapeData> {
-    let cut = CutTriangle::new(context, draw, triangle)?;
+    let cut = ClippedTriangle::new(context, draw, triangle)?;
     let boxes = triangle.map(|i| {
         let uncut = !is_cut(context, draw, &[i]);
         uncut.then(|| vertices.get(context, draw, i, Grid::Adapter).snapped)
@@ -375,18 +375,18 @@ fn cut_line(context: &PassContext<'_>, draw: &Draw, line: [usize; 2]) -> Option<
         Varying::Linear(Depth::flat(&values.map(Interval::exact)).interpolated(error))
     };
     let uv = |axis: usize| between(line.map(|i| f64::from(draw.mesh.vertices[i].uv[axis])));
-    let mut distances: Vec<Distance> = clipping_distances(draw)
+    let mut distances: Vec<ClipDistance> = clipping_distances(draw)
         .map(|n| {
             let values = line.map(|i| distance(draw, i, n));
             if may_stay_unclipped(context, values) {
-                Distance::UNKNOWN
+                ClipDistance::UNKNOWN
             } else {
-                Distance::between(&values)
+                ClipDistance::between(&values)
             }
         })
         .collect();
     let may_be_missing = cut.may_be_clipped || may_be_lost_behind(context, draw, line);
-    distances.extend(may_be_missing.then_some(Distance::UNKNOWN));
+    distances.extend(may_be_missing.then_some(ClipDistance::UNKNOWN));
     Some(ShapeData {
         shape: Shape::Line(cut.ends),
         window_depth: Depth::along(cut.ends, cut.window_z, units, error),
@@ -510,7 +510,7 @@ impl Over<'_> {
     }
 
     /// Returns the enabled clip distances.
-    fn distances(&self) -> Vec<Distance> {
+    fn distances(&self) -> Vec<ClipDistance> {
         let error = self.context.rules.float_error.value();
         let [a, b, _] = self.boxes;
         clipping_distances(self.draw)
@@ -520,20 +520,22 @@ impl Over<'_> {
                 match self.indices {
                     PrimitiveVertices::Triangle(corners) if !self.outline => {
                         let sub_texels = self.context.sub_texels();
-                        Distance::over(self.boxes, corners.map(over_w), sub_texels, error)
+                        ClipDistance::over(self.boxes, corners.map(over_w), sub_texels, error)
                     }
                     PrimitiveVertices::Line(ends)
                         if may_stay_unclipped(self.context, ends.map(value)) =>
                     {
-                        Distance::UNKNOWN
+                        ClipDistance::UNKNOWN
                     }
                     PrimitiveVertices::Line(ends) if self.w(ends[0]) == self.w(ends[1]) => {
-                        Distance::along([a, b], ends.map(value), self.units())
+                        ClipDistance::along([a, b], ends.map(value), self.units())
                     }
                     // Along a line in perspective, clip distances are not linear in the picture.
-                    PrimitiveVertices::Triangle(corners) => Distance::between(&corners.map(value)),
-                    PrimitiveVertices::Line(ends) => Distance::between(&ends.map(value)),
-                    PrimitiveVertices::Point(vertex) => Distance::between(&[value(vertex)]),
+                    PrimitiveVertices::Triangle(corners) => {
+                        ClipDistance::between(&corners.map(value))
+                    }
+                    PrimitiveVertices::Line(ends) => ClipDistance::between(&ends.map(value)),
+                    PrimitiveVertices::Point(vertex) => ClipDistance::between(&[value(vertex)]),
                 }
             })
             .collect()

@@ -9,7 +9,7 @@ use crate::sample::Sample;
 use crate::walk::{FragmentPlace, Hit, Walk};
 use crate::world::World;
 use etalon_frame::Rejection;
-use etalon_scene::{Contents, Draw, EarlyTests, InterpolationSampling, Multisample};
+use etalon_scene::{AttachmentContents, Draw, EarlyTests, InterpolationSampling, Multisample};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 use std::num::NonZeroU64;
@@ -179,7 +179,7 @@ impl Walk<'_> {
             (None, true) if same_shape || !same_size => TextureEffect::Known,
             (None, true) => TextureEffect::Value(index),
             (None, false) => match &attachment.contents {
-                Contents::Texels(_) => TextureEffect::Uploaded(index),
+                AttachmentContents::Texels(_) => TextureEffect::Uploaded(index),
                 _ => TextureEffect::Known,
             },
         }
@@ -265,7 +265,7 @@ impl Walk<'_> {
             };
             signature.constant = false;
             let attachment = &self.scene.attachments[*index];
-            if let Contents::Texels(codes) = &attachment.contents {
+            if let AttachmentContents::Texels(codes) = &attachment.contents {
                 let channels = attachment.format.color_channels().len();
                 let start =
                     (at.y as usize * attachment.size[0] as usize + at.x as usize) * channels;

@@ -1,6 +1,6 @@
 //! The states of samples: each distinct set of possible worlds, under a number.
 
-use crate::sample::{Sample, Shape};
+use crate::sample::{Sample, SampleShape};
 use crate::world::Worlds;
 use rustc_hash::{FxHashMap, FxHasher};
 use std::hash::{Hash, Hasher};
@@ -47,15 +47,15 @@ impl States {
 
 /// The states of all samples, one picture per shape, after the passes walked so far.
 #[derive(Debug, Default)]
-pub(crate) struct Pictures {
-    pub(crate) shapes: Vec<Shape>,
+pub(crate) struct StatePictures {
+    pub(crate) shapes: Vec<SampleShape>,
     /// For each shape, the states of its samples.
     pub(crate) samples: Vec<Vec<StateNumber>>,
     pub(crate) states: States,
 }
 
-impl Pictures {
-    pub(crate) fn shape(&self, shape: Shape) -> Option<usize> {
+impl StatePictures {
+    pub(crate) fn shape(&self, shape: SampleShape) -> Option<usize> {
         self.shapes.iter().position(|s| *s == shape)
     }
 
@@ -71,7 +71,7 @@ impl Pictures {
     }
 
     /// Returns the states of a shape's samples.
-    pub(crate) fn of_shape(&self, shape: Shape) -> &[StateNumber] {
+    pub(crate) fn of_shape(&self, shape: SampleShape) -> &[StateNumber] {
         self.shape(shape).map_or(&[], |s| &self.samples[s])
     }
 }

@@ -1,7 +1,7 @@
 //! The strokes of a pass: runs of samples with equal signatures. A picture is painted with them.
 
 use crate::bins::Segments;
-use crate::sample::{Sample, Shape};
+use crate::sample::{Sample, SampleShape};
 use crate::signature::{SampleKey, SignatureInputs};
 use crate::texels::Lattice;
 use crate::walk::Walk;
@@ -111,7 +111,7 @@ pub(crate) struct Tracer<'t, 'a> {
     walk: &'t Walk<'a>,
     pass: usize,
     inputs: Vec<SignatureInputs>,
-    shape: Shape,
+    shape: SampleShape,
 }
 
 /// Signatures whose memory is reused.

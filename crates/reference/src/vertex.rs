@@ -26,7 +26,7 @@ pub(crate) enum Grid {
 }
 
 #[derive(Clone, Copy)]
-pub(crate) struct Vertex {
+pub(crate) struct SnappedVertex {
     pub(crate) snapped: SnapBox,
     pub(crate) window_z: Interval,
     pub(crate) clip_z: Interval,
@@ -95,7 +95,7 @@ impl Vertices {
         draw: &Draw,
         i: usize,
         grid: Grid,
-    ) -> Vertex {
+    ) -> SnappedVertex {
         let position = draw.mesh.vertices[i].position;
         let [x, y, z, w] = position;
         let viewport = &draw.viewport;
@@ -107,7 +107,7 @@ impl Vertices {
             let window = window_coordinate(&mut judging, [z, w], 2, viewport);
             [window, judging.constant(z / w)].map(Range::hull)
         });
-        Vertex {
+        SnappedVertex {
             snapped: SnapBox {
                 low: Point { x: x.0, y: y.0 },
                 high: Point { x: x.1, y: y.1 },

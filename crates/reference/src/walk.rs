@@ -13,7 +13,7 @@ use crate::sample::{self, Sample};
 use crate::setups::setups;
 use crate::sides::sides;
 use crate::snap::units_per_texel;
-use crate::states::Pictures;
+use crate::states::StatePictures;
 use crate::texels::Texels;
 use crate::undefined::Undefined;
 use crate::world::{Decision, World, Worlds, merge};
@@ -60,7 +60,7 @@ pub(crate) struct Walk<'a> {
     known: RefCell<SampleWorlds>,
     /// A line that the walk lets cover a sample, even if the rules leave that open.
     pub(crate) forced: Cell<Option<Forced>>,
-    pub(crate) pictures: RefCell<Pictures>,
+    pub(crate) pictures: RefCell<StatePictures>,
 }
 
 /// A line, or an outline, that covers a sample.
@@ -444,7 +444,7 @@ impl<'a> Walk<'a> {
     pub(crate) fn set(
         &self,
         worlds: Option<&Rc<Worlds>>,
-        (size, samples): sample::Shape,
+        (size, samples): sample::SampleShape,
     ) -> TexelSet {
         let at = Sample {
             size,

@@ -11,7 +11,7 @@ pub(crate) const WORLD_CAP: usize = 16;
 
 /// The contents of one attachment at a sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Cell {
+pub(crate) struct SampleContents {
     /// The lowest and the highest code of each colour channel; for a depth attachment, the first is the depth.
     /// The orders of all encodings fit into 32 bits.
     pub(crate) codes: [[i32; 2]; 4],
@@ -21,7 +21,7 @@ pub(crate) struct Cell {
     pub(crate) origin: Option<NonZeroU64>,
 }
 
-impl Cell {
+impl SampleContents {
     /// Returns the codes of a channel.
     #[inline]
     pub(crate) fn channel(&self, c: usize) -> CodeInterval {
@@ -51,7 +51,7 @@ impl Cell {
     }
 }
 
-impl Hash for Cell {
+impl Hash for SampleContents {
     /// Hashes what distinguishes most cells: every outcome needs a look-up of a state.
     fn hash<H: Hasher>(&self, state: &mut H) {
         let [red, green, blue, alpha] = self.codes;
@@ -121,7 +121,7 @@ impl Decision {
 /// A consistent history: the contents of every attachment, and the choices that led there.
 #[derive(Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct World {
-    pub(crate) cells: SmallVec<[Cell; 2]>,
+    pub(crate) cells: SmallVec<[SampleContents; 2]>,
     pub(crate) decisions: Vec<(Decision, bool)>,
     /// The events so far, in order.
     pub(crate) events: Vec<Increment>,

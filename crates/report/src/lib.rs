@@ -3,7 +3,7 @@
 //! [`write()`] writes the reports of a run into its folder, [`table()`] is its summary for a terminal.
 //! [`write_hunt`] and [`hunt_table`] do the same for planted bugs, [`write_bench`] and [`bench_table`]
 //! for frame times. [`runs`] compares two runs, [`diff()`] two benches. A report holds nothing that the
-//! folder and the [`News`] against a history do not, so that an old run can be reported again.
+//! folder and the [`RunNews`] against a history do not, so that an old run can be reported again.
 
 #![cfg_attr(
     test,
@@ -52,7 +52,7 @@ pub use history::{HISTORY_PAGE_FILE, write_history};
 pub use hunt::{HUNT_PAGE, WrittenHunt, hunt_table, write_hunt};
 pub use matrix::matrix_table;
 pub use methods::methods_html;
-pub use news::{News, NewsEntry, Since, news_table};
+pub use news::{NewsEntry, RunNews, Since, news_table};
 pub use picture::{Ringed, Thumbnails, ringed_pictures};
 pub use run::{RecordLine, RunReport, RunReports, dead_lines, record_html, table, write};
 pub use site::{CasesOf, SITE_FILE, write_site};

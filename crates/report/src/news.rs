@@ -15,7 +15,7 @@ const LISTED: usize = 20;
 
 /// A run compared with the last run of each of its adapters.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct News {
+pub struct RunNews {
     /// Each adapter with the run that it was compared with, in words.
     pub since: Vec<Since>,
     /// Unexpected records that became worse, the most serious first.
@@ -52,7 +52,7 @@ pub struct NewsEntry {
     pub note: String,
 }
 
-impl News {
+impl RunNews {
     /// Returns the number of records that count against the run of these news, also beside its selected cases.
     pub fn counted(&self, run: &Run) -> u64 {
         (self.broken.len() + self.old.len()) as u64 + run.unexpected_beside()
@@ -92,7 +92,7 @@ impl News {
 }
 
 /// Returns the news for a terminal, new entries first. Always ends in a newline.
-pub fn news_table(news: &News, options: TableOptions) -> String {
+pub fn news_table(news: &RunNews, options: TableOptions) -> String {
     let mut text = String::new();
     for since in &news.since {
         let adapter = plain(&since.adapter, 60);

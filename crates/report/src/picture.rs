@@ -22,7 +22,7 @@ const IMPRECISE: [u8; 3] = [0x56, 0xb4, 0xe9];
 const FINE: [u8; 3] = [0x20, 0x24, 0x2a];
 
 /// One picture.
-pub(crate) struct Picture {
+pub(crate) struct PagePicture {
     pub(crate) label: String,
     /// A `data:` URL.
     pub(crate) uri: String,
@@ -33,7 +33,7 @@ pub(crate) struct Picture {
 /// All pictures of one image of a frame.
 pub(crate) struct Strip {
     pub(crate) title: String,
-    pub(crate) pictures: Vec<Picture>,
+    pub(crate) pictures: Vec<PagePicture>,
     pub(crate) caption: String,
 }
 
@@ -313,7 +313,7 @@ impl<'a> PictureView<'a> {
     }
 
     /// Draws one pixel per sample. Each sample of the texels has a separate tile, side by side.
-    fn plain(&self, label: String, codes: &[u32], look: ShownChannels) -> Option<Picture> {
+    fn plain(&self, label: String, codes: &[u32], look: ShownChannels) -> Option<PagePicture> {
         self.draw(label, 1, |sample, _, _| self.texel(codes, sample, look))
     }
 
@@ -325,7 +325,7 @@ impl<'a> PictureView<'a> {
     }
 
     /// Draws blocks of pixels, so that a wrong texel can show a mark.
-    fn difference(&self) -> Option<Picture> {
+    fn difference(&self) -> Option<PagePicture> {
         let block = self.scale;
         // The pixels of a row come sample by sample, so the last distance can be reused.
         let mut last = (usize::MAX, 0.0);
@@ -376,14 +376,14 @@ impl<'a> PictureView<'a> {
         label: String,
         block: u32,
         pixel: impl FnMut(usize, u32, u32) -> [u8; 3],
-    ) -> Option<Picture> {
+    ) -> Option<PagePicture> {
         let Canvas {
             pixels,
             width,
             height,
         } = self.canvas(block, pixel);
         let enlarge = self.scale / block;
-        Some(Picture {
+        Some(PagePicture {
             label,
             uri: uri(&pixels, width, height)?,
             size: [width * enlarge, height * enlarge],
@@ -614,7 +614,7 @@ mod tests {
         }
     }
 
-    fn decode(picture: &Picture) -> image::RgbaImage {
+    fn decode(picture: &PagePicture) -> image::RgbaImage {
         let data = picture.uri.strip_prefix("data:image/png;base64,").unwrap();
         let bytes = STANDARD.decode(data).unwrap();
         image::load_from_memory(&bytes).unwrap().to_rgba8()

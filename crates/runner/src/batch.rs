@@ -5,9 +5,9 @@
 //! case costs only the time to draw and to judge it. Each worker draws the next case that no other worker has
 //! taken. The records are in the order of the cases, so that they do not depend on the number of workers.
 
-use crate::drawing::Due;
+use crate::drawing::DueAnswers;
 use crate::launch::{Launch, StartError};
-use crate::loss::{Failure, Loss};
+use crate::loss::{Loss, RequestError};
 use crate::outcome::outcome;
 use crate::process::Wait;
 use crate::sync::lock;
@@ -128,8 +128,8 @@ impl BatchState<'_> {
                 stop: Some(self.stop),
             };
             let process = &mut worker.process;
-            let drawing = process.receive_frames(number as u32, Due::of(case), since, wait);
-            if matches!(drawing.frames, Err(Failure::Lost(Loss::Cancelled))) {
+            let drawing = process.receive_frames(number as u32, DueAnswers::of(case), since, wait);
+            if matches!(drawing.frames, Err(RequestError::Lost(Loss::Cancelled))) {
                 return Ok(());
             }
             let (record, ends) = outcome(process, case, self.limits, drawing.frames);

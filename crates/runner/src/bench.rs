@@ -12,7 +12,7 @@ mod ruler;
 
 use crate::drawing::Drawing;
 use crate::launch::Launch;
-use crate::loss::Failure;
+use crate::loss::RequestError;
 use crate::process::Wait;
 use crate::supervisor::{BadEnds, FailedStarts, Supervisor};
 use crate::worker::Worker;
@@ -511,7 +511,7 @@ impl RunningBench<'_, '_> {
             let name = adapter.record.info.name.clone();
             let measured = match adapter.supervisor.worker() {
                 Ok(worker) => worker.round(&case.scene, self.budget, self.timeout),
-                Err(loss) => Err(Failure::Lost(loss)),
+                Err(loss) => Err(RequestError::Lost(loss)),
             };
             adapter.spent += began.elapsed();
             let clock = clock.zip(clock::measure()).map(|(a, b)| [a, b]);

@@ -1,6 +1,6 @@
 //! Drawing in a worker: requesting frames, and receiving the answers.
 
-use crate::loss::{Failure, Loss};
+use crate::loss::{Loss, RequestError};
 use crate::process::{Wait, WorkerProcess};
 use crate::protocol::{Payload, Request, Response};
 use etalon_backend::{Backend, BackendError, FrameTime};
@@ -16,7 +16,7 @@ pub(crate) const DRAW_TIMEOUT: Duration = Duration::from_secs(60);
 /// The result of drawing scenes.
 pub(crate) struct Drawing {
     /// One frame per scene.
-    pub(crate) frames: Result<Vec<Frame>, Failure>,
+    pub(crate) frames: Result<Vec<Frame>, RequestError>,
     /// The time that the worker spent, by its own clock.
     pub(crate) working: Duration,
     /// The time from when the worker could begin until the last answer.
@@ -27,12 +27,12 @@ pub(crate) struct Drawing {
 
 /// The number of expected answers to the requests for some frames.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Due {
+pub(crate) struct DueAnswers {
     answers: usize,
     frames: usize,
 }
 
-impl Due {
+impl DueAnswers {
     /// A single frame of a single scene.
     pub(crate) const ONE: Self = Self {
         answers: 4,
@@ -73,7 +73,7 @@ pub fn draw_frames(backend: &dyn Backend, case: &Case) -> Result<Vec<Frame>, Bac
 
 impl Drawing {
     /// Returns the result of a case if no request could be sent to its worker.
-    pub(crate) fn failed(failure: Failure) -> Self {
+    pub(crate) fn failed(failure: RequestError) -> Self {
         Self {
             frames: Err(failure),
             working: Duration::ZERO,
@@ -90,7 +90,7 @@ impl WorkerProcess {
         &mut self,
         request: Request<'_>,
         timeout: Duration,
-    ) -> Result<(Payload, Duration), Failure> {
+    ) -> Result<(Payload, Duration), RequestError> {
         self.request([request]);
         match self.response(timeout)? {
             Response::Done {
@@ -101,7 +101,7 @@ impl WorkerProcess {
             Response::Done {
                 outcome: Err(error),
                 ..
-            } => Err(Failure::Backend(error)),
+            } => Err(RequestError::Backend(error)),
             Response::Hello(_) => Err(second_greeting().into()),
         }
     }
@@ -112,7 +112,7 @@ impl WorkerProcess {
         slot: u32,
         times: u32,
         timeout: Duration,
-    ) -> Result<Vec<FrameTime>, Failure> {
+    ) -> Result<Vec<FrameTime>, RequestError> {
         match self.ask(Request::Submit { slot, times }, timeout)? {
             (Payload::Submitted(frame_times), _) if frame_times.len() == times as usize => {
                 Ok(frame_times)
@@ -125,7 +125,7 @@ impl WorkerProcess {
     pub(crate) fn draw_case(&mut self, slot: u32, case: &Case, wait: Wait<'_>) -> Drawing {
         let asked = Instant::now();
         self.request_case(slot, case);
-        self.receive_frames(slot, Due::of(case), asked, wait)
+        self.receive_frames(slot, DueAnswers::of(case), asked, wait)
     }
 
     /// Requests the frames of a case.
@@ -145,14 +145,14 @@ impl WorkerProcess {
     pub(crate) fn receive_frames(
         &mut self,
         slot: u32,
-        requests: Due,
+        requests: DueAnswers,
         asked: Instant,
         wait: Wait<'_>,
     ) -> Drawing {
         // The worker began this request when it had finished the previous one.
         let begun = asked.max(self.answered());
         let until = begun + wait.timeout;
-        let mut drawing = Drawing::failed(Failure::Lost(Loss::Died));
+        let mut drawing = Drawing::failed(RequestError::Lost(Loss::Died));
         let mut frames = Vec::new();
         let mut error = None;
         for _ in 0..requests.answers {
@@ -178,16 +178,16 @@ impl WorkerProcess {
                 Ok(Response::Hello(_)) => second_greeting(),
                 Err(loss) => loss,
             };
-            drawing.frames = Err(Failure::Lost(loss));
+            drawing.frames = Err(RequestError::Lost(loss));
             drawing.since = begun.elapsed();
             return drawing;
         }
         drawing.frames = match error {
-            Some(error) => Err(Failure::Backend(error)),
+            Some(error) => Err(RequestError::Backend(error)),
             None if frames.len() == requests.frames => Ok(frames),
             None => {
                 let error = BackendError::internal("no frame came back");
-                Err(Failure::Backend(error))
+                Err(RequestError::Backend(error))
             }
         };
         drawing.since = begun.elapsed();

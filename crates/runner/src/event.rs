@@ -5,7 +5,7 @@ use std::time::Duration;
 
 /// An event of a run, reported as it happens.
 #[derive(Clone, Debug)]
-pub enum Event {
+pub enum RunEvent {
     /// The first case of an adapter is about to be drawn.
     AdapterStarted {
         /// The adapter.

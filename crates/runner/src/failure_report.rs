@@ -1,6 +1,6 @@
 //! The report on a failed request to a worker: its verdict, its cause and the end of the process.
 
-use crate::loss::Failure;
+use crate::loss::RequestError;
 use crate::process::WorkerProcess;
 use crate::process_end::process_end;
 use etalon_frame::ErrorKind;
@@ -18,15 +18,15 @@ pub(crate) struct FailureReport {
 
 impl FailureReport {
     /// Returns the report on a failed request. `worker` is `None` if there was no worker to ask.
-    pub(crate) fn new(failure: Failure, worker: Option<&mut WorkerProcess>) -> Self {
+    pub(crate) fn new(failure: RequestError, worker: Option<&mut WorkerProcess>) -> Self {
         let verdict = failure.verdict();
         match failure {
-            Failure::Backend(error) => Self {
+            RequestError::Backend(error) => Self {
                 verdict,
                 error: Some((error.to_string(), error.kind().cloned())),
                 process: None,
             },
-            Failure::Lost(loss) => {
+            RequestError::Lost(loss) => {
                 let end = match worker {
                     Some(process) => process.end_of(loss),
                     None => process_end(loss, None, false, String::new()),

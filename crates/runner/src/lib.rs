@@ -37,14 +37,14 @@ pub use bench::{
     BenchError, BenchEvent, BenchPlan, BenchSummary, bench, instruction_counter, ruler,
 };
 pub use drawing::draw_frames;
-pub use event::Event;
+pub use event::RunEvent;
 pub use hunt::{Catches, HuntPlan, Hunted, hunt};
 pub use launch::{Launch, Launcher, START_TIMEOUT, Setup, StartError};
 pub use protocol::Hello;
 pub use reduction::{
     Flakiness, Looked, Lost, Reducer, ReductionError, Smallest, Unconfirmed, confirm, smallest,
 };
-pub use run::{Drawn, KeptFrames, Options, Plan, Rechecks, RunError, RunSummary, run};
+pub use run::{Drawn, KeptFrames, Plan, Rechecks, RunError, RunOptions, RunSummary, run};
 pub use serve::serve;
 pub use trial::Trials;
 pub use version_search::releases_to_draw;

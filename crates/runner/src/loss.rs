@@ -6,7 +6,7 @@ use std::time::Duration;
 
 /// An error from a request to a worker.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum Failure {
+pub(crate) enum RequestError {
     /// The backend's error; the worker still answers.
     Backend(BackendError),
     /// The worker was lost.
@@ -30,7 +30,7 @@ pub(crate) enum Loss {
     Cancelled,
 }
 
-impl Failure {
+impl RequestError {
     /// Returns the verdict of the case that was being drawn.
     pub(crate) fn verdict(&self) -> Verdict {
         match self {
@@ -56,7 +56,7 @@ impl Failure {
     }
 }
 
-impl From<Loss> for Failure {
+impl From<Loss> for RequestError {
     fn from(loss: Loss) -> Self {
         Self::Lost(loss)
     }

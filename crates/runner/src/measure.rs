@@ -1,7 +1,7 @@
 //! Timing the frames of a method case.
 
-use crate::drawing::Due;
-use crate::loss::{Failure, Loss};
+use crate::drawing::DueAnswers;
+use crate::loss::{Loss, RequestError};
 use crate::process::{Wait, WorkerProcess};
 use crate::protocol::Request;
 use etalon_backend::FrameTime;
@@ -30,7 +30,7 @@ impl WorkerProcess {
         let counting = scene.counting(CounterKind::FragmentInvocations);
         self.request_frames(slot, &counting, vec![1]);
         match self
-            .receive_frames(slot, Due::ONE, asked, Wait::of(timeout))
+            .receive_frames(slot, DueAnswers::ONE, asked, Wait::of(timeout))
             .frames
         {
             Ok(frames) => {
@@ -38,8 +38,8 @@ impl WorkerProcess {
                 Ok((times, count))
             }
             // The picture was drawn and timed, so a failed count does not matter.
-            Err(Failure::Backend(_)) => Ok((times, None)),
-            Err(Failure::Lost(loss)) => Err(loss),
+            Err(RequestError::Backend(_)) => Ok((times, None)),
+            Err(RequestError::Lost(loss)) => Err(loss),
         }
     }
 
@@ -52,11 +52,11 @@ impl WorkerProcess {
     ) -> Result<Option<Times>, Loss> {
         let timed = self.prepare_and_time(slot, scene, timeout);
         let dropped = match timed {
-            Err(Failure::Lost(loss)) => return Err(loss),
+            Err(RequestError::Lost(loss)) => return Err(loss),
             _ => self.ask(Request::Drop { slot }, timeout),
         };
         match (timed, dropped) {
-            (_, Err(Failure::Lost(loss))) => Err(loss),
+            (_, Err(RequestError::Lost(loss))) => Err(loss),
             (Ok(times), _) => Ok(medians(&times, 0.0)),
             (Err(_), _) => Ok(None),
         }
@@ -67,7 +67,7 @@ impl WorkerProcess {
         slot: u32,
         scene: &Scene,
         timeout: Duration,
-    ) -> Result<Vec<FrameSeconds>, Failure> {
+    ) -> Result<Vec<FrameSeconds>, RequestError> {
         let scene = Cow::Borrowed(scene);
         self.ask(Request::Prepare { slot, scene }, timeout)?;
         let mut timing = Timing::default();

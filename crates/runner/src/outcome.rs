@@ -1,7 +1,7 @@
 //! The record of a case that was drawn alone, for callers that keep no run folder.
 
 use crate::failure_report::FailureReport;
-use crate::loss::Failure;
+use crate::loss::RequestError;
 use crate::process::WorkerProcess;
 use etalon_case::Case;
 use etalon_frame::{Frame, Limits};
@@ -14,7 +14,7 @@ pub(crate) fn outcome(
     process: &mut WorkerProcess,
     case: &Case,
     limits: &Limits,
-    frames: Result<Vec<Frame>, Failure>,
+    frames: Result<Vec<Frame>, RequestError>,
 ) -> (Record, bool) {
     match frames {
         Ok(frames) => {

@@ -11,7 +11,7 @@ use crate::process_end::process_end;
 use crate::protocol::{Request, Response, encode, encode_behind, receive};
 use crate::stderr_tail::StderrTail;
 use crate::sync::lock;
-use etalon_process::Group;
+use etalon_process::ProcessGroup;
 use etalon_record::ProcessEnd;
 use std::collections::VecDeque;
 use std::io::{BufReader, Error, Write};
@@ -67,7 +67,7 @@ type WorkerAnswer = (Instant, Result<Response, Loss>);
 pub(crate) struct WorkerProcess {
     child: Arc<Mutex<Child>>,
     /// The processes of the worker: itself, its launcher, and what they start.
-    group: Group,
+    group: ProcessGroup,
     /// True if the process is a launcher, whose signals and memory say nothing about the worker.
     launched: bool,
     /// Set once the worker has sent its greeting.
@@ -97,7 +97,7 @@ impl WorkerProcess {
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped());
-        let started = Group::start_worker(&mut command);
+        let started = ProcessGroup::start_worker(&mut command);
         let (mut child, group) = started.map_err(|e| cannot_start(launch, &e))?;
         let no_pipe = || StartError::Broken("the worker has no pipes".to_owned());
         let input = child.stdin.take().ok_or_else(no_pipe)?;

@@ -6,7 +6,7 @@
 
 use crate::failure_report::FailureReport;
 use crate::launch::{Launch, StartError};
-use crate::loss::{Failure, Loss};
+use crate::loss::{Loss, RequestError};
 use crate::process::WorkerProcess;
 use crate::sync::lock;
 use crate::worker::Worker;
@@ -153,7 +153,7 @@ impl Supervisor {
     }
 
     /// Reports a failed request, and ends the worker if it must not be used again.
-    pub(crate) fn report(&mut self, failure: Failure) -> FailureReport {
+    pub(crate) fn report(&mut self, failure: RequestError) -> FailureReport {
         let report = FailureReport::new(failure.clone(), self.worker.as_mut());
         if failure.ends_worker() {
             self.worker = None;

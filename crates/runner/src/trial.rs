@@ -4,7 +4,7 @@
 //! requested after the accepted one is wasted, so only a few requests run ahead at first, and more with
 //! each rejected case.
 
-use crate::drawing::Due;
+use crate::drawing::DueAnswers;
 use crate::launch::{Launch, StartError};
 use crate::outcome::outcome;
 use crate::process::Wait;
@@ -63,7 +63,7 @@ impl Trials {
             let Some((slot, candidate, since)) = asked.pop_front() else {
                 return Ok(result);
             };
-            let requests = Due::of(case(&candidate));
+            let requests = DueAnswers::of(case(&candidate));
             let wait = Wait::of(self.timeout);
             let process = &mut self.worker.process;
             let drawing = process.receive_frames(slot, requests, since, wait);

@@ -1,8 +1,8 @@
 //! A worker process whose adapter is open.
 
-use crate::drawing::{DRAW_TIMEOUT, Due};
+use crate::drawing::{DRAW_TIMEOUT, DueAnswers};
 use crate::launch::{Launch, StartError};
-use crate::loss::Failure;
+use crate::loss::RequestError;
 use crate::outcome::outcome;
 use crate::process::{Wait, WorkerProcess};
 use crate::protocol::{Hello, Payload, Request, Response};
@@ -109,9 +109,9 @@ impl Worker {
     pub fn recorded(&mut self, scene: &Scene) -> Result<Recorded, DrawError> {
         let asked = Instant::now();
         self.process.request_frames(0, scene, vec![1]);
-        let drawing = self
-            .process
-            .receive_frames(0, Due::ONE, asked, Wait::of(DRAW_TIMEOUT));
+        let drawing =
+            self.process
+                .receive_frames(0, DueAnswers::ONE, asked, Wait::of(DRAW_TIMEOUT));
         let frames = drawing.frames.map_err(|failure| self.lost(failure))?;
         let answer = self
             .process
@@ -128,10 +128,10 @@ impl Worker {
         })
     }
 
-    fn lost(&mut self, failure: Failure) -> DrawError {
+    fn lost(&mut self, failure: RequestError) -> DrawError {
         match failure {
-            Failure::Backend(error) => DrawError::Backend(error),
-            Failure::Lost(loss) => DrawError::Lost(self.process.end_of(loss).to_string()),
+            RequestError::Backend(error) => DrawError::Backend(error),
+            RequestError::Lost(loss) => DrawError::Lost(self.process.end_of(loss).to_string()),
         }
     }
 }

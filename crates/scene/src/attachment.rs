@@ -15,12 +15,12 @@ pub struct Attachment {
     /// Samples per texel.
     pub samples: u32,
     /// The initial contents. Every attachment is initialised before the first pass.
-    pub contents: Contents,
+    pub contents: AttachmentContents,
 }
 
 /// The initial contents of an attachment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub enum Contents {
+pub enum AttachmentContents {
     /// A colour clear in red, green, blue, alpha, converted by the API.
     Color([f32; 4]),
     /// A depth and stencil clear; a format without depth or stencil ignores that part.

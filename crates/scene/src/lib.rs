@@ -33,7 +33,7 @@ mod tessellation;
 mod traffic;
 mod work;
 
-pub use attachment::{Attachment, Contents};
+pub use attachment::{Attachment, AttachmentContents};
 pub use blend::{
     AdvancedBlend, BlendComponent, BlendFactor, BlendOperation, BlendState, ColorTarget,
     LogicOperation,

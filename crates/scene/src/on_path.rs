@@ -4,7 +4,7 @@
 //! express: a load operation, a clear command, a draw, indices, a test. They are therefore applied here once,
 //! as another scene with the same picture, for every backend; a backend executes the other keys itself.
 
-use crate::attachment::Contents;
+use crate::attachment::AttachmentContents;
 use crate::blend::ColorTarget;
 use crate::depth_stencil::{
     CompareFunction, DepthState, StencilFace, StencilOperation, StencilState,
@@ -109,8 +109,9 @@ impl Scene {
         let loads = pass.color_operations(location).load == LoadOperation::Load;
         let contents = &mut self.attachments[index].contents;
         match *contents {
-            Contents::Color(value) if loads && first.contains(&index) => {
-                *contents = Contents::Color(value.map(|v| if v > 0.5 { 0.0 } else { 1.0 }));
+            AttachmentContents::Color(value) if loads && first.contains(&index) => {
+                *contents =
+                    AttachmentContents::Color(value.map(|v| if v > 0.5 { 0.0 } else { 1.0 }));
                 Some(value)
             }
             _ => None,
@@ -121,7 +122,7 @@ impl Scene {
     fn take_depth_stencil(&mut self, pass: &Pass, index: usize) -> (Option<f32>, Option<u8>) {
         let attachment = &mut self.attachments[index];
         let format = attachment.format;
-        let Contents::DepthStencil { depth, stencil } = &mut attachment.contents else {
+        let AttachmentContents::DepthStencil { depth, stencil } = &mut attachment.contents else {
             return (None, None);
         };
         let loads = pass.operations.depth.load == LoadOperation::Load;
@@ -268,7 +269,7 @@ impl Scene {
     /// Returns true if a draw stores exactly what a clear does.
     fn is_exact_color(&self, index: usize) -> bool {
         let attachment = &self.attachments[index];
-        let Contents::Color(value) = attachment.contents else {
+        let AttachmentContents::Color(value) = attachment.contents else {
             return false;
         };
         let exact = |encoding: &ChannelEncoding, v: f32| match encoding {
@@ -284,7 +285,7 @@ impl Scene {
     /// Returns true if a shader's depth is stored exactly as a clear's is.
     fn is_exact_depth(&self, index: usize) -> bool {
         let attachment = &self.attachments[index];
-        let Contents::DepthStencil { depth, .. } = attachment.contents else {
+        let AttachmentContents::DepthStencil { depth, .. } = attachment.contents else {
             return false;
         };
         let encodings = attachment.format.depth_encodings();
@@ -378,7 +379,7 @@ mod tests {
             samples: 1,
             contents,
         };
-        let near = Contents::DepthStencil {
+        let near = AttachmentContents::DepthStencil {
             depth: 1.0,
             stencil: 7,
         };
@@ -403,7 +404,10 @@ mod tests {
         };
         Scene {
             attachments: vec![
-                attachment(TextureFormat::Rgba8Unorm, Contents::Color([1.0; 4])),
+                attachment(
+                    TextureFormat::Rgba8Unorm,
+                    AttachmentContents::Color([1.0; 4]),
+                ),
                 attachment(TextureFormat::Depth24PlusStencil8, near),
             ],
             passes: vec![pass.clone(), pass],
@@ -454,8 +458,11 @@ mod tests {
         assert_eq!(operations.depth.load.clear_value(), Some(1.0));
         assert_eq!(operations.stencil.load.clear_value(), Some(7));
         assert_eq!(loaded.passes[1].operations, Default::default());
-        assert_eq!(loaded.attachments[0].contents, Contents::Color([0.0; 4]));
-        let other = Contents::DepthStencil {
+        assert_eq!(
+            loaded.attachments[0].contents,
+            AttachmentContents::Color([0.0; 4])
+        );
+        let other = AttachmentContents::DepthStencil {
             depth: 0.0,
             stencil: !7,
         };
@@ -479,8 +486,8 @@ mod tests {
             start: PathStart::Draw,
             ..Path::default()
         });
-        scene.attachments[0].contents = Contents::Color([0.3; 4]);
-        scene.attachments[1].contents = Contents::DepthStencil {
+        scene.attachments[0].contents = AttachmentContents::Color([0.3; 4]);
+        scene.attachments[1].contents = AttachmentContents::DepthStencil {
             depth: 0.5,
             stencil: 0,
         };

@@ -8,9 +8,9 @@ use std::fmt;
 use std::marker::PhantomData;
 
 /// Items that are written and read as bytes.
-struct Bytes<T>(T);
+struct PodBytes<T>(T);
 
-impl<T: Pod + Serialize> Serialize for Bytes<&[T]> {
+impl<T: Pod + Serialize> Serialize for PodBytes<&[T]> {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         if to.is_human_readable() {
             self.0.serialize(to)
@@ -20,7 +20,7 @@ impl<T: Pod + Serialize> Serialize for Bytes<&[T]> {
     }
 }
 
-impl<'de, T: Pod + Deserialize<'de>> Deserialize<'de> for Bytes<Vec<T>> {
+impl<'de, T: Pod + Deserialize<'de>> Deserialize<'de> for PodBytes<Vec<T>> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         if from.is_human_readable() {
             Vec::deserialize(from).map(Self)
@@ -33,7 +33,7 @@ impl<'de, T: Pod + Deserialize<'de>> Deserialize<'de> for Bytes<Vec<T>> {
 struct Items<T>(PhantomData<T>);
 
 impl<T: Pod> Visitor<'_> for Items<T> {
-    type Value = Bytes<Vec<T>>;
+    type Value = PodBytes<Vec<T>>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "items of {} bytes", size_of::<T>())
@@ -43,7 +43,7 @@ impl<T: Pod> Visitor<'_> for Items<T> {
         if !bytes.len().is_multiple_of(size_of::<T>()) {
             return Err(E::custom("a part of an item is left over"));
         }
-        Ok(Bytes(bytemuck::pod_collect_to_vec(bytes)))
+        Ok(PodBytes(bytemuck::pod_collect_to_vec(bytes)))
     }
 }
 
@@ -53,7 +53,7 @@ where
     T: Pod + Serialize,
     S: Serializer,
 {
-    Bytes(items).serialize(to)
+    PodBytes(items).serialize(to)
 }
 
 /// Reads items.
@@ -62,12 +62,12 @@ where
     T: Pod + Deserialize<'de>,
     D: Deserializer<'de>,
 {
-    Bytes::deserialize(from).map(|items| items.0)
+    PodBytes::deserialize(from).map(|items| items.0)
 }
 
 /// The same for items that can be absent.
 pub(crate) mod optional {
-    use super::{Bytes, Deserialize, Deserializer, Pod, Serialize, Serializer};
+    use super::{Deserialize, Deserializer, Pod, PodBytes, Serialize, Serializer};
 
     /// Writes items, if there are any.
     pub(crate) fn serialize<T, S>(items: &Option<Vec<T>>, to: S) -> Result<S::Ok, S::Error>
@@ -75,7 +75,7 @@ pub(crate) mod optional {
         T: Pod + Serialize,
         S: Serializer,
     {
-        items.as_deref().map(Bytes).serialize(to)
+        items.as_deref().map(PodBytes).serialize(to)
     }
 
     /// Reads items, if there are any.
@@ -84,7 +84,7 @@ pub(crate) mod optional {
         T: Pod + Deserialize<'de>,
         D: Deserializer<'de>,
     {
-        let items = Option::<Bytes<Vec<T>>>::deserialize(from)?;
+        let items = Option::<PodBytes<Vec<T>>>::deserialize(from)?;
         Ok(items.map(|items| items.0))
     }
 }

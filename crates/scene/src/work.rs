@@ -177,7 +177,7 @@ fn centre(coordinate: f64) -> i64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::attachment::{Attachment, Contents};
+    use crate::attachment::{Attachment, AttachmentContents};
     use crate::mesh_source::{MeshSource, Splat};
     use crate::pass::{LoadOperation, Operations, PassOperations};
     use crate::query_scope::QueryScope;
@@ -213,7 +213,7 @@ mod tests {
             format: TextureFormat::Rgba8Unorm,
             size: SIZE,
             samples,
-            contents: Contents::Color([0.0; 4]),
+            contents: AttachmentContents::Color([0.0; 4]),
         };
         Scene {
             attachments: vec![attachment("color", 4), attachment("resolved", 1)],

@@ -2,15 +2,15 @@
 //! run.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use etalon_stats::{Point, change_points};
+use etalon_stats::{TimedRun, change_points};
 use oorandom::Rand64;
 use std::hint::black_box;
 
 /// Runs with noise of about 1 % and a step of 5 % every 100, up and down, with a ruler.
-fn series(runs: usize) -> Vec<Point> {
+fn series(runs: usize) -> Vec<TimedRun> {
     let mut random = Rand64::new(1);
     let mut noise = |size: f64| 1.0 + size * (random.rand_float() + random.rand_float() - 1.0);
-    let point = |run: usize| Point {
+    let point = |run: usize| TimedRun {
         median: 0.003
             * noise(0.025)
             * if (run / 100).is_multiple_of(2) {

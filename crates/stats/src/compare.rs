@@ -39,7 +39,7 @@ impl From<Shift> for Ratio {
 
 /// The comparison of two benches.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Comparison {
+pub struct BenchComparison {
     /// The ratio of the times as measured.
     pub ratio: Ratio,
     /// The ratio of the times in units of the ruler, if both benches have one.
@@ -109,7 +109,7 @@ impl Why {
 /// No ruler feels a machine's speed exactly as drawing does: how much a neighbour on the same core takes away
 /// depends on the work. A change must therefore also be [`BEYOND_RULER`] times as large, in logarithms, as
 /// the ruler's own movement.
-pub fn compare(before: &Samples, after: &Samples) -> Comparison {
+pub fn compare(before: &Samples, after: &Samples) -> BenchComparison {
     let raw = shift(before.logs(), after.logs(), LEVEL);
     let ruled = before.ruled().zip(after.ruled());
     let ruled = ruled.map(|(b, a)| shift(b, a, LEVEL));
@@ -141,7 +141,7 @@ pub fn compare(before: &Samples, after: &Samples) -> Comparison {
         }
         _ => Conclusion::CannotTell(Why::Noise),
     };
-    Comparison {
+    BenchComparison {
         ratio: raw.into(),
         ruled: ruled.map(Ratio::from),
         outcome,

@@ -29,13 +29,13 @@ mod summary;
 mod verdicts;
 mod visible;
 
-pub use compare::{BEYOND_RULER, Comparison, Conclusion, LEVEL, MINIMUM, Ratio, Why, compare};
+pub use compare::{BEYOND_RULER, BenchComparison, Conclusion, LEVEL, MINIMUM, Ratio, Why, compare};
 pub use rank::MIN_ROUNDS;
-pub use rate::{Pair, RATE_CONFIDENCE, Slope, is_within, median_interval};
+pub use rate::{RATE_CONFIDENCE, Slope, WorkTimes, is_within, median_interval};
 pub use samples::{SampleError, Samples, quantile};
 pub use series::{
-    Cause, ChangePoint, Changes, Drift, MIN_RUNS, Point, PointError, STEP, change_points,
+    Cause, ChangePoint, Changes, Drift, MIN_RUNS, PointError, STEP, TimedRun, change_points,
 };
 pub use summary::{CONFIDENCE, Summary, summarize};
-pub use verdicts::{Event, Happening, Score, Scores, Standing, happenings, scores};
+pub use verdicts::{Happening, RunScore, Score, Standing, VerdictEvent, happenings, scores};
 pub use visible::{POWER, smallest_visible};

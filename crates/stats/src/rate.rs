@@ -12,7 +12,7 @@ pub const RATE_CONFIDENCE: f64 = 0.95;
 
 /// The times of two amounts of work in one round, in seconds.
 #[derive(Clone, Copy, Debug)]
-pub struct Pair<'a> {
+pub struct WorkTimes<'a> {
     /// The times of the smaller amount.
     pub less: &'a [f64],
     /// The times of the larger amount.
@@ -35,7 +35,7 @@ pub struct Slope {
 
 impl Slope {
     /// Computes the slope over rounds; `None` if there is no round, an empty round, or no work.
-    pub fn new(rounds: &[Pair<'_>], work: u64) -> Option<Self> {
+    pub fn new(rounds: &[WorkTimes<'_>], work: u64) -> Option<Self> {
         if work == 0 {
             return None;
         }
@@ -134,9 +134,9 @@ mod tests {
             (0..9).map(|_| sample()).collect()
         };
         let times: Vec<[Vec<f64>; 2]> = (0..rounds).map(|_| [frames(4e6), frames(12e6)]).collect();
-        let pairs: Vec<Pair<'_>> = times
+        let pairs: Vec<WorkTimes<'_>> = times
             .iter()
-            .map(|[less, more]| Pair { less, more })
+            .map(|[less, more]| WorkTimes { less, more })
             .collect();
         Slope::new(&pairs, 8_000_000).unwrap()
     }
@@ -207,7 +207,7 @@ mod tests {
     #[test]
     fn without_samples_or_work_there_is_no_slope() {
         let single = [1.0];
-        let pair = Pair {
+        let pair = WorkTimes {
             less: &single,
             more: &single,
         };
@@ -215,7 +215,7 @@ mod tests {
         assert_eq!(Slope::new(&[pair], 0), None);
         assert_eq!(
             Slope::new(
-                &[Pair {
+                &[WorkTimes {
                     less: &[],
                     more: &single
                 }],

@@ -17,7 +17,7 @@ pub enum Standing {
 
 /// An event of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Event {
+pub enum VerdictEvent {
     /// The case is bad, and was good or flaky.
     Broken,
     /// The case is good, and was bad or flaky.
@@ -30,7 +30,7 @@ pub enum Event {
     Gone,
 }
 
-impl Event {
+impl VerdictEvent {
     /// Returns the phrase that reports put before the run, such as `broken at`.
     pub fn name(self) -> &'static str {
         match self {
@@ -47,7 +47,7 @@ impl Event {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Happening<K> {
     /// The event.
-    pub event: Event,
+    pub event: VerdictEvent,
     /// The last run without the event.
     pub after: K,
     /// The first run that shows the event.
@@ -86,15 +86,15 @@ pub fn happenings<K: Copy>(runs: &[(K, Standing)]) -> Vec<Happening<K>> {
             };
             match (last, standing) {
                 (Standing::Unknown, Standing::Unknown) => {}
-                (_, Standing::Unknown) => tell(Event::Gone),
-                (Standing::Unknown, _) => tell(Event::Appeared),
+                (_, Standing::Unknown) => tell(VerdictEvent::Gone),
+                (Standing::Unknown, _) => tell(VerdictEvent::Appeared),
                 _ => {}
             }
             match standing {
                 _ if known.is_none_or(|known| known == *standing) => {}
-                Standing::Good => tell(Event::Fixed),
-                Standing::Bad => tell(Event::Broken),
-                Standing::Flaky => tell(Event::Flaky),
+                Standing::Good => tell(VerdictEvent::Fixed),
+                Standing::Bad => tell(VerdictEvent::Broken),
+                Standing::Flaky => tell(VerdictEvent::Flaky),
                 Standing::Unknown => {}
             }
         }
@@ -157,7 +157,7 @@ impl Score {
 
 /// The score of one run of a history.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Scores {
+pub struct RunScore {
     /// The score over the cases that all runs have, which only the driver can change.
     pub common: Score,
     /// The score over all cases of the run, which also changes when cases appear or disappear.
@@ -165,7 +165,7 @@ pub struct Scores {
 }
 
 /// Returns the scores of runs, over the cases that they share and over the cases of each.
-pub fn scores<K: Ord + Copy>(runs: &[BTreeMap<K, Standing>]) -> Vec<Scores> {
+pub fn scores<K: Ord + Copy>(runs: &[BTreeMap<K, Standing>]) -> Vec<RunScore> {
     let there = |run: &BTreeMap<K, Standing>| -> BTreeSet<K> {
         let cases = run
             .iter()
@@ -174,7 +174,7 @@ pub fn scores<K: Ord + Copy>(runs: &[BTreeMap<K, Standing>]) -> Vec<Scores> {
     };
     let common = runs.iter().map(there).reduce(|common, run| &common & &run);
     let common = common.unwrap_or_default();
-    let score = |run: &BTreeMap<K, Standing>| Scores {
+    let score = |run: &BTreeMap<K, Standing>| RunScore {
         common: Score::over(
             run.iter()
                 .filter(|(case, _)| common.contains(case))
@@ -188,10 +188,10 @@ pub fn scores<K: Ord + Copy>(runs: &[BTreeMap<K, Standing>]) -> Vec<Scores> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use Event::{Appeared, Broken, Fixed, Flaky, Gone};
+    use VerdictEvent::{Appeared, Broken, Fixed, Flaky, Gone};
 
     /// Returns the events of a history written in letters: good, bad, flaky, missing.
-    fn events(text: &str) -> Vec<(Event, usize)> {
+    fn events(text: &str) -> Vec<(VerdictEvent, usize)> {
         let standing = |letter| match letter {
             'g' => Standing::Good,
             'b' => Standing::Bad,

@@ -4,7 +4,7 @@
 //! other, and where a paint changes its formula, until a single formula applies in every piece. Flat and
 //! linear colours are integrated in closed form, others by quadrature that is exact for them.
 
-use super::cell::{Cell, Cut, Point, SLACK};
+use super::cell::{ConvexCell, Cut, PicturePoint, SLACK};
 use super::order::{self, Members, Relation};
 use super::quadrature;
 use super::surface::PreparedSurface;
@@ -58,12 +58,12 @@ impl Layers<'_> {
     /// A cell with too many pieces is halved. A 256th of a texel that still has too many is given the colour
     /// at its middle; the error is its area times the widest spread of colours, since `over` returns a colour
     /// between its inputs.
-    pub(super) fn integral(&self, low: Point, high: Point) -> Integral {
+    pub(super) fn integral(&self, low: PicturePoint, high: PicturePoint) -> Integral {
         self.halved(low, high, 0)
     }
 
-    fn halved(&self, low: Point, high: Point, halvings: u32) -> Integral {
-        let cell = Cell::rectangle(low, high);
+    fn halved(&self, low: PicturePoint, high: PicturePoint, halvings: u32) -> Integral {
+        let cell = ConvexCell::rectangle(low, high);
         let mut pieces = Pieces {
             layers: self,
             left: (PIECES >> halvings).max(16),
@@ -86,7 +86,7 @@ impl Layers<'_> {
         both
     }
 
-    fn guess(&self, cell: &Cell) -> Integral {
+    fn guess(&self, cell: &ConvexCell) -> Integral {
         let (area, middle) = cell.area_and_centroid();
         let covering = self.touching.iter().copied();
         let mut members: Members = covering
@@ -108,7 +108,11 @@ impl Layers<'_> {
 
     /// Returns the visible ones among surfaces that cover a whole cell, front to back; or two that cross in
     /// it.
-    pub(super) fn visible(&self, cell: &Cell, members: &[usize]) -> Result<Members, [usize; 2]> {
+    pub(super) fn visible(
+        &self,
+        cell: &ConvexCell,
+        members: &[usize],
+    ) -> Result<Members, [usize; 2]> {
         let mut sorted = Members::from_slice(members);
         order::sort(self.surfaces, &mut sorted, cell.corners());
         let crossing = |a: usize, b: usize| {
@@ -152,7 +156,7 @@ impl Pieces<'_> {
     }
 
     /// Adds a cell that `members` cover, and that the surfaces from `next` on can partly cover.
-    fn cover(&mut self, cell: Cell, next: usize, members: &mut Members) -> Option<()> {
+    fn cover(&mut self, cell: ConvexCell, next: usize, members: &mut Members) -> Option<()> {
         let (known, layers) = (members.len(), self.layers);
         let mut rest = cell;
         for (i, &candidate) in layers.touching.iter().enumerate().skip(next) {
@@ -184,7 +188,7 @@ impl Pieces<'_> {
     }
 
     /// Returns true if a surface is behind an opaque one in all of a cell.
-    fn hidden(&self, candidate: usize, members: &[usize], cell: &Cell) -> bool {
+    fn hidden(&self, candidate: usize, members: &[usize], cell: &ConvexCell) -> bool {
         let surfaces = self.layers.surfaces;
         members.iter().any(|&member| {
             surfaces[member].opaque
@@ -193,7 +197,7 @@ impl Pieces<'_> {
     }
 
     /// Adds a cell that all of `members` and no other surface cover.
-    fn arrange(&mut self, cell: &Cell, members: &[usize]) -> Option<()> {
+    fn arrange(&mut self, cell: &ConvexCell, members: &[usize]) -> Option<()> {
         let surfaces = self.layers.surfaces;
         match self.layers.visible(cell, members) {
             Ok(visible) => self.paint(cell, &visible),
@@ -211,7 +215,7 @@ impl Pieces<'_> {
     }
 
     /// Adds a cell in which these surfaces are visible, in this order.
-    fn paint(&mut self, cell: &Cell, visible: &[usize]) -> Option<()> {
+    fn paint(&mut self, cell: &ConvexCell, visible: &[usize]) -> Option<()> {
         let layers = self.layers;
         let seen = |p| order::compose(layers.surfaces, visible, layers.background, p);
         let surfaces = || visible.iter().map(|&i| &layers.surfaces[i]);
@@ -267,7 +271,7 @@ impl Pieces<'_> {
 pub(super) fn nearest_first(
     surfaces: &[PreparedSurface<'_>],
     touching: &[usize],
-    p: Point,
+    p: PicturePoint,
 ) -> Vec<usize> {
     let mut depths: SmallVec<[(f64, usize); 16]> = touching
         .iter()

@@ -3,15 +3,15 @@
 use smallvec::SmallVec;
 
 /// A point of the picture, in texels from the top left corner.
-pub(super) type Point = [f64; 2];
+pub(super) type PicturePoint = [f64; 2];
 
 /// Distances in texels below this are due to rounding, not to geometry.
 pub(super) const SLACK: f64 = 1e-11;
 
 /// A convex polygon, as its corners in order.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Cell {
-    corners: SmallVec<[Point; 8]>,
+pub(super) struct ConvexCell {
+    corners: SmallVec<[PicturePoint; 8]>,
 }
 
 /// The parts of a cell on the two sides of a line.
@@ -26,12 +26,12 @@ pub(super) enum Cut {
     /// No corner is on the positive side, and not all are on the line.
     Negative,
     /// The positive and the negative part.
-    Both(Cell, Cell),
+    Both(ConvexCell, ConvexCell),
 }
 
-impl Cell {
+impl ConvexCell {
     /// Returns the rectangle between two corners.
-    pub(super) fn rectangle(low: Point, high: Point) -> Self {
+    pub(super) fn rectangle(low: PicturePoint, high: PicturePoint) -> Self {
         let corners = [low, [high[0], low[1]], high, [low[0], high[1]]];
         Self {
             corners: SmallVec::from_slice(&corners),
@@ -39,12 +39,12 @@ impl Cell {
     }
 
     /// Returns the corners in order around the cell.
-    pub(super) fn corners(&self) -> &[Point] {
+    pub(super) fn corners(&self) -> &[PicturePoint] {
         &self.corners
     }
 
     /// Returns the least and the largest value of a linear function in the cell.
-    pub(super) fn range(&self, function: impl Fn(Point) -> f64) -> (f64, f64) {
+    pub(super) fn range(&self, function: impl Fn(PicturePoint) -> f64) -> (f64, f64) {
         let values = self.corners.iter().map(|&corner| function(corner));
         values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
             (low.min(value), high.max(value))
@@ -52,7 +52,7 @@ impl Cell {
     }
 
     /// Cuts the cell where a linear function is 0; values up to `slack` count as 0.
-    pub(super) fn cut(&self, function: impl Fn(Point) -> f64, slack: f64) -> Cut {
+    pub(super) fn cut(&self, function: impl Fn(PicturePoint) -> f64, slack: f64) -> Cut {
         let snap = |value: f64| if value.abs() <= slack { 0.0 } else { value };
         let values: SmallVec<[f64; 8]> = self.corners.iter().map(|&c| snap(function(c))).collect();
         if values.iter().all(|&v| v >= 0.0) {
@@ -82,13 +82,13 @@ impl Cell {
     }
 
     /// Returns the triangles between the first corner and each side that does not include it.
-    pub(super) fn triangles(&self) -> impl Iterator<Item = [Point; 3]> + '_ {
+    pub(super) fn triangles(&self) -> impl Iterator<Item = [PicturePoint; 3]> + '_ {
         let sides = self.corners.windows(2).skip(1);
         sides.map(|side| [self.corners[0], side[0], side[1]])
     }
 
     /// Returns the area in texels and the centroid.
-    pub(super) fn area_and_centroid(&self) -> (f64, Point) {
+    pub(super) fn area_and_centroid(&self) -> (f64, PicturePoint) {
         let (mut area, mut moment) = (0.0, [0.0; 2]);
         let origin = self.corners[0];
         for triangle in self.triangles() {
@@ -109,7 +109,7 @@ impl Cell {
 }
 
 /// Returns the area of a triangle whose corners are in the order of a cell's.
-pub(super) fn area_of([a, b, c]: [Point; 3]) -> f64 {
+pub(super) fn area_of([a, b, c]: [PicturePoint; 3]) -> f64 {
     (((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2.0).max(0.0)
 }
 
@@ -117,8 +117,8 @@ pub(super) fn area_of([a, b, c]: [Point; 3]) -> f64 {
 mod tests {
     use super::*;
 
-    fn unit() -> Cell {
-        Cell::rectangle([0.0; 2], [1.0; 2])
+    fn unit() -> ConvexCell {
+        ConvexCell::rectangle([0.0; 2], [1.0; 2])
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The depth order of surfaces.
 
-use super::cell::Point;
+use super::cell::PicturePoint;
 use super::surface::PreparedSurface;
 use smallvec::SmallVec;
 
@@ -19,7 +19,7 @@ pub(super) enum Relation {
 }
 
 /// Returns the depth of surface `a` minus that of `b` at a point.
-pub(super) fn gap(surfaces: &[PreparedSurface<'_>], a: usize, b: usize, p: Point) -> f64 {
+pub(super) fn gap(surfaces: &[PreparedSurface<'_>], a: usize, b: usize, p: PicturePoint) -> f64 {
     surfaces[a].depth.at(p) - surfaces[b].depth.at(p)
 }
 
@@ -33,7 +33,7 @@ pub(super) fn relation(
     surfaces: &[PreparedSurface<'_>],
     a: usize,
     b: usize,
-    points: &[Point],
+    points: &[PicturePoint],
 ) -> Relation {
     let slack = slack(surfaces, a, b);
     let (mut nearer, mut farther) = (false, false);
@@ -52,7 +52,11 @@ pub(super) fn relation(
 }
 
 /// Sorts surfaces front to back at points. If two cross, the nearer one on average comes first.
-pub(super) fn sort(surfaces: &[PreparedSurface<'_>], members: &mut [usize], points: &[Point]) {
+pub(super) fn sort(
+    surfaces: &[PreparedSurface<'_>],
+    members: &mut [usize],
+    points: &[PicturePoint],
+) {
     let before = |a: usize, b: usize| match relation(surfaces, a, b, points) {
         Relation::Front => true,
         Relation::Behind => false,
@@ -74,7 +78,7 @@ pub(super) fn compose(
     surfaces: &[PreparedSurface<'_>],
     members: &[usize],
     background: [f64; 3],
-    p: Point,
+    p: PicturePoint,
 ) -> [f64; 3] {
     let mut seen = background;
     for &member in members.iter().rev() {

@@ -1,14 +1,14 @@
 //! The colour of a surface at a point, and the lines along which its formula changes.
 
-use super::cell::{Cell, Cut, Point};
+use super::cell::{ConvexCell, Cut, PicturePoint};
 use super::surface::PreparedSurface;
-use etalon_methods::{Paint, Texture};
+use etalon_methods::{Paint, StraightTexture};
 use etalon_pipeline::texel_position;
 use etalon_scene::AddressMode;
 
 impl PreparedSurface<'_> {
     /// Returns the colour at a point: red, green, blue, not premultiplied, and alpha.
-    pub(super) fn color(&self, p: Point) -> [f64; 4] {
+    pub(super) fn color(&self, p: PicturePoint) -> [f64; 4] {
         let grey = |v: f64| [v, v, v, 1.0];
         match self.paint {
             Paint::Flat([r, g, b, a]) => [*r, *g, *b, a.clamp(0.0, 1.0)],
@@ -53,8 +53,8 @@ impl PreparedSurface<'_> {
     /// A textured cell is cut along texel centres, so that each part's colour and alpha are of degree 2. A
     /// cell with a colour that fades is cut where the depth leaves 0 to 1, and halved until the distance at
     /// most doubles within it.
-    pub(super) fn kink(&self, cell: &Cell) -> Option<(Cell, Cell)> {
-        let cut = |function: &dyn Fn(Point) -> f64, range: (f64, f64)| match cell
+    pub(super) fn kink(&self, cell: &ConvexCell) -> Option<(ConvexCell, ConvexCell)> {
+        let cut = |function: &dyn Fn(PicturePoint) -> f64, range: (f64, f64)| match cell
             .cut(function, 1e-9 * (range.1 - range.0))
         {
             Cut::Both(first, second) => Some((first, second)),
@@ -93,7 +93,7 @@ impl PreparedSurface<'_> {
     }
 
     /// Returns the position of a point in the texture, in texels from the centre of the first one.
-    fn positions(&self, texture: &Texture, p: Point) -> [f64; 2] {
+    fn positions(&self, texture: &StraightTexture, p: PicturePoint) -> [f64; 2] {
         std::array::from_fn(|axis| {
             let coordinate = self.uv.as_ref().map_or(0.0, |uv| uv[axis].at(p));
             coordinate * f64::from(texture.size[axis]) - 0.5
@@ -108,7 +108,7 @@ fn fade(depth: f64, near: f64, far: f64) -> f64 {
 }
 
 /// Returns the weighted mean of the four texels around a position (Vulkan, Texel Filtering).
-fn filtered(texture: &Texture, position: [f64; 2]) -> [f64; 4] {
+fn filtered(texture: &StraightTexture, position: [f64; 2]) -> [f64; 4] {
     let first = position.map(f64::floor);
     let weight = [position[0] - first[0], position[1] - first[1]];
     let taps: [[usize; 2]; 2] = std::array::from_fn(|axis| {

@@ -1,6 +1,6 @@
 //! Integrals over triangles, by Gauss-Legendre rules, which are exact for polynomials.
 
-use super::cell::{Point, area_of};
+use super::cell::{PicturePoint, area_of};
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
@@ -39,9 +39,9 @@ fn gauss(n: usize) -> Vec<(f64, f64)> {
 /// polynomials of degree `2 * points - 2`, because the map from the square to the triangle, collapsed at its
 /// first corner (Duffy 1982), adds one degree.
 pub(super) fn integral(
-    triangle: [Point; 3],
+    triangle: [PicturePoint; 3],
     points: usize,
-    mut function: impl FnMut(Point) -> [f64; 3],
+    mut function: impl FnMut(PicturePoint) -> [f64; 3],
 ) -> [f64; 3] {
     let [a, b, c] = triangle;
     let twice = 2.0 * area_of(triangle);

@@ -1,19 +1,19 @@
 //! The picture, by halving down to texels.
 
 use super::area::{self, Layers};
-use super::cell::{Cell, Point};
+use super::cell::{ConvexCell, PicturePoint};
 use super::order::{self, Members};
 use super::picture::TruthPicture;
 use super::surface::{Overlap, PreparedSurface};
 use etalon_frame::threads::share;
-use etalon_methods::{Coverage, Truth};
+use etalon_methods::{TexelCoverage, Truth};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread::available_parallelism;
 
 /// Returns the true picture of a scene.
 ///
-/// With [`Coverage::Center`], a texel has the colour at its centre; if an edge runs through the centre, the
-/// top-left rule gives it to one of the two polygons. With [`Coverage::Area`], it has the mean over its area:
+/// With [`TexelCoverage::Center`], a texel has the colour at its centre; if an edge runs through the centre, the
+/// top-left rule gives it to one of the two polygons. With [`TexelCoverage::Area`], it has the mean over its area:
 /// exact for flat paints, depth and distance, and for up to six stacked textured surfaces. With more textured
 /// surfaces, every piece on which their product is one polynomial is integrated with 36 points per triangle.
 /// The error is then estimated as twice the difference from the result with 16 points: on one polynomial, the
@@ -108,7 +108,7 @@ fn halves(low: [u32; 2], high: [u32; 2]) -> [[[u32; 2]; 2]; 2] {
 struct Renderer<'a> {
     surfaces: &'a [PreparedSurface<'a>],
     background: [f64; 3],
-    coverage: Coverage,
+    coverage: TexelCoverage,
     picture: TruthPicture,
 }
 
@@ -133,8 +133,8 @@ impl Renderer<'_> {
         let [width, height] = [high[0] - low[0], high[1] - low[1]];
         if width == 1 && height == 1 {
             let color = match self.coverage {
-                Coverage::Center => self.center([from[0] + 0.5, from[1] + 0.5], &touching),
-                Coverage::Area => self.mean(from, to, &touching),
+                TexelCoverage::Center => self.center([from[0] + 0.5, from[1] + 0.5], &touching),
+                TexelCoverage::Area => self.mean(from, to, &touching),
             };
             return self.fill(low, high, color);
         }
@@ -152,21 +152,28 @@ impl Renderer<'_> {
     }
 
     /// Returns the colour of a rectangle; `None` if it can have several.
-    fn only_color(&self, low: Point, high: Point, covering: &[usize]) -> Option<[f64; 3]> {
+    fn only_color(
+        &self,
+        low: PicturePoint,
+        high: PicturePoint,
+        covering: &[usize],
+    ) -> Option<[f64; 3]> {
         let layers = self.layers(covering);
-        let visible = layers.visible(&Cell::rectangle(low, high), covering).ok()?;
+        let visible = layers
+            .visible(&ConvexCell::rectangle(low, high), covering)
+            .ok()?;
         let flat = visible.iter().all(|&i| self.surfaces[i].is_flat());
         flat.then(|| order::compose(self.surfaces, &visible, self.background, low))
     }
 
-    fn center(&self, p: Point, touching: &[usize]) -> [f64; 3] {
+    fn center(&self, p: PicturePoint, touching: &[usize]) -> [f64; 3] {
         let covering = touching.iter().copied();
         let mut members: Members = covering.filter(|&i| self.surfaces[i].covers(p)).collect();
         order::sort(self.surfaces, &mut members, &[p]);
         order::compose(self.surfaces, &members, self.background, p)
     }
 
-    fn mean(&mut self, low: Point, high: Point, touching: &[usize]) -> [f64; 3] {
+    fn mean(&mut self, low: PicturePoint, high: PicturePoint, touching: &[usize]) -> [f64; 3] {
         let middle = [low[0] + 0.5, low[1] + 0.5];
         let sorted = area::nearest_first(self.surfaces, touching, middle);
         let integral = self.layers(&sorted).integral(low, high);

@@ -1,12 +1,12 @@
 //! Prepared surfaces: edges, depth as a linear function, and bounds of the paint.
 
-use super::cell::{Cell, Point, SLACK};
-use etalon_methods::{Paint, Surface, Texture};
+use super::cell::{ConvexCell, PicturePoint, SLACK};
+use etalon_methods::{FlatSurface, Paint, StraightTexture};
 
 /// A linear function of a point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Linear {
-    origin: Point,
+    origin: PicturePoint,
     value: f64,
     slope: [f64; 2],
 }
@@ -14,7 +14,7 @@ pub(super) struct Linear {
 impl Linear {
     /// Returns the function with these values at these corners. If no linear function has them, returns the
     /// mean of those through the triangles around the first corner, weighted by their areas.
-    fn through(corners: &[Point], values: &[f64]) -> Self {
+    fn through(corners: &[PicturePoint], values: &[f64]) -> Self {
         let (origin, value) = (corners[0], values[0]);
         let (mut area, mut slope) = (0.0, [0.0; 2]);
         for (corners, values) in corners.windows(2).zip(values.windows(2)).skip(1) {
@@ -32,7 +32,7 @@ impl Linear {
     }
 
     /// Returns its value at a point.
-    pub(super) fn at(&self, p: Point) -> f64 {
+    pub(super) fn at(&self, p: PicturePoint) -> f64 {
         self.value
             + self.slope[0] * (p[0] - self.origin[0])
             + self.slope[1] * (p[1] - self.origin[1])
@@ -47,8 +47,8 @@ impl Linear {
 /// compute the same number for a point up to the sign.
 #[derive(Clone, Copy, Debug)]
 struct SurfaceEdge {
-    from: Point,
-    to: Point,
+    from: PicturePoint,
+    to: PicturePoint,
     /// 1 over its length, negative if the inside is on the other side.
     scale: f64,
     /// True if a point on the edge belongs to this polygon: the top-left rule.
@@ -56,7 +56,7 @@ struct SurfaceEdge {
 }
 
 impl SurfaceEdge {
-    fn new(a: Point, b: Point, orientation: f64) -> Self {
+    fn new(a: PicturePoint, b: PicturePoint, orientation: f64) -> Self {
         let swapped = a > b;
         let (from, to) = if swapped { (b, a) } else { (a, b) };
         let sign = if swapped { -orientation } else { orientation };
@@ -72,7 +72,7 @@ impl SurfaceEdge {
     }
 
     /// Returns the signed distance of a point from the edge in texels, positive inside.
-    fn distance(&self, p: Point) -> f64 {
+    fn distance(&self, p: PicturePoint) -> f64 {
         let across = (self.to[0] - self.from[0]) * (p[1] - self.from[1])
             - (self.to[1] - self.from[1]) * (p[0] - self.from[0]);
         across * self.scale
@@ -104,15 +104,15 @@ pub(super) struct PreparedSurface<'a> {
     /// The least and the largest value of any channel of its colour.
     pub(super) tones: [(f64, f64); 3],
     edges: Vec<SurfaceEdge>,
-    low: Point,
-    high: Point,
+    low: PicturePoint,
+    high: PicturePoint,
 }
 
 impl<'a> PreparedSurface<'a> {
     /// Returns the prepared surface; `None` if it covers nothing: fewer than three distinct corners, no area,
     /// or invalid numbers in it or in its paint.
-    pub(super) fn new(surface: &'a Surface) -> Option<Self> {
-        let corners: Vec<Point> = surface.corners.iter().map(|c| [c[0], c[1]]).collect();
+    pub(super) fn new(surface: &'a FlatSurface) -> Option<Self> {
+        let corners: Vec<PicturePoint> = surface.corners.iter().map(|c| [c[0], c[1]]).collect();
         let depths: Vec<f64> = surface.corners.iter().map(|c| c[2]).collect();
         let finite = surface.corners.iter().flatten().all(|v| v.is_finite());
         if corners.len() < 3 || !finite {
@@ -177,7 +177,7 @@ impl<'a> PreparedSurface<'a> {
 
     /// Returns true if the surface covers a point. Of two surfaces that share an edge, exactly one covers a
     /// point on it.
-    pub(super) fn covers(&self, p: Point) -> bool {
+    pub(super) fn covers(&self, p: PicturePoint) -> bool {
         self.edges.iter().all(|edge| {
             let distance = edge.distance(p);
             distance > 0.0 || (distance == 0.0 && edge.owns)
@@ -185,14 +185,14 @@ impl<'a> PreparedSurface<'a> {
     }
 
     /// Returns how much of a rectangle the surface covers; `Part` if rounding could decide.
-    pub(super) fn overlap(&self, low: Point, high: Point) -> Overlap {
+    pub(super) fn overlap(&self, low: PicturePoint, high: PicturePoint) -> Overlap {
         const ROOM: f64 = 1e-9;
         let apart =
             |axis: usize| self.high[axis] < low[axis] - ROOM || self.low[axis] > high[axis] + ROOM;
         if apart(0) || apart(1) {
             return Overlap::None;
         }
-        let rectangle = Cell::rectangle(low, high);
+        let rectangle = ConvexCell::rectangle(low, high);
         let mut overlap = Overlap::Whole;
         for edge in &self.edges {
             let (least, most) = rectangle.range(|p| edge.distance(p));
@@ -212,12 +212,12 @@ impl<'a> PreparedSurface<'a> {
     }
 
     /// Returns the signed distance of a point from one of its edges in texels, positive inside.
-    pub(super) fn inside(&self, edge: usize, p: Point) -> f64 {
+    pub(super) fn inside(&self, edge: usize, p: PicturePoint) -> f64 {
         self.edges[edge].distance(p)
     }
 
     /// Returns true if a cell is outside one of the edges.
-    pub(super) fn misses(&self, cell: &Cell) -> bool {
+    pub(super) fn misses(&self, cell: &ConvexCell) -> bool {
         let mut edges = self.edges.iter();
         edges.any(|edge| cell.range(|p| edge.distance(p)).1 <= SLACK)
     }
@@ -264,7 +264,7 @@ fn tones(paint: &Paint, depths: &[f64]) -> Option<[(f64, f64); 3]> {
     }
 }
 
-fn has_all_texels(texture: &Texture) -> bool {
+fn has_all_texels(texture: &StraightTexture) -> bool {
     let [width, height] = texture.size.map(|n| n as usize);
     let texels = width.checked_mul(height);
     texels.is_some_and(|n| n > 0 && n == texture.texels.len())

@@ -5,7 +5,7 @@ use crate::error::unavailable;
 use crate::gpu::Gpu;
 use crate::instance::{INSTANCE_VERSION, Instance};
 use crate::planted;
-use crate::prepared::PreparedScene;
+use crate::prepared::VulkanScene;
 use crate::recording;
 use etalon_backend::{Backend, BackendError, Fault, Phase, Prepared, Recording, Unavailable};
 use etalon_frame::{AdapterInfo, Limits};
@@ -14,7 +14,7 @@ use std::rc::Rc;
 
 /// Options for [`open`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Options {
+pub struct VulkanOptions {
     /// The device's index in `vkEnumeratePhysicalDevices`, which is also the order of
     /// [`enumerate`].
     pub device: usize,
@@ -34,7 +34,7 @@ pub struct VulkanBackend {
     gpu: Gpu,
 }
 
-/// Returns all physical devices of the installed drivers, in the order of [`Options::device`]. An
+/// Returns all physical devices of the installed drivers, in the order of [`VulkanOptions::device`]. An
 /// adapter's name is `vulkan:<driver>`; two devices of one driver share a name.
 ///
 /// The list includes devices without Vulkan 1.3, which [`open`] refuses.
@@ -52,7 +52,7 @@ pub fn enumerate() -> Result<Vec<AdapterInfo>, Unavailable> {
 /// # Errors
 /// If there is no such device, it lacks Vulkan 1.3, its driver fails, or the validation layer is
 /// requested and not installed.
-pub fn open(name: &str, options: &Options) -> Result<VulkanBackend, Unavailable> {
+pub fn open(name: &str, options: &VulkanOptions) -> Result<VulkanBackend, Unavailable> {
     recording::install(options.record);
     let mut instance = Instance::new(options.validate)?;
     if options.record {
@@ -94,7 +94,7 @@ impl Backend for VulkanBackend {
     }
 
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
-        Ok(Box::new(PreparedScene::new(&self.gpu, scene)?))
+        Ok(Box::new(VulkanScene::new(&self.gpu, scene)?))
     }
 
     fn recording(&self) -> Option<Recording> {
@@ -116,7 +116,7 @@ mod tests {
     /// The layer reports errors: without this, its silence elsewhere would prove nothing.
     #[test]
     fn a_planted_error_is_reported() {
-        let options = Options {
+        let options = VulkanOptions {
             device: 0,
             validate: true,
             fault: None,
@@ -142,7 +142,7 @@ mod tests {
     /// The validation layer reports every object that outlives its device.
     #[test]
     fn a_closed_backend_leaves_nothing_behind() {
-        let options = Options {
+        let options = VulkanOptions {
             device: 0,
             validate: true,
             fault: None,

@@ -23,7 +23,7 @@ pub(crate) enum BufferUse {
 
 /// A persistently mapped buffer in coherent memory.
 #[derive(Debug)]
-pub(crate) struct Buffer {
+pub(crate) struct MappedBuffer {
     pub(crate) raw: vk::Buffer,
     memory: vk::DeviceMemory,
     pointer: *mut u8,
@@ -31,7 +31,7 @@ pub(crate) struct Buffer {
     pub(crate) usage: BufferUse,
 }
 
-impl Buffer {
+impl MappedBuffer {
     /// Creates a buffer. If a step fails, it destroys what was made, so nothing leaks.
     pub(crate) fn new(device: &Device, usage: BufferUse, size: u64) -> Result<Self, BackendError> {
         let size = size.max(SMALLEST_BUFFER).checked_next_power_of_two();

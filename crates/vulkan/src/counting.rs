@@ -1,6 +1,6 @@
 //! Counters: queries around draws, and storage words that shaders increment.
 
-use crate::buffer::Buffer;
+use crate::buffer::MappedBuffer;
 use crate::device::Device;
 use crate::error::internal;
 use crate::inputs::OffsetAllocator;
@@ -15,7 +15,7 @@ use std::mem::size_of;
 
 /// The counters of a scene and the storage of their counts.
 #[derive(Default)]
-pub(crate) struct Counting {
+pub(crate) struct CounterQueries {
     kinds: Vec<CounterKind>,
     /// The offset of each `ShaderRuns` counter's word.
     words: Vec<Option<u64>>,
@@ -30,13 +30,13 @@ pub(crate) struct Counting {
 
 /// A query of a pool.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Query {
+pub(crate) struct PoolQuery {
     pub(crate) pool: vk::QueryPool,
     pub(crate) index: u32,
     pub(crate) flags: vk::QueryControlFlags,
 }
 
-impl Query {
+impl PoolQuery {
     /// Records the beginning of the query.
     ///
     /// # Safety
@@ -51,14 +51,14 @@ impl Query {
     /// Records the end of the query.
     ///
     /// # Safety
-    /// As for [`Query::begin`]; the query has begun.
+    /// As for [`PoolQuery::begin`]; the query has begun.
     pub(crate) unsafe fn end(self, device: &Device, commands: vk::CommandBuffer) {
         // SAFETY: upheld by the caller.
         unsafe { device.raw.cmd_end_query(commands, self.pool, self.index) };
     }
 }
 
-impl Counting {
+impl CounterQueries {
     /// Assigns an offset to the word of each counter that a shader increments.
     pub(crate) fn new(device: &Device, scene: &Scene) -> Self {
         let alignment = device.limits.min_storage_buffer_offset_alignment;
@@ -95,7 +95,7 @@ impl Counting {
         &mut self,
         slot: &Slot,
         scene: &Scene,
-    ) -> Result<Vec<(etalon_scene::Query, Query)>, BackendError> {
+    ) -> Result<Vec<(etalon_scene::Query, PoolQuery)>, BackendError> {
         let mut queries = Vec::new();
         for query in scene.queries() {
             let kind = self
@@ -120,7 +120,7 @@ impl Counting {
                 ),
                 CounterKind::ShaderRuns => continue,
             };
-            let made = Query {
+            let made = PoolQuery {
                 pool: pool.raw,
                 index: count(owners)?,
                 flags,
@@ -147,7 +147,7 @@ impl Counting {
         device: &Device,
         commands: vk::CommandBuffer,
         slot: &Slot,
-        counts: Option<&Buffer>,
+        counts: Option<&MappedBuffer>,
     ) -> Result<(), BackendError> {
         let pools = [
             (&slot.occlusion, &self.occlusion),
@@ -182,7 +182,7 @@ impl Counting {
         &self,
         device: &Device,
         slot: &Slot,
-        counts: Option<&Buffer>,
+        counts: Option<&MappedBuffer>,
     ) -> Result<Vec<u64>, BackendError> {
         let mut totals = vec![0_u64; self.kinds.len()];
         let any = |kind: &CounterKind| *kind == CounterKind::AnySamplesPassed;

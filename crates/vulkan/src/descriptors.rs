@@ -1,12 +1,12 @@
 //! Descriptor sets of draws: parameters, textures, sampler and storage.
 
-use crate::buffer::Buffer;
-use crate::counting::Counting;
+use crate::buffer::MappedBuffer;
+use crate::counting::CounterQueries;
 use crate::device::Device;
 use crate::error::internal;
-use crate::image::Image;
+use crate::image::DeviceImage;
 use crate::inputs::PARAMS_BYTES;
-use crate::pipeline::{Bindings, Pipelines, SAMPLER_BINDING, STORAGE_BINDING};
+use crate::pipeline::{Pipelines, SAMPLER_BINDING, STORAGE_BINDING, ShaderBindings};
 use crate::samplers::Samplers;
 use crate::slot::Slot;
 use ash::vk;
@@ -27,12 +27,12 @@ struct Resources {
 
 /// The resources of a scene and the descriptor sets made so far.
 pub(crate) struct Descriptors<'a> {
-    pub(crate) input: &'a Buffer,
+    pub(crate) input: &'a MappedBuffer,
     /// The buffer of the shaders' counts, if any shader counts.
-    pub(crate) counts: Option<&'a Buffer>,
+    pub(crate) counts: Option<&'a MappedBuffer>,
     /// The pool and its size in bytes, if the scene has a pool.
-    pub(crate) pool: Option<(&'a Buffer, u64)>,
-    pub(crate) images: &'a [Image],
+    pub(crate) pool: Option<(&'a MappedBuffer, u64)>,
+    pub(crate) images: &'a [DeviceImage],
     sets: HashMap<Resources, vk::DescriptorSet>,
 }
 
@@ -50,10 +50,10 @@ pub(crate) fn write(
 
 impl<'a> Descriptors<'a> {
     pub(crate) fn new(
-        input: &'a Buffer,
-        counts: Option<&'a Buffer>,
-        pool: Option<(&'a Buffer, u64)>,
-        images: &'a [Image],
+        input: &'a MappedBuffer,
+        counts: Option<&'a MappedBuffer>,
+        pool: Option<(&'a MappedBuffer, u64)>,
+        images: &'a [DeviceImage],
     ) -> Self {
         Self {
             input,
@@ -70,11 +70,11 @@ impl<'a> Descriptors<'a> {
         device: &Device,
         (pipelines, samplers): (&mut Pipelines, &mut Samplers),
         slot: &Slot,
-        counting: &Counting,
+        counting: &CounterQueries,
         draw: &Draw,
     ) -> Result<vk::DescriptorSet, BackendError> {
         let word = counting.word(draw)?;
-        let bindings = Bindings::of(draw.shader);
+        let bindings = ShaderBindings::of(draw.shader);
         if draw.textures.len() != bindings.textures || draw.sampler.is_some() != bindings.sampler {
             return Err(internal("a draw lacks the textures that its shader reads"));
         }

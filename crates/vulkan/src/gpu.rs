@@ -5,7 +5,7 @@ use crate::device::Device;
 use crate::format::{self, Native};
 use crate::limits;
 use crate::pipeline::Pipelines;
-use crate::pool::Pool;
+use crate::pool::UnusedObjects;
 use crate::samplers::Samplers;
 use crate::samples::SampleReaders;
 use crate::slot::Slots;
@@ -29,7 +29,7 @@ pub(crate) struct Gpu {
 #[derive(Default)]
 pub(crate) struct Pools {
     pub(crate) slots: Slots,
-    pub(crate) memory: Pool,
+    pub(crate) memory: UnusedObjects,
     pub(crate) pipelines: Pipelines,
     pub(crate) readers: SampleReaders,
     pub(crate) samplers: Samplers,

@@ -175,7 +175,7 @@ impl ImagePlace {
 
 /// An image with its own memory.
 #[derive(Debug)]
-pub(crate) struct Image {
+pub(crate) struct DeviceImage {
     pub(crate) key: ImageKey,
     pub(crate) raw: vk::Image,
     memory: vk::DeviceMemory,
@@ -188,7 +188,7 @@ pub(crate) struct Image {
     layers: Option<vk::ImageView>,
 }
 
-impl Image {
+impl DeviceImage {
     pub(crate) fn new(device: &Device, key: ImageKey) -> Result<Self, BackendError> {
         let mut image = Self {
             key,

@@ -1,13 +1,13 @@
 //! The inputs of a scene: vertices, indices, parameters, texels. One buffer holds all of them, so that a
 //! scene needs one allocation.
 
-use crate::buffer::Buffer;
+use crate::buffer::MappedBuffer;
 use crate::device::Device;
 use crate::format::{self, Native};
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::{PathDraws, TextureFormat};
-use etalon_scene::{Call, Contents, Draw, IndexFormat, Params, Scene, Vertex};
+use etalon_scene::{AttachmentContents, Call, Draw, IndexFormat, Params, Scene, Vertex};
 use std::collections::BTreeMap;
 use std::mem::size_of;
 
@@ -164,7 +164,7 @@ impl Inputs {
         }
         let mut texels = Vec::with_capacity(scene.attachments.len());
         for attachment in &scene.attachments {
-            let (Contents::Texels(codes), Some(native)) =
+            let (AttachmentContents::Texels(codes), Some(native)) =
                 (&attachment.contents, natives.get(&attachment.format))
             else {
                 texels.push(None);
@@ -182,7 +182,11 @@ impl Inputs {
     }
 
     /// Writes all inputs to a buffer of at least `bytes`.
-    pub(crate) fn write(&self, buffer: &mut Buffer, scene: &Scene) -> Result<(), BackendError> {
+    pub(crate) fn write(
+        &self,
+        buffer: &mut MappedBuffer,
+        scene: &Scene,
+    ) -> Result<(), BackendError> {
         for (pass, places) in scene.passes.iter().zip(&self.draws) {
             for (draw, place) in pass.draws.iter().zip(places) {
                 let call = call(draw);

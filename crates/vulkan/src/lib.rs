@@ -57,4 +57,4 @@ mod targets;
 mod tessellation;
 mod viewport;
 
-pub use backend::{Options, VulkanBackend, enumerate, open};
+pub use backend::{VulkanBackend, VulkanOptions, enumerate, open};

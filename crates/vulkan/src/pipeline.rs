@@ -27,7 +27,7 @@ const KEPT_PIPELINES: usize = 256;
 
 /// The static state of a pipeline; the rest is [`Setting::states`].
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-struct PipelineKey {
+struct StaticState {
     targets: Targets,
     shader: Shader,
     early_tests: EarlyTests,
@@ -91,13 +91,13 @@ pub(crate) const INSTANCE_BINDING: u32 = 1;
 
 /// The bindings of a shader in addition to its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) struct Bindings {
+pub(crate) struct ShaderBindings {
     pub(crate) textures: usize,
     pub(crate) sampler: bool,
     pub(crate) storage: bool,
 }
 
-impl Bindings {
+impl ShaderBindings {
     pub(crate) fn of(shader: Shader) -> Self {
         Self {
             textures: shader.textures(),
@@ -109,7 +109,7 @@ impl Bindings {
 
 /// The layouts that shaders with the same bindings share.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Layout {
+pub(crate) struct PipelineLayouts {
     pub(crate) set: vk::DescriptorSetLayout,
     pub(crate) pipeline: vk::PipelineLayout,
 }
@@ -128,8 +128,8 @@ pub(crate) struct Pipelines {
     modules: Modules,
     tessellation: tessellation::Stages,
     cache: vk::PipelineCache,
-    layouts: HashMap<Bindings, Layout>,
-    pipelines: HashMap<PipelineKey, Rc<Pipeline>>,
+    layouts: HashMap<ShaderBindings, PipelineLayouts>,
+    pipelines: HashMap<StaticState, Rc<Pipeline>>,
 }
 
 /// The parts of a pipeline that depend on the path.
@@ -158,8 +158,8 @@ impl Pipelines {
     pub(crate) fn layout(
         &mut self,
         device: &Device,
-        bindings: Bindings,
-    ) -> Result<Layout, BackendError> {
+        bindings: ShaderBindings,
+    ) -> Result<PipelineLayouts, BackendError> {
         if let Some(layout) = self.layouts.get(&bindings) {
             return Ok(*layout);
         }
@@ -197,7 +197,7 @@ impl Pipelines {
         draw: &Draw,
         way: Way<'_>,
     ) -> Result<Rc<Pipeline>, BackendError> {
-        let key = PipelineKey {
+        let key = StaticState {
             targets: targets.clone(),
             shader: draw.shader,
             early_tests: draw.early_tests,
@@ -230,7 +230,7 @@ impl Pipelines {
                 layer: way.layer,
             },
         )?;
-        let layout = self.layout(device, Bindings::of(draw.shader))?;
+        let layout = self.layout(device, ShaderBindings::of(draw.shader))?;
         let stage = |stage, name| {
             vk::PipelineShaderStageCreateInfo::default()
                 .stage(stage)
@@ -286,7 +286,7 @@ impl Pipelines {
 pub(crate) fn create_layout(
     device: &Device,
     bindings: &[vk::DescriptorSetLayoutBinding<'_>],
-) -> Result<Layout, BackendError> {
+) -> Result<PipelineLayouts, BackendError> {
     let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(bindings);
     // SAFETY: `info` is complete.
     let set = unsafe { device.raw.create_descriptor_set_layout(&info, None) }
@@ -300,13 +300,13 @@ pub(crate) fn create_layout(
         unsafe { device.raw.destroy_descriptor_set_layout(set, None) };
     }
     let pipeline = pipeline.check("a pipeline layout")?;
-    Ok(Layout { set, pipeline })
+    Ok(PipelineLayouts { set, pipeline })
 }
 
 fn create(
     device: &Device,
     cache: vk::PipelineCache,
-    key: &PipelineKey,
+    key: &StaticState,
     (stages, attributes): (
         &[vk::PipelineShaderStageCreateInfo<'_>],
         &[vk::VertexInputAttributeDescription],

@@ -2,13 +2,13 @@
 
 use crate::attached::{ColorPlan, DepthStencilPlan};
 use crate::clear::{ClearPlan, Ends, color_value, depth_stencil_value};
-use crate::counting::{Counting, Query};
+use crate::counting::{CounterQueries, PoolQuery};
 use crate::dynamic::Dynamic;
 use crate::error::internal;
 use crate::extended::Extended;
 use crate::format;
 use crate::gpu::Gpu;
-use crate::image::{Image, ImageKey, ImagePlace};
+use crate::image::{DeviceImage, ImageKey, ImagePlace};
 use crate::inputs::{Arguments, CallNumbers, DrawInputs};
 use crate::limits::attachment_usage;
 use crate::path;
@@ -24,7 +24,7 @@ use etalon_backend::{BackendError, Blits};
 use etalon_frame::{
     PathClears, PathEnd, PathTarget, PathTests, PathValue, Requirement, TextureFormat,
 };
-use etalon_scene::{Attachment, ClearTarget, Contents, Draw, Enclosing, Pass, Scene};
+use etalon_scene::{Attachment, AttachmentContents, ClearTarget, Draw, Enclosing, Pass, Scene};
 use std::rc::Rc;
 
 /// The plan of a scene.
@@ -33,7 +33,7 @@ pub(crate) struct ScenePlan {
     pub(crate) attachments: Vec<AttachmentPlan>,
     pub(crate) passes: Vec<PassPlan>,
     pub(crate) reads: Vec<ReadPlan>,
-    pub(crate) counting: Counting,
+    pub(crate) counting: CounterQueries,
     /// True if shaders use the scene's pool.
     pub(crate) pool: bool,
 }
@@ -106,7 +106,7 @@ pub(crate) struct PassPlan {
     /// The resolves after the pass.
     pub(crate) resolves: Vec<MovedResolve>,
     /// The queries that begin before the pass, and the queries that end after it.
-    pub(crate) queries: Enclosing<Query>,
+    pub(crate) queries: Enclosing<PoolQuery>,
 }
 
 /// The plan of a draw.
@@ -136,7 +136,7 @@ pub(crate) struct DrawPlan {
     pub(crate) call: CallNumbers,
     pub(crate) dynamic: Dynamic,
     /// The queries that begin before the draw, and the queries that end after it.
-    pub(crate) queries: Enclosing<Query>,
+    pub(crate) queries: Enclosing<PoolQuery>,
 }
 
 /// Returns true if a shader reads the attachment.
@@ -150,14 +150,14 @@ impl InitialContents {
     /// buffer.
     pub(crate) fn of(attachment: &Attachment, texels: u64) -> Self {
         match &attachment.contents {
-            Contents::Color(color) => {
+            AttachmentContents::Color(color) => {
                 Self::Color(color_value(*color, attachment.format.is_integer()))
             }
-            Contents::DepthStencil { depth, stencil } => Self::DepthStencil {
+            AttachmentContents::DepthStencil { depth, stencil } => Self::DepthStencil {
                 depth: *depth,
                 stencil: *stencil,
             },
-            Contents::Texels(_) => Self::Upload(texels),
+            AttachmentContents::Texels(_) => Self::Upload(texels),
         }
     }
 }
@@ -167,7 +167,7 @@ impl PassPlan {
     pub(crate) fn new(
         scene: &Scene,
         pass: &Pass,
-        images: &[Image],
+        images: &[DeviceImage],
         area: vk::Rect2D,
         targets: Targets,
     ) -> Result<Self, BackendError> {
@@ -285,7 +285,7 @@ impl DrawPlan {
         dynamic: Dynamic,
         pipeline: Rc<Pipeline>,
         set: vk::DescriptorSet,
-        queries: Enclosing<Query>,
+        queries: Enclosing<PoolQuery>,
     ) -> Result<Self, BackendError> {
         Ok(Self {
             pipeline,
@@ -354,7 +354,7 @@ pub(crate) fn image_key(
         usage |= vk::ImageUsageFlags::TRANSFER_SRC;
     }
     let stored = format::viewed(native.raw, scene.path.views).unwrap_or(native.raw);
-    if stored != native.raw && matches!(attachment.contents, Contents::Color(_)) {
+    if stored != native.raw && matches!(attachment.contents, AttachmentContents::Color(_)) {
         if !native.attachment {
             return Err(BackendError::NotSupported(Requirement::Drawing(format)));
         }

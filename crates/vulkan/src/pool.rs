@@ -1,8 +1,8 @@
 //! The bounded pool from which scenes take buffers and images.
 
-use crate::buffer::{Buffer, BufferUse};
+use crate::buffer::{BufferUse, MappedBuffer};
 use crate::device::Device;
-use crate::image::{Image, ImageKey};
+use crate::image::{DeviceImage, ImageKey};
 use etalon_backend::BackendError;
 
 /// The largest number of objects that a pool keeps, and their largest total size in bytes.
@@ -10,31 +10,35 @@ const KEPT_OBJECTS: usize = 64;
 const KEPT_BYTES: u64 = 256 << 20;
 /// Unused objects, oldest first.
 #[derive(Debug, Default)]
-pub(crate) struct Pool {
-    buffers: Vec<Buffer>,
-    images: Vec<Image>,
+pub(crate) struct UnusedObjects {
+    buffers: Vec<MappedBuffer>,
+    images: Vec<DeviceImage>,
 }
 
-impl Pool {
+impl UnusedObjects {
     /// Returns a buffer of at least this size.
     pub(crate) fn buffer(
         &mut self,
         device: &Device,
         usage: BufferUse,
         size: u64,
-    ) -> Result<Buffer, BackendError> {
-        let fits = |b: &Buffer| b.usage == usage && b.size >= size;
+    ) -> Result<MappedBuffer, BackendError> {
+        let fits = |b: &MappedBuffer| b.usage == usage && b.size >= size;
         match self.buffers.iter().rposition(fits) {
             Some(index) => Ok(self.buffers.remove(index)),
-            None => Buffer::new(device, usage, size),
+            None => MappedBuffer::new(device, usage, size),
         }
     }
 
     /// Returns an image with undefined contents.
-    pub(crate) fn image(&mut self, device: &Device, key: ImageKey) -> Result<Image, BackendError> {
+    pub(crate) fn image(
+        &mut self,
+        device: &Device,
+        key: ImageKey,
+    ) -> Result<DeviceImage, BackendError> {
         match self.images.iter().rposition(|i| i.key == key) {
             Some(index) => Ok(self.images.remove(index)),
-            None => Image::new(device, key),
+            None => DeviceImage::new(device, key),
         }
     }
 
@@ -42,8 +46,8 @@ impl Pool {
     pub(crate) fn give_back(
         &mut self,
         device: &Device,
-        buffers: impl IntoIterator<Item = Buffer>,
-        images: impl IntoIterator<Item = Image>,
+        buffers: impl IntoIterator<Item = MappedBuffer>,
+        images: impl IntoIterator<Item = DeviceImage>,
     ) {
         self.buffers.extend(buffers);
         self.images.extend(images);

@@ -1,7 +1,7 @@
 //! A scene prepared for drawing.
 
-use crate::buffer::{Buffer, BufferUse};
-use crate::counting::{Counting, Query};
+use crate::buffer::{BufferUse, MappedBuffer};
+use crate::counting::{CounterQueries, PoolQuery};
 use crate::descriptors::Descriptors;
 use crate::device::Device;
 use crate::dynamic::{Dynamic, Setting};
@@ -9,7 +9,7 @@ use crate::error::internal;
 use crate::extended::{self, Extended};
 use crate::format;
 use crate::gpu::{Gpu, Pools};
-use crate::image::{DRAWN_LAYERS, Image};
+use crate::image::{DRAWN_LAYERS, DeviceImage};
 use crate::inputs::{DrawInputs, Inputs};
 use crate::path;
 use crate::pipeline::{Pipelines, Way};
@@ -18,7 +18,7 @@ use crate::plan::{
     copy_key, image_key, is_advanced, resolve_key, targets,
 };
 use crate::read::ReadPlan;
-use crate::record::{self, Recorder};
+use crate::record::{self, CommandRecorder};
 use crate::recording::{self, Needed};
 use crate::render_pass::RenderPass;
 use crate::role::Role;
@@ -32,23 +32,23 @@ use etalon_backend::{BackendError, FrameTime, Phase, Prepared};
 use etalon_frame::{
     Feature, Frame, PathCommands, PathEnd, PathLayers, PathPass, PathState, PathValue, Requirement,
 };
-use etalon_scene::{Contents, Draw, Enclosing, Pass, Pool, Scene};
+use etalon_scene::{AttachmentContents, Draw, Enclosing, Pass, Pool, Scene};
 use std::cell::RefCell;
 use std::time::Instant;
 
 /// A scene with all objects needed to draw it.
-pub(crate) struct PreparedScene<'a> {
+pub(crate) struct VulkanScene<'a> {
     gpu: &'a Gpu,
     /// Always present until `drop` takes it.
     slot: Option<Slot>,
-    input: Option<Buffer>,
-    output: Option<Buffer>,
+    input: Option<MappedBuffer>,
+    output: Option<MappedBuffer>,
     /// The buffer of the shaders' counts, if any shader counts.
-    counts: Option<Buffer>,
+    counts: Option<MappedBuffer>,
     /// The scene's pool.
-    pool: Option<(Buffer, Pool)>,
+    pool: Option<(MappedBuffer, Pool)>,
     /// The images of the attachments, then the images that they are copied to.
-    images: Vec<Image>,
+    images: Vec<DeviceImage>,
     plan: ScenePlan,
     kind: PathCommands,
     /// True if state that does not change between draws is set only once.
@@ -69,7 +69,7 @@ enum Progress {
     Read,
 }
 
-impl<'a> PreparedScene<'a> {
+impl<'a> VulkanScene<'a> {
     pub(crate) fn new(gpu: &'a Gpu, scene: &Scene) -> Result<Self, BackendError> {
         if let Some(missing) = gpu.limits.missing(&scene.requirements()) {
             return Err(BackendError::NotSupported(missing));
@@ -126,7 +126,7 @@ impl<'a> PreparedScene<'a> {
     ) -> Result<(), BackendError> {
         let device = &self.gpu.device;
         for (index, attachment) in scene.attachments.iter().enumerate() {
-            if let Contents::Texels(codes) = &attachment.contents {
+            if let AttachmentContents::Texels(codes) = &attachment.contents {
                 let texels = attachment.size[0] as usize * attachment.size[1] as usize;
                 if codes.len() != texels * attachment.format.color_channels().len() {
                     return Err(internal("an upload does not fill its attachment"));
@@ -141,7 +141,7 @@ impl<'a> PreparedScene<'a> {
             let image = pools.memory.image(device, key)?;
             let converts = key.stored != key.format;
             let cleared = match attachment.contents {
-                Contents::Color(_) if converts => Some(image.attached()?),
+                AttachmentContents::Color(_) if converts => Some(image.attached()?),
                 _ => None,
             };
             self.plan.attachments.push(AttachmentPlan {
@@ -236,7 +236,7 @@ impl<'a> PreparedScene<'a> {
             images: textures,
             ..Needs::default()
         };
-        self.plan.counting = Counting::new(device, scene);
+        self.plan.counting = CounterQueries::new(device, scene);
         self.plan.counting.add_needs(scene, &mut needs);
         self.slot = Some(pools.slots.take(device, needs)?);
         let bytes = self.plan.counting.bytes;
@@ -353,7 +353,7 @@ struct SceneDrawing<'a> {
     object: Option<&'a RenderPass>,
     /// The area, and whether it is the only one.
     area: (vk::Rect2D, bool),
-    queries: &'a [(etalon_scene::Query, Query)],
+    queries: &'a [(etalon_scene::Query, PoolQuery)],
     /// The number of the pass.
     pass: usize,
 }
@@ -431,7 +431,7 @@ fn check_advanced(device: &Device, pass: &Pass, setting: Setting) -> Result<(), 
     Ok(())
 }
 
-impl Prepared for PreparedScene<'_> {
+impl Prepared for VulkanScene<'_> {
     fn submit(&mut self) -> Result<FrameTime, BackendError> {
         let device = &self.gpu.device;
         let (Some(slot), Some(input)) = (&mut self.slot, &self.input) else {
@@ -454,7 +454,7 @@ impl Prepared for PreparedScene<'_> {
         let kind = self.kind;
         let kept = self.keeps_state.then(RefCell::default);
         let over_passes = self.plan.passes.iter().any(|pass| !pass.queries.is_empty());
-        let mut recorder = Recorder {
+        let mut recorder = CommandRecorder {
             slot,
             kind,
             kept,
@@ -506,7 +506,7 @@ impl Prepared for PreparedScene<'_> {
     }
 }
 
-impl Drop for PreparedScene<'_> {
+impl Drop for VulkanScene<'_> {
     fn drop(&mut self) {
         let device = &self.gpu.device;
         let mut pools = self.gpu.pools.borrow_mut();

@@ -7,13 +7,13 @@ use etalon_backend::BackendError;
 
 /// Queries of one type.
 #[derive(Debug, Default)]
-pub(crate) struct Queries {
+pub(crate) struct TypedQueries {
     /// Null until queries are needed.
     pub(crate) raw: vk::QueryPool,
     room: u32,
 }
 
-impl Queries {
+impl TypedQueries {
     /// Makes room for this many queries. The device must be done with the present ones.
     pub(crate) fn make_room(
         &mut self,

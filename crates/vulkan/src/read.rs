@@ -1,19 +1,19 @@
 //! Reading attachments back: from the output buffer to the frame's images.
 
-use crate::buffer::Buffer;
+use crate::buffer::MappedBuffer;
 use crate::descriptors;
 use crate::device::Device;
 use crate::error::internal;
 use crate::format;
 use crate::gpu::Gpu;
-use crate::image::Image;
+use crate::image::DeviceImage;
 use crate::inputs::OffsetAllocator;
 use crate::recording;
-use crate::samples::{self, SampleReader, SampleReaders, SampleType};
+use crate::samples::{self, ReaderType, SampleReader, SampleReaders};
 use crate::slot::Slot;
 use ash::vk;
 use etalon_backend::codes::code_of_fetched;
-use etalon_backend::{BackendError, Fault, Form, Plane, doubled};
+use etalon_backend::{BackendError, Fault, NumberForm, RecordedPlane, doubled};
 use etalon_frame::{Aspect, ChannelEncoding, ReadPath};
 use etalon_scene::Scene;
 
@@ -28,7 +28,7 @@ pub(crate) struct ReadPlan {
     /// The shader and its descriptors, if a shader reads it back.
     pub(crate) reader: Option<(SampleReader, vk::DescriptorSet)>,
     name: String,
-    sample_type: SampleType,
+    sample_type: ReaderType,
     size: [u32; 2],
     samples: u32,
     raw: vk::Format,
@@ -73,7 +73,7 @@ impl ReadPlan {
                     by_shader,
                     reader: None,
                     name: attachment.name.clone(),
-                    sample_type: SampleType::of(format, *aspect),
+                    sample_type: ReaderType::of(format, *aspect),
                     size: attachment.size,
                     samples: attachment.samples,
                     raw: native.raw,
@@ -92,8 +92,8 @@ impl ReadPlan {
         device: &Device,
         readers: &mut SampleReaders,
         slot: &Slot,
-        image: &Image,
-        output: &Buffer,
+        image: &DeviceImage,
+        output: &MappedBuffer,
     ) -> Result<(), BackendError> {
         if !self.by_shader {
             return Ok(());
@@ -135,7 +135,7 @@ impl ReadPlan {
     /// averaged its texels with zeros.
     pub(crate) fn image(
         &self,
-        output: &Buffer,
+        output: &MappedBuffer,
         halved: bool,
         fault: Option<Fault>,
     ) -> Result<etalon_frame::Image, BackendError> {
@@ -169,24 +169,24 @@ impl ReadPlan {
     }
 
     /// Returns where the channels of each sample are in the bytes that were read.
-    fn planes(&self) -> Vec<Plane> {
+    fn planes(&self) -> Vec<RecordedPlane> {
         let texel = u32::try_from(self.texel_bytes()).unwrap_or(u32::MAX);
         if self.reader.is_none() {
             let channels = format::copied_layout(self.raw, self.aspect);
-            return vec![Plane {
+            return vec![RecordedPlane {
                 output: 0,
                 texel,
                 channels: channels.iter().map(|(bit, bits)| [*bit, *bits]).collect(),
-                form: Form::Code,
+                form: NumberForm::Code,
             }];
         }
         let words = samples::words(self.aspect) as u32;
         let form = match self.sample_type {
-            SampleType::Integers | SampleType::Stencil => Form::Code,
-            _ if self.channels.contains(&ChannelEncoding::Srgb8) => Form::Fraction,
-            SampleType::Color | SampleType::Depth => Form::Float,
+            ReaderType::Integers | ReaderType::Stencil => NumberForm::Code,
+            _ if self.channels.contains(&ChannelEncoding::Srgb8) => NumberForm::Fraction,
+            ReaderType::Color | ReaderType::Depth => NumberForm::Float,
         };
-        let plane = |sample: u32| Plane {
+        let plane = |sample: u32| RecordedPlane {
             output: 0,
             texel,
             channels: (0..words)

@@ -196,7 +196,7 @@ fn clear_view(
 /// If the driver fails to create command buffers.
 pub(crate) fn passes(
     device: &Device,
-    recorder: &mut Recorder<'_>,
+    recorder: &mut CommandRecorder<'_>,
     plan: &ScenePlan,
     input: vk::Buffer,
 ) -> Result<(), BackendError> {
@@ -287,7 +287,7 @@ fn before_advanced(device: &Device, commands: vk::CommandBuffer) {
 }
 
 /// The command buffers of a submission.
-pub(crate) struct Recorder<'a> {
+pub(crate) struct CommandRecorder<'a> {
     pub(crate) slot: &'a mut Slot,
     pub(crate) kind: PathCommands,
     /// The state that is set, as text, if state that does not change is set only once.
@@ -296,7 +296,7 @@ pub(crate) struct Recorder<'a> {
     pub(crate) over_passes: bool,
 }
 
-impl Recorder<'_> {
+impl CommandRecorder<'_> {
     /// Returns the command buffer for the next pass. It is outside a pass.
     fn next_pass(&mut self, device: &Device) -> Result<vk::CommandBuffer, BackendError> {
         match self.kind {
@@ -379,7 +379,7 @@ fn inherited_queries(device: &Device) -> vk::CommandBufferInheritanceInfo<'stati
 
 fn pass(
     device: &Device,
-    recorder: &mut Recorder<'_>,
+    recorder: &mut CommandRecorder<'_>,
     pass: &PassPlan,
     input: vk::Buffer,
 ) -> Result<(), BackendError> {
@@ -420,7 +420,7 @@ fn pass(
 /// their roles.
 unsafe fn begin_render_pass(
     device: &Device,
-    recorder: &Recorder<'_>,
+    recorder: &CommandRecorder<'_>,
     pass: &PassPlan,
     object: &RenderPass,
 ) {
@@ -447,7 +447,7 @@ unsafe fn begin_render_pass(
 /// # Safety
 /// `commands` of the recorder is being recorded, outside a pass, and the attachments are in the layouts of
 /// their roles.
-unsafe fn begin_rendering(device: &Device, recorder: &Recorder<'_>, pass: &PassPlan) {
+unsafe fn begin_rendering(device: &Device, recorder: &CommandRecorder<'_>, pass: &PassPlan) {
     let attachment = |view: vk::ImageView, layout: vk::ImageLayout, ends: &Ends| {
         vk::RenderingAttachmentInfo::default()
             .image_view(view)

@@ -9,7 +9,7 @@
 
 use crate::device::Device;
 use crate::error::{Check, internal};
-use crate::pipeline::{Layout, create_layout};
+use crate::pipeline::{PipelineLayouts, create_layout};
 use crate::shader;
 use ash::vk;
 use etalon_backend::BackendError;
@@ -22,15 +22,15 @@ pub(crate) const TILE: u32 = 8;
 /// The readers created so far.
 #[derive(Debug, Default)]
 pub(crate) struct SampleReaders {
-    layout: Option<Layout>,
-    pipelines: HashMap<(SampleType, bool), vk::Pipeline>,
+    layout: Option<PipelineLayouts>,
+    pipelines: HashMap<(ReaderType, bool), vk::Pipeline>,
 }
 
 /// The compute pipeline of a reader with its layouts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SampleReader {
     pub(crate) pipeline: vk::Pipeline,
-    pub(crate) layout: Layout,
+    pub(crate) layout: PipelineLayouts,
 }
 
 /// Returns true if a shader can recover the codes of this encoding.
@@ -43,7 +43,7 @@ pub(crate) fn can_read(encoding: ChannelEncoding) -> bool {
 
 /// The type of the values that a reader fetches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum SampleType {
+pub(crate) enum ReaderType {
     /// Colours as floats.
     Color,
     /// Integer colours.
@@ -52,7 +52,7 @@ pub(crate) enum SampleType {
     Stencil,
 }
 
-impl SampleType {
+impl ReaderType {
     /// Returns the sample type of an aspect.
     pub(crate) fn of(format: TextureFormat, aspect: Aspect) -> Self {
         match aspect {
@@ -70,20 +70,20 @@ pub(crate) fn words(aspect: Aspect) -> usize {
 }
 
 /// Returns the WGSL of a reader of multisampled images, or of images with one sample.
-fn source(seen: SampleType, several: bool) -> String {
+fn source(seen: ReaderType, several: bool) -> String {
     let (texture, code, aspect) = match seen {
-        SampleType::Color => (
+        ReaderType::Color => (
             "texture_multisampled_2d<f32>",
             "bitcast<vec4u>(texel)",
             Aspect::Color,
         ),
-        SampleType::Integers => ("texture_multisampled_2d<u32>", "texel", Aspect::Color),
-        SampleType::Depth => (
+        ReaderType::Integers => ("texture_multisampled_2d<u32>", "texel", Aspect::Color),
+        ReaderType::Depth => (
             "texture_depth_multisampled_2d",
             "vec4u(bitcast<u32>(texel))",
             Aspect::Depth,
         ),
-        SampleType::Stencil => ("texture_multisampled_2d<u32>", "texel", Aspect::Stencil),
+        ReaderType::Stencil => ("texture_multisampled_2d<u32>", "texel", Aspect::Stencil),
     };
     let words = words(aspect);
     let (texture, samples, place) = if several {
@@ -120,7 +120,7 @@ impl SampleReaders {
     pub(crate) fn get(
         &mut self,
         device: &Device,
-        seen: SampleType,
+        seen: ReaderType,
         several: bool,
     ) -> Result<SampleReader, BackendError> {
         let layout = match self.layout {
@@ -150,7 +150,7 @@ impl SampleReaders {
     }
 }
 
-fn layout(device: &Device) -> Result<Layout, BackendError> {
+fn layout(device: &Device) -> Result<PipelineLayouts, BackendError> {
     let binding = |binding, kind| {
         vk::DescriptorSetLayoutBinding::default()
             .binding(binding)
@@ -201,10 +201,10 @@ mod tests {
     #[test]
     fn every_reader_translates() {
         for seen in [
-            SampleType::Color,
-            SampleType::Integers,
-            SampleType::Depth,
-            SampleType::Stencil,
+            ReaderType::Color,
+            ReaderType::Integers,
+            ReaderType::Depth,
+            ReaderType::Stencil,
         ] {
             for several in [false, true] {
                 let source = source(seen, several);

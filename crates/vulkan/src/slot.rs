@@ -2,7 +2,7 @@
 
 use crate::device::Device;
 use crate::error::{Check, internal};
-use crate::queries::Queries;
+use crate::queries::TypedQueries;
 use ash::vk;
 use etalon_backend::BackendError;
 use std::time::{Duration, Instant};
@@ -24,9 +24,9 @@ pub(crate) struct Slot {
     executed: usize,
     fence: vk::Fence,
     /// Empty if the queue has no timestamps.
-    timestamps: Queries,
-    pub(crate) occlusion: Queries,
-    pub(crate) statistics: Queries,
+    timestamps: TypedQueries,
+    pub(crate) occlusion: TypedQueries,
+    pub(crate) statistics: TypedQueries,
     descriptors: vk::DescriptorPool,
     /// The capacity of the descriptor pool in sets.
     sets: u32,

@@ -1,15 +1,15 @@
 //! The attachments of a scene and their initial contents.
 
 use crate::calls::{
-    Access, ColorAttachment, Command, DepthStencilAttachment, Filled, RenderPass, Rows,
-    TextureAspect, buffer_usage,
+    Access, BufferRows, ColorAttachment, DepthStencilAttachment, EncoderCommand, Filled,
+    RenderPass, TextureAspect, buffer_usage,
 };
 use crate::path;
 use crate::tables::{Lowering, TextureTarget};
 use crate::texel;
 use etalon_frame::{Requirement, TextureFormat};
 use etalon_scene::{
-    Contents, LoadOperation, Operations, Pass, PassOperations, Scene, StoreOperation,
+    AttachmentContents, LoadOperation, Operations, Pass, PassOperations, Scene, StoreOperation,
 };
 
 /// The alignment of rows in a copy, in bytes (GPUTexelCopyBufferLayout).
@@ -20,7 +20,7 @@ pub(crate) struct Attached {
     pub(crate) target: TextureTarget,
     format: TextureFormat,
     size: [u32; 2],
-    initial: InitialContents,
+    initial: InitialTexels,
     /// The pass that clears it: the first pass that uses it, if that pass draws to it and loads all of it.
     /// `None` if a separate pass clears it.
     cleared_by: Option<usize>,
@@ -29,11 +29,11 @@ pub(crate) struct Attached {
 }
 
 /// The initial contents of an attachment.
-enum InitialContents {
+enum InitialTexels {
     Color([f32; 4]),
     DepthStencil(f32, u32),
     /// Rows in a buffer.
-    Upload(Rows),
+    Upload(BufferRows),
 }
 
 impl Attached {
@@ -46,22 +46,22 @@ impl Attached {
         let (format, size) = (attachment.format, attachment.size);
         let upload = |lowering: &mut Lowering<'_>, codes: &[u32]| {
             let (bytes, pitch) = rows(format, size[0], codes);
-            InitialContents::Upload(Rows {
+            InitialTexels::Upload(BufferRows {
                 buffer: lowering.filled(buffer_usage::COPY_SRC, bytes),
                 offset: 0,
                 pitch,
             })
         };
         let initial = match &attachment.contents {
-            Contents::Texels(codes) => upload(lowering, codes),
-            Contents::DepthStencil { depth, stencil } => {
-                InitialContents::DepthStencil(*depth, (*stencil).into())
+            AttachmentContents::Texels(codes) => upload(lowering, codes),
+            AttachmentContents::DepthStencil { depth, stencil } => {
+                InitialTexels::DepthStencil(*depth, (*stencil).into())
             }
-            Contents::Color(color) if lowering.device.draws(format) => {
-                InitialContents::Color(*color)
+            AttachmentContents::Color(color) if lowering.device.draws(format) => {
+                InitialTexels::Color(*color)
             }
             // The API cannot clear it, so the nearest codes are uploaded.
-            Contents::Color(color) => {
+            AttachmentContents::Color(color) => {
                 let channels = format.color_channels().iter().zip(color);
                 let texel: Vec<_> = channels.map(|(e, v)| e.nearest_code((*v).into())).collect();
                 let texels = size[0] as usize * size[1] as usize;
@@ -98,33 +98,33 @@ impl Attached {
     pub(crate) fn initialise(
         &self,
         lowering: &mut Lowering<'_>,
-        first: &mut Vec<Command>,
-        each: &mut Vec<Command>,
+        first: &mut Vec<EncoderCommand>,
+        each: &mut Vec<EncoderCommand>,
     ) {
         match self.initial {
-            InitialContents::Upload(from) => {
+            InitialTexels::Upload(from) => {
                 let commands = if self.changes { each } else { first };
-                commands.push(Command::Upload {
+                commands.push(EncoderCommand::Upload {
                     from,
                     to: self.target.copied(TextureAspect::All, [0, 0]),
                     size: self.size,
                 });
             }
-            InitialContents::Color(_) if self.cleared_by.is_none() => {
+            InitialTexels::Color(_) if self.cleared_by.is_none() => {
                 let color = self.as_color(lowering, None, None, Operations::default());
-                each.push(Command::Pass(RenderPass {
+                each.push(EncoderCommand::Pass(RenderPass {
                     color: vec![Some(color)],
                     ..RenderPass::default()
                 }));
             }
-            InitialContents::DepthStencil(..) if self.cleared_by.is_none() => {
+            InitialTexels::DepthStencil(..) if self.cleared_by.is_none() => {
                 let attachment = self.as_depth_stencil(lowering, None, &PassOperations::default());
-                each.push(Command::Pass(RenderPass {
+                each.push(EncoderCommand::Pass(RenderPass {
                     depth_stencil: Some(attachment),
                     ..RenderPass::default()
                 }));
             }
-            InitialContents::Color(_) | InitialContents::DepthStencil(..) => {}
+            InitialTexels::Color(_) | InitialTexels::DepthStencil(..) => {}
         }
     }
 
@@ -138,7 +138,7 @@ impl Attached {
         operations: Operations<[f32; 4]>,
     ) -> ColorAttachment {
         let initial = match self.initial {
-            InitialContents::Color(color) if self.cleared_by == pass => Some(color),
+            InitialTexels::Color(color) if self.cleared_by == pass => Some(color),
             _ => None,
         };
         ColorAttachment {
@@ -158,7 +158,7 @@ impl Attached {
         operations: &PassOperations,
     ) -> DepthStencilAttachment {
         let (depth, stencil) = match self.initial {
-            InitialContents::DepthStencil(depth, stencil) if self.cleared_by == pass => {
+            InitialTexels::DepthStencil(depth, stencil) if self.cleared_by == pass => {
                 (Some(depth), Some(stencil))
             }
             _ => (None, None),

@@ -71,7 +71,7 @@ pub(crate) struct Bound {
 }
 
 /// The bind groups of a scene.
-pub(crate) struct Groups<'s> {
+pub(crate) struct BindGroups<'s> {
     attachments: &'s [Attached],
     counting: &'s Counting,
     /// The scene's pool and its size in bytes.
@@ -83,7 +83,7 @@ pub(crate) struct Groups<'s> {
     stride: usize,
 }
 
-impl<'s> Groups<'s> {
+impl<'s> BindGroups<'s> {
     pub(crate) fn new(
         lowering: &mut Lowering<'_>,
         scene: &Scene,

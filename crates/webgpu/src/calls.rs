@@ -1,8 +1,8 @@
 //! The calls: tables of objects, and commands that refer to objects by their index in a table.
 
-use crate::format::Format;
-use crate::pipeline_state::Pipeline;
-use crate::reading::Reading;
+use crate::format::GpuFormat;
+use crate::pipeline_state::RenderPipeline;
+use crate::reading::MappedReading;
 use etalon_scene::{IndexFormat, Sampler};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -62,26 +62,25 @@ pub struct CallList {
     /// Query sets.
     pub query_sets: Vec<QuerySet>,
     /// Render pipelines.
-    pub pipelines: Vec<Pipeline>,
+    pub pipelines: Vec<RenderPipeline>,
     /// Render bundles.
     pub bundles: Vec<RenderBundle>,
     /// The commands that precede the frame's, in its first submission only.
-    pub first: Vec<Command>,
+    pub first: Vec<EncoderCommand>,
     /// The command buffers of a frame, submitted together.
-    pub frame: Vec<Vec<Command>>,
+    pub frame: Vec<Vec<EncoderCommand>>,
     /// The commands that copy what is read into the buffer `output`, submitted after a frame.
-    pub read: Vec<Command>,
+    pub read: Vec<EncoderCommand>,
     /// The buffer that is mapped after the commands of `read`.
     pub output: usize,
     /// The meaning of the bytes in `output`.
-    pub reading: Reading,
+    pub reading: MappedReading,
 }
 
 impl CallList {
     /// Returns true if a pass of the frame is timed.
     pub fn is_timed(&self) -> bool {
-        let timed =
-            |command: &Command| matches!(command, Command::Pass(pass) if pass.timed != [false; 2]);
+        let timed = |command: &EncoderCommand| matches!(command, EncoderCommand::Pass(pass) if pass.timed != [false; 2]);
         self.frame.iter().flatten().any(timed)
     }
 }
@@ -149,11 +148,11 @@ pub struct Texture {
     /// The dimension.
     pub dimension: TextureDimension,
     /// The format.
-    pub format: Format,
+    pub format: GpuFormat,
     /// The usages, of [`texture_usage`].
     pub usage: u32,
     /// Another format that views can have.
-    pub view_format: Option<Format>,
+    pub view_format: Option<GpuFormat>,
 }
 
 /// The dimension of a texture.
@@ -189,7 +188,7 @@ pub struct TextureView {
     /// The aspect.
     pub aspect: TextureAspect,
     /// The format, if it differs from the texture's.
-    pub format: Option<Format>,
+    pub format: Option<GpuFormat>,
 }
 
 /// A buffer. Bytes beyond the contents are undefined.
@@ -250,7 +249,7 @@ pub struct QuerySet {
 
 /// A query of a set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub struct Query {
+pub struct SetQuery {
     /// The type of the query's set.
     pub ty: QueryType,
     /// The set.
@@ -263,9 +262,9 @@ pub struct Query {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RenderBundle {
     /// The formats of the colour attachments; `None` if a location has no attachment.
-    pub color: Vec<Option<Format>>,
+    pub color: Vec<Option<GpuFormat>>,
     /// The format of the depth and stencil attachment.
-    pub depth_stencil: Option<Format>,
+    pub depth_stencil: Option<GpuFormat>,
     /// True if depth and stencil are read only.
     pub read_only: bool,
     /// Samples per texel.
@@ -276,7 +275,7 @@ pub struct RenderBundle {
 
 /// A command outside passes, or a pass.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub enum Command {
+pub enum EncoderCommand {
     /// Fills the first bytes of a buffer with zeros.
     ClearBuffer {
         /// The buffer.
@@ -298,7 +297,7 @@ pub enum Command {
     /// Copies rows of a buffer to a texture.
     Upload {
         /// The source.
-        from: Rows,
+        from: BufferRows,
         /// The target.
         to: TexturePart,
         /// Width and height.
@@ -309,7 +308,7 @@ pub enum Command {
         /// The source.
         from: TexturePart,
         /// The target.
-        to: Rows,
+        to: BufferRows,
         /// Width and height.
         size: [u32; 2],
     },
@@ -337,7 +336,7 @@ pub enum Command {
 
 /// Rows of texels in a buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Rows {
+pub struct BufferRows {
     /// The buffer.
     pub buffer: usize,
     /// The first byte.
@@ -453,7 +452,7 @@ pub enum PassCommand {
     /// Sets the stencil reference.
     SetStencilReference(u32),
     /// Begins a query.
-    Begin(Query),
+    Begin(SetQuery),
     /// Ends the active query of a type.
     End(QueryType),
     /// Executes a bundle.

@@ -3,7 +3,7 @@
 //! WebGPU's occlusion queries return whether any sample passed, not how many (GPUQueryType), so
 //! `PreciseOcclusion` is denied.
 
-use crate::calls::{Command, PassCommand, Query, QuerySet, QueryType, buffer_usage};
+use crate::calls::{EncoderCommand, PassCommand, QuerySet, QueryType, SetQuery, buffer_usage};
 use crate::reading::{CounterReading, Place};
 use crate::tables::Lowering;
 use etalon_frame::{CounterKind, PathResults};
@@ -42,7 +42,7 @@ struct Queries {
 
 /// The queries that begin and end at a draw, and its counter.
 #[derive(Clone, Copy, Default)]
-pub(crate) struct Counted {
+pub(crate) struct DrawQueries {
     /// The occlusion query.
     occlusion: Enclosed,
     /// The pipeline statistics query.
@@ -79,7 +79,7 @@ impl Enclosed {
     }
 }
 
-impl Counted {
+impl DrawQueries {
     /// Returns true if a query begins before the draw or ends after it.
     pub(crate) fn is_edge(self) -> bool {
         self.occlusion.is_edge() || self.statistics.is_edge()
@@ -128,7 +128,7 @@ impl Queries {
 
 impl Counting {
     /// Returns the counters of a scene and the queries of each draw of all passes.
-    pub(crate) fn new(lowering: &mut Lowering<'_>, scene: &Scene) -> (Self, Vec<Counted>) {
+    pub(crate) fn new(lowering: &mut Lowering<'_>, scene: &Scene) -> (Self, Vec<DrawQueries>) {
         let queries = scene.queries();
         let of_kind = |kind| {
             let is_of_kind = move |query: &&SceneQuery| scene.counters[query.counter].kind == kind;
@@ -141,7 +141,7 @@ impl Counting {
             draws.map(move |(index, draw)| ((number, index), draw))
         });
         let counted: Vec<_> = draws
-            .map(|(place, draw)| Counted {
+            .map(|(place, draw)| DrawQueries {
                 occlusion: Enclosed::new(place, occlusion()),
                 statistics: Enclosed::new(place, statistics()),
                 runs: draw.counter(scene, |kind| kind == CounterKind::ShaderRuns),
@@ -185,18 +185,18 @@ impl Counting {
     }
 
     /// Returns the command that clears the storage buffer.
-    pub(crate) fn start(&self) -> Option<Command> {
-        self.runs.map(|buffer| Command::ClearBuffer {
+    pub(crate) fn start(&self) -> Option<EncoderCommand> {
+        self.runs.map(|buffer| EncoderCommand::ClearBuffer {
             buffer,
             size: self.runs_bytes(),
         })
     }
 
     /// Returns the commands that begin queries before a draw.
-    pub(crate) fn begin(&self, counted: Counted) -> Vec<PassCommand> {
+    pub(crate) fn begin(&self, counted: DrawQueries) -> Vec<PassCommand> {
         let query = |ty, queries: &Option<Queries>, index: Option<u32>| {
             let (set, index) = (queries.as_ref()?.set, index?);
-            Some(PassCommand::Begin(Query { ty, set, index }))
+            Some(PassCommand::Begin(SetQuery { ty, set, index }))
         };
         let occlusion = query(
             QueryType::Occlusion,
@@ -209,7 +209,7 @@ impl Counting {
     }
 
     /// Returns the commands that end queries after a draw.
-    pub(crate) fn end(&self, counted: Counted) -> Vec<PassCommand> {
+    pub(crate) fn end(&self, counted: DrawQueries) -> Vec<PassCommand> {
         let end = |query: Enclosed, ty| query.ends.then_some(PassCommand::End(ty));
         let statistics = end(counted.statistics, QueryType::FragmentInvocations);
         let occlusion = end(counted.occlusion, QueryType::Occlusion);
@@ -217,10 +217,10 @@ impl Counting {
     }
 
     /// Returns the commands that resolve all queries.
-    pub(crate) fn finish(&self) -> Vec<Command> {
+    pub(crate) fn finish(&self) -> Vec<EncoderCommand> {
         let both = self.occlusion.iter().chain(&self.statistics);
         let resolve = |queries: &Queries| {
-            Some(Command::Resolve {
+            Some(EncoderCommand::Resolve {
                 set: queries.set,
                 buffer: self.results?,
                 offset: queries.offset,
@@ -248,10 +248,10 @@ impl Counting {
     }
 
     /// Returns the copies of all counts to a buffer.
-    pub(crate) fn copy(&self, to: usize, offset: u64) -> Vec<Command> {
+    pub(crate) fn copy(&self, to: usize, offset: u64) -> Vec<EncoderCommand> {
         let start = self.runs_start();
         let copy = |from: Option<usize>, offset, size| {
-            from.map(|from| Command::CopyBuffer {
+            from.map(|from| EncoderCommand::CopyBuffer {
                 from,
                 to,
                 offset,

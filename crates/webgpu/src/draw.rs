@@ -2,7 +2,7 @@
 
 use crate::binding::Bound;
 use crate::calls::{DrawCommand, PassCommand, buffer_usage};
-use crate::counting::Counted;
+use crate::counting::DrawQueries;
 use crate::path;
 use crate::pipeline::{self, INSTANCE_SLOT};
 use crate::tables::Lowering;
@@ -14,7 +14,7 @@ use std::ops::Range;
 const COPY_ALIGNMENT: usize = 4;
 
 /// The vertices, indices and arguments of a scene, each in one buffer.
-pub(crate) struct Geometry {
+pub(crate) struct GeometryBuffers {
     vertices: FilledBuffer,
     indices: FilledBuffer,
     arguments: FilledBuffer,
@@ -49,7 +49,7 @@ impl FilledBuffer {
     }
 }
 
-impl Geometry {
+impl GeometryBuffers {
     pub(crate) fn new() -> Self {
         Self {
             vertices: FilledBuffer::new(buffer_usage::VERTEX),
@@ -122,7 +122,7 @@ impl Geometry {
 
 /// A draw, with the facts that its pass needs.
 pub(crate) struct PreparedDraw {
-    pub(crate) counted: Counted,
+    pub(crate) counted: DrawQueries,
     /// The commands that bundles can also contain.
     pub(crate) commands: Vec<DrawCommand>,
     viewport: Viewport,
@@ -137,8 +137,8 @@ impl PreparedDraw {
         scene: &Scene,
         pass: &Pass,
         draw: &Draw,
-        (bound, counted): (Option<Bound>, Counted),
-        geometry: &mut Geometry,
+        (bound, counted): (Option<Bound>, DrawQueries),
+        geometry: &mut GeometryBuffers,
     ) -> Result<Self, Requirement> {
         let mut commands = Vec::new();
         if scene.path.state == PathState::OtherPipeline {
@@ -228,7 +228,7 @@ impl PreparedDraw {
                 draw.stencil_reference,
             )
         };
-        let counted = [self.counted, other.counted].map(Counted::is_edge);
+        let counted = [self.counted, other.counted].map(DrawQueries::is_edge);
         state(self) == state(other) && counted == [false, false]
     }
 }

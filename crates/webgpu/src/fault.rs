@@ -1,7 +1,7 @@
 //! Faults that a test plants between a list of calls and its device.
 
 use crate::calls::{
-    Access, CallList, Command, DrawCommand, Filled, PassCommand, RenderPass, TextureView,
+    Access, CallList, DrawCommand, EncoderCommand, Filled, PassCommand, RenderPass, TextureView,
 };
 use crate::pipeline_state::PipelineState;
 use etalon_backend::CallFault;
@@ -58,12 +58,12 @@ pub fn plant(fault: CallFault, list: &mut CallList) {
     }
 }
 
-fn passes(frame: &mut [Vec<Command>]) -> impl Iterator<Item = &mut RenderPass> {
+fn passes(frame: &mut [Vec<EncoderCommand>]) -> impl Iterator<Item = &mut RenderPass> {
     frame
         .iter_mut()
         .flatten()
         .filter_map(|command| match command {
-            Command::Pass(pass) => Some(pass),
+            EncoderCommand::Pass(pass) => Some(pass),
             _ => None,
         })
 }

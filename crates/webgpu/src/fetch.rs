@@ -2,7 +2,7 @@
 
 use crate::binding::texture;
 use crate::calls::{LayoutEntry, SampleType};
-use crate::format::Format;
+use crate::format::GpuFormat;
 use crate::pipeline_state::{
     DepthBiasState, DepthStencil, PipelineState, PipelineTarget, Primitive,
 };
@@ -41,12 +41,12 @@ pub(crate) enum FetchKey {
 
 impl FetchKey {
     /// Returns the format that it renders to.
-    pub(crate) fn target(self) -> Result<Format, Requirement> {
+    pub(crate) fn target(self) -> Result<GpuFormat, Requirement> {
         match self {
-            Self::Depth => Ok(Format::R32Uint),
-            Self::StencilBit { .. } => Format::of(TextureFormat::Rgba8Unorm),
+            Self::Depth => Ok(GpuFormat::R32Uint),
+            Self::StencilBit { .. } => GpuFormat::of(TextureFormat::Rgba8Unorm),
             Self::Texel | Self::IntegerTexel | Self::Sample | Self::StencilSample => {
-                Ok(Format::Rgba32Uint)
+                Ok(GpuFormat::Rgba32Uint)
             }
         }
     }
@@ -127,7 +127,7 @@ fn stencil_bit(format: TextureFormat, bit: u8) -> Result<DepthStencil, Requireme
         write_mask: 0,
     };
     Ok(DepthStencil {
-        format: Format::of(format)?,
+        format: GpuFormat::of(format)?,
         depth_write: format.has_depth().then_some(false),
         depth_compare: CompareFunction::Always,
         stencil: Some(StencilState {

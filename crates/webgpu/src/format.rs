@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// The format of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum Format {
+pub enum GpuFormat {
     /// `r32uint`, of textures between an attachment and a buffer.
     #[serde(rename = "r32uint")]
     R32Uint,
@@ -20,7 +20,7 @@ pub enum Format {
     Attachment(TextureFormat),
 }
 
-impl Format {
+impl GpuFormat {
     /// Returns the format of an attachment.
     ///
     /// # Errors

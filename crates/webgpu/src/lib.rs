@@ -1,7 +1,7 @@
 //! Scenes as plain lists of WebGPU calls.
 //!
 //! [`lower()`] turns a scene into a [`CallList`]: the objects that it needs, the commands of a frame, the
-//! commands that copy what is read back into one buffer, and a [`Reading`] that turns the bytes of that
+//! commands that copy what is read back into one buffer, and a [`MappedReading`] that turns the bytes of that
 //! buffer into a [`Frame`](etalon_frame::Frame). An executor creates the objects, records the commands and
 //! maps the buffer, without knowing about scenes. An executor in a page reports its device as an
 //! [`adapter`], and exchanges lists and bytes as [`message`]s.
@@ -34,20 +34,21 @@ mod tests;
 mod texel;
 
 pub use calls::{
-    Access, BindGroup, Binding, Buffer, CallList, ColorAttachment, Command, DepthStencilAttachment,
-    DrawCommand, Extent, Filled, LayoutEntry, LayoutResource, PassCommand, Query, QuerySet,
-    QueryType, RenderBundle, RenderPass, Rows, SampleType, Shader, Texture, TextureAspect,
-    TextureDimension, TexturePart, TextureView, buffer_usage, texture_usage,
+    Access, BindGroup, Binding, Buffer, BufferRows, CallList, ColorAttachment,
+    DepthStencilAttachment, DrawCommand, EncoderCommand, Extent, Filled, LayoutEntry,
+    LayoutResource, PassCommand, QuerySet, QueryType, RenderBundle, RenderPass, SampleType,
+    SetQuery, Shader, Texture, TextureAspect, TextureDimension, TexturePart, TextureView,
+    buffer_usage, texture_usage,
 };
 pub use device::{Abilities, Device, SAMPLES, texture_usages};
 pub use etalon_scene::{BlendComponent, CullMode, PrimitiveTopology, Sampler, StencilFace};
 pub use fault::plant;
-pub use format::{Format, is_known};
+pub use format::{GpuFormat, is_known};
 pub use lower::lower;
 pub use offer::{DeviceLimits, Level, Offer, Uses, standard_formats};
 pub use pipeline_state::{
-    DepthBiasState, DepthStencil, Pipeline, PipelineState, PipelineTarget, Primitive,
+    DepthBiasState, DepthStencil, PipelineState, PipelineTarget, Primitive, RenderPipeline,
     VertexAttribute, VertexBuffer,
 };
-pub use reading::{CounterReading, ImageReading, Place, ReadMethod, Reading};
+pub use reading::{CounterReading, ImageReading, MappedReading, Place, ReadMethod};
 pub use recording::recording;

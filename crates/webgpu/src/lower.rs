@@ -1,12 +1,12 @@
 //! The lowering of a scene.
 
 use crate::attachment::Attached;
-use crate::binding::Groups;
-use crate::calls::{CallList, Command, PassCommand, RenderBundle, RenderPass, buffer_usage};
+use crate::binding::BindGroups;
+use crate::calls::{CallList, EncoderCommand, PassCommand, RenderBundle, RenderPass, buffer_usage};
 use crate::counting::Counting;
 use crate::device::Device;
-use crate::draw::{Geometry, PreparedDraw, runs};
-use crate::format::Format;
+use crate::draw::{GeometryBuffers, PreparedDraw, runs};
+use crate::format::GpuFormat;
 use crate::tables::Lowering;
 use crate::{path, read};
 use etalon_frame::{PathCommands, Requirement};
@@ -33,9 +33,9 @@ pub fn lower(device: &Device, scene: &Scene) -> Result<CallList, Requirement> {
         let usage = buffer_usage::STORAGE | buffer_usage::COPY_DST;
         (lowering.buffer(usage, pool.bytes()), pool)
     });
-    let mut groups = Groups::new(&mut lowering, scene, &attachments, &counting);
+    let mut groups = BindGroups::new(&mut lowering, scene, &attachments, &counting);
     groups.pool = pool.map(|(buffer, pool)| (buffer, pool.bytes()));
-    let mut geometry = Geometry::new();
+    let mut geometry = GeometryBuffers::new();
     let mut counted = counted.into_iter();
     let mut passes = Vec::new();
     for pass in &scene.passes {
@@ -63,7 +63,7 @@ pub fn lower(device: &Device, scene: &Scene) -> Result<CallList, Requirement> {
         attachment.initialise(&mut lowering, &mut first, &mut initial);
     }
     initial.extend(counting.start());
-    initial.extend(pool.map(|(buffer, pool)| Command::ClearBuffer {
+    initial.extend(pool.map(|(buffer, pool)| EncoderCommand::ClearBuffer {
         buffer,
         size: pool.cleared_bytes(),
     }));
@@ -84,10 +84,15 @@ pub fn lower(device: &Device, scene: &Scene) -> Result<CallList, Requirement> {
         ));
     }
     let mut rendered = rendered.into_iter();
-    let mut frame: Vec<Vec<Command>> = Vec::new();
+    let mut frame: Vec<Vec<EncoderCommand>> = Vec::new();
     for passes in path::commands(scene) {
         let mut commands = std::mem::take(&mut initial);
-        commands.extend(rendered.by_ref().take(passes.len()).map(Command::Pass));
+        commands.extend(
+            rendered
+                .by_ref()
+                .take(passes.len())
+                .map(EncoderCommand::Pass),
+        );
         frame.push(commands);
     }
     if let Some(last) = frame.last_mut() {
@@ -121,7 +126,7 @@ fn bundled(
     counting: &Counting,
 ) -> Result<Vec<PassCommand>, Requirement> {
     let pass = &scene.passes[number];
-    let known = |i: &usize| Format::of(scene.attachments[*i].format);
+    let known = |i: &usize| GpuFormat::of(scene.attachments[*i].format);
     let colors = pass.color.iter().map(|index| {
         if scene.is_gap(*index) {
             Ok(None)

@@ -35,7 +35,7 @@ pub struct Hello {
     /// The browser.
     pub browser: Named,
     /// The adapter of the device.
-    pub adapter: Adapter,
+    pub adapter: BrowserAdapter,
     /// What the device offers.
     #[serde(flatten)]
     pub offer: DeviceOffer,
@@ -52,7 +52,7 @@ pub struct Named {
 
 /// GPUAdapterInfo. Browsers leave members empty that would identify a person's machine.
 #[derive(Debug, Deserialize)]
-pub struct Adapter {
+pub struct BrowserAdapter {
     /// The vendor.
     pub vendor: String,
     /// The architecture.
@@ -90,7 +90,7 @@ pub struct Answer {
     /// The number of the request.
     pub number: u64,
     /// The times of each frame.
-    pub times: Vec<Times>,
+    pub times: Vec<PageTimes>,
     /// The failure of the request, if it failed.
     pub error: Option<Failed>,
     /// Uncaptured errors since the last answer.
@@ -99,7 +99,7 @@ pub struct Answer {
 
 /// The times of a frame in milliseconds.
 #[derive(Clone, Copy, Debug, Deserialize)]
-pub struct Times {
+pub struct PageTimes {
     /// Until the work is submitted.
     pub cpu: f64,
     /// Between the GPU timestamps.

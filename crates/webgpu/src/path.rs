@@ -156,7 +156,7 @@ impl AttachmentTexture {
 
 /// The default way to read attachments of a format.
 #[derive(Clone, Copy)]
-pub(crate) struct Reading {
+pub(crate) struct ReadingPath {
     /// True if depth and stencil can be copied.
     pub(crate) copies: bool,
     /// True if a shader fetches depth.
@@ -165,7 +165,7 @@ pub(crate) struct Reading {
 
 /// Returns how an attachment reaches the host. Depth and stencil are copied only as a whole (11.2.4), and a
 /// fetch does not determine the codes of some formats; these are read in the default way.
-pub(crate) fn end(scene: &Scene, index: usize, reading: Reading) -> PathEnd {
+pub(crate) fn end(scene: &Scene, index: usize, reading: ReadingPath) -> PathEnd {
     let attachment = &scene.attachments[index];
     let format = attachment.format;
     let can = attachment.samples == 1
@@ -186,7 +186,7 @@ pub(crate) fn end(scene: &Scene, index: usize, reading: Reading) -> PathEnd {
 
 /// Returns true if a fetch determines the codes. The rule is that of multisampled attachments, but views of
 /// one sample convert sRGB, and stencil is never fetched.
-fn is_fetched_exactly(format: TextureFormat, reading: Reading) -> bool {
+fn is_fetched_exactly(format: TextureFormat, reading: ReadingPath) -> bool {
     let exact = |encoding: &ChannelEncoding| match encoding {
         ChannelEncoding::Snorm(_) | ChannelEncoding::Srgb8 => false,
         ChannelEncoding::Unorm(bits) => *bits <= 10,
@@ -233,7 +233,7 @@ pub(crate) fn commands(scene: &Scene) -> Vec<std::ops::Range<usize>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etalon_scene::{Attachment, Contents, Pass, Path, QueryScope};
+    use etalon_scene::{Attachment, AttachmentContents, Pass, Path, QueryScope};
 
     const ABILITIES: Abilities = Abilities {
         copies: true,
@@ -241,7 +241,7 @@ mod tests {
         layers: true,
     };
 
-    const READING: Reading = Reading {
+    const READING: ReadingPath = ReadingPath {
         copies: true,
         fetches: false,
     };
@@ -254,7 +254,7 @@ mod tests {
                 format,
                 size: [8, 8],
                 samples,
-                contents: Contents::Color([0.0; 4]),
+                contents: AttachmentContents::Color([0.0; 4]),
             }],
             passes: vec![Pass::default(), Pass::default()],
             read: vec![0],

@@ -1,7 +1,7 @@
 //! The render pipelines of draws.
 
 use crate::binding::Bindings;
-use crate::format::Format;
+use crate::format::GpuFormat;
 use crate::pipeline_state::{
     DepthBiasState, DepthStencil, PipelineState, PipelineTarget, Primitive, VertexAttribute,
     VertexBuffer,
@@ -39,7 +39,7 @@ pub(crate) fn of_draw(
             return Ok(None);
         }
         Ok(Some(PipelineTarget {
-            format: Format::of(scene.attachments[*index].format)?,
+            format: GpuFormat::of(scene.attachments[*index].format)?,
             blend: target.blend.map(with_constant),
             write_mask: target.write_mask,
         }))
@@ -113,7 +113,7 @@ fn shader_of(draw: &Draw, depth_stencil: Option<TextureFormat>) -> (Shader, Earl
 fn of_depth_stencil(format: TextureFormat, draw: &Draw) -> Result<DepthStencil, Requirement> {
     let depth = draw.depth;
     Ok(DepthStencil {
-        format: Format::of(format)?,
+        format: GpuFormat::of(format)?,
         depth_write: format.has_depth().then(|| depth.is_some_and(|d| d.write)),
         depth_compare: depth.map_or(CompareFunction::Always, |d| d.compare),
         stencil: draw.stencil.map(|mut stencil| {

@@ -1,6 +1,6 @@
 //! The descriptions of render pipelines.
 
-use crate::format::Format;
+use crate::format::GpuFormat;
 use etalon_scene::{
     BlendState, CompareFunction, CullMode, DepthBias, FrontFace, IndexFormat, PrimitiveTopology,
     StencilState,
@@ -10,7 +10,7 @@ use std::borrow::Cow;
 
 /// A render pipeline.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub struct Pipeline {
+pub struct RenderPipeline {
     /// The shader module.
     pub shader: usize,
     /// The layout of the only bind group.
@@ -95,7 +95,7 @@ pub struct Primitive {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct DepthStencil {
     /// The attachment's format.
-    pub format: Format,
+    pub format: GpuFormat,
     /// True if depth is written; `None` without a depth aspect.
     pub depth_write: Option<bool>,
     /// The depth comparison.
@@ -139,7 +139,7 @@ impl DepthBiasState {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct PipelineTarget {
     /// The format.
-    pub format: Format,
+    pub format: GpuFormat,
     /// The blending, if it is enabled.
     pub blend: Option<BlendState>,
     /// The channels that are written. Bit 0 is red.

@@ -2,15 +2,15 @@
 
 use crate::attachment::{Attached, PITCH, accessed};
 use crate::calls::{
-    Access, BindGroup, Binding, ColorAttachment, Command, DrawCommand, Filled, PassCommand,
-    RenderPass, Rows, TextureAspect, buffer_usage,
+    Access, BindGroup, Binding, BufferRows, ColorAttachment, DrawCommand, EncoderCommand, Filled,
+    PassCommand, RenderPass, TextureAspect, buffer_usage,
 };
 use crate::counting::Counting;
 use crate::device::{Device, read_path};
 use crate::fetch::{self, FetchKey};
-use crate::format::Format;
+use crate::format::GpuFormat;
 use crate::path;
-use crate::reading::{ImageReading, ReadMethod, Reading};
+use crate::reading::{ImageReading, MappedReading, ReadMethod};
 use crate::tables::{Lowering, TextureTarget};
 use etalon_backend::halves;
 use etalon_frame::{
@@ -56,14 +56,14 @@ pub(crate) fn plan(
     let padded = bytes.next_multiple_of(4).max(4);
     lowering.list.buffers[output].size = padded;
     // If the driver loses a copy, the codes of an earlier scene with the same picture must not remain.
-    copies.push(Command::ClearBuffer {
+    copies.push(EncoderCommand::ClearBuffer {
         buffer: output,
         size: padded,
     });
     commands.extend(counting.copy(output, size));
     lowering.list.read = copies.into_iter().chain(commands).collect();
     lowering.list.output = output;
-    lowering.list.reading = Reading {
+    lowering.list.reading = MappedReading {
         bytes,
         images,
         counters: counting.readings(size),
@@ -76,14 +76,14 @@ fn copied(
     lowering: &mut Lowering<'_>,
     attachment: &Attachment,
     drawn: TextureTarget,
-    commands: &mut Vec<Command>,
+    commands: &mut Vec<EncoderCommand>,
 ) -> Result<TextureTarget, Requirement> {
     let (format, size) = (attachment.format, attachment.size);
     let (target, views) = (PathTarget::Plain, PathViews::Same);
     let target = lowering.attachment(format, size, attachment.samples, target, views)?;
-    commands.extend(spoiled(lowering, format, target).map(Command::Pass));
+    commands.extend(spoiled(lowering, format, target).map(EncoderCommand::Pass));
     let aspect = TextureAspect::All;
-    commands.push(Command::CopyTexture {
+    commands.push(EncoderCommand::CopyTexture {
         from: drawn.copied(aspect, [0, 0]),
         to: target.copied(aspect, [0, 0]),
         size,
@@ -171,7 +171,7 @@ impl Read<'_> {
     fn record(
         &self,
         lowering: &mut Lowering<'_>,
-        commands: &mut Vec<Command>,
+        commands: &mut Vec<EncoderCommand>,
     ) -> Result<(), Requirement> {
         match self.image.method {
             ReadMethod::Copy => {
@@ -207,11 +207,11 @@ impl Read<'_> {
                 }
             }
             ReadMethod::StencilBits => {
-                let format = Format::of(TextureFormat::Rgba8Unorm)?;
+                let format = GpuFormat::of(TextureFormat::Rgba8Unorm)?;
                 for half in [0_u8, 1] {
                     let target = lowering.scratch(format, self.image.size);
                     let pass = self.bits(lowering, target, half)?;
-                    commands.push(Command::Pass(pass));
+                    commands.push(EncoderCommand::Pass(pass));
                     self.copy(target, TextureAspect::All, half.into(), commands);
                 }
             }
@@ -226,7 +226,7 @@ impl Read<'_> {
         key: FetchKey,
         view: usize,
         sample: u32,
-        commands: &mut Vec<Command>,
+        commands: &mut Vec<EncoderCommand>,
     ) -> Result<(), Requirement> {
         let target = lowering.scratch(key.target()?, self.image.size);
         let pipeline = fetch::pipeline(lowering, key)?;
@@ -246,7 +246,7 @@ impl Read<'_> {
                 instances: 0..1,
             },
         ];
-        commands.push(Command::Pass(RenderPass {
+        commands.push(EncoderCommand::Pass(RenderPass {
             color: vec![Some(cleared(lowering, target))],
             commands: draws.map(PassCommand::Draw).to_vec(),
             ..RenderPass::default()
@@ -288,7 +288,7 @@ impl Read<'_> {
         from: TextureTarget,
         aspect: TextureAspect,
         image: u64,
-        commands: &mut Vec<Command>,
+        commands: &mut Vec<EncoderCommand>,
     ) {
         let [width, height] = self.image.size;
         let (columns, rows) = match self.end {
@@ -300,9 +300,9 @@ impl Read<'_> {
             for (x, wide) in &columns {
                 let texels = u64::from(*x) * self.image.texel_bytes() as u64;
                 let row = u64::from(y) * u64::from(self.image.pitch);
-                commands.push(Command::Download {
+                commands.push(EncoderCommand::Download {
                     from: from.copied(aspect, [*x, y]),
-                    to: Rows {
+                    to: BufferRows {
                         buffer: self.output,
                         offset: first + row + texels,
                         pitch: self.image.pitch,

@@ -10,7 +10,7 @@ const SAMPLE_BYTES: usize = 16;
 
 /// The images and counters in a mapped buffer.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Reading {
+pub struct MappedReading {
     /// The number of bytes of the buffer that have a meaning.
     pub bytes: u64,
     /// The images.
@@ -19,7 +19,7 @@ pub struct Reading {
     pub counters: Vec<CounterReading>,
 }
 
-impl Reading {
+impl MappedReading {
     /// Returns the frame in the bytes of the buffer, or `None` if there are too few bytes.
     pub fn frame(&self, bytes: &[u8]) -> Option<Frame> {
         let bytes = bytes.get(..usize::try_from(self.bytes).ok()?)?;

@@ -1,10 +1,10 @@
 //! A list as a recording, from which programs are printed.
 
 use crate::calls::CallList;
-use crate::reading::{ImageReading, Place, ReadMethod, Reading};
+use crate::reading::{ImageReading, MappedReading, Place, ReadMethod};
 use etalon_backend::{
-    Argument, Call, CounterPart, Form, Phase, Plane, RecordedContext, RecordedCounter,
-    RecordedImage, Recording,
+    Argument, CounterPart, NumberForm, Phase, RecordedCall, RecordedContext, RecordedCounter,
+    RecordedImage, RecordedPlane, Recording,
 };
 use etalon_frame::ChannelEncoding;
 
@@ -57,7 +57,7 @@ struct MappedRows {
 
 /// The copies out of the mapped buffer, each to a memory of its own.
 #[derive(Default)]
-struct Memories(Vec<Call>);
+struct Memories(Vec<RecordedCall>);
 
 impl Memories {
     /// Adds a copy of rows, and returns the number of the memory.
@@ -84,7 +84,7 @@ impl Memories {
                 Argument::Unsigned(rows.rows),
             ]
         };
-        self.0.push(Call {
+        self.0.push(RecordedCall {
             phase: Phase::Read,
             function: function.to_owned(),
             arguments: rows.iter().flat_map(arguments).collect(),
@@ -95,7 +95,7 @@ impl Memories {
 }
 
 /// Returns the places of an image's codes.
-fn planes(memories: &mut Memories, image: &ImageReading) -> Vec<Plane> {
+fn planes(memories: &mut Memories, image: &ImageReading) -> Vec<RecordedPlane> {
     let texel = image.texel_bytes() as u32;
     let rows = |number: u64| MappedRows {
         offset: image.offset + number * image.image_bytes(),
@@ -104,17 +104,17 @@ fn planes(memories: &mut Memories, image: &ImageReading) -> Vec<Plane> {
         rows: image.size[1],
     };
     let floats = match image.channels.first() {
-        Some(ChannelEncoding::Uint(_)) => Form::Code,
-        _ => Form::Float,
+        Some(ChannelEncoding::Uint(_)) => NumberForm::Code,
+        _ => NumberForm::Float,
     };
     let (texel, channels, form) = match image.method {
         ReadMethod::FetchSamples | ReadMethod::FetchTexel => {
             let each = (0..image.channels.len() as u32).map(|channel| [32 * channel, 32]);
             (texel, each.collect(), floats)
         }
-        ReadMethod::FetchDepth => (texel, vec![[0, 32]], Form::Code),
-        ReadMethod::StencilBits => (1, vec![[0, 8]], Form::Code),
-        ReadMethod::Copy => (texel, image.copied_channels(), Form::Code),
+        ReadMethod::FetchDepth => (texel, vec![[0, 32]], NumberForm::Code),
+        ReadMethod::StencilBits => (1, vec![[0, 8]], NumberForm::Code),
+        ReadMethod::Copy => (texel, image.copied_channels(), NumberForm::Code),
     };
     let outputs: Vec<u32> = match image.method {
         ReadMethod::StencilBits => vec![memories.bits([rows(0), rows(1)])],
@@ -122,7 +122,7 @@ fn planes(memories: &mut Memories, image: &ImageReading) -> Vec<Plane> {
             .map(|sample| memories.rows(rows(sample)))
             .collect(),
     };
-    let plane = |output| Plane {
+    let plane = |output| RecordedPlane {
         output,
         texel,
         channels: channels.clone(),
@@ -132,7 +132,7 @@ fn planes(memories: &mut Memories, image: &ImageReading) -> Vec<Plane> {
 }
 
 /// Returns the places of the counters, which share one memory.
-fn counters(memories: &mut Memories, reading: &Reading) -> Vec<RecordedCounter> {
+fn counters(memories: &mut Memories, reading: &MappedReading) -> Vec<RecordedCounter> {
     let mut counters = Vec::new();
     let mut memory = None;
     for counter in &reading.counters {

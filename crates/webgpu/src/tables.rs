@@ -5,9 +5,9 @@ use crate::calls::{
     TexturePart, TextureView, buffer_usage, texture_usage,
 };
 use crate::device::{Device, attachment_usages, read_path, texture_usages};
-use crate::format::Format;
-use crate::path::{AttachmentTexture, Reading as ReadingAbility};
-use crate::pipeline_state::{Pipeline, PipelineState};
+use crate::format::GpuFormat;
+use crate::path::{AttachmentTexture, ReadingPath as ReadingAbility};
+use crate::pipeline_state::{PipelineState, RenderPipeline};
 use etalon_frame::{
     Feature, PathTarget, PathValue, PathViews, ReadPath, Requirement, TextureFormat,
 };
@@ -22,9 +22,9 @@ const FLAT: &str = "@interpolate(flat)";
 pub(crate) struct TextureTarget {
     pub(crate) texture: usize,
     /// The format of views.
-    pub(crate) format: Format,
+    pub(crate) format: GpuFormat,
     /// The format of the texture.
-    stored: Format,
+    stored: GpuFormat,
     pub(crate) samples: u32,
     shape: AttachmentTexture,
 }
@@ -82,7 +82,7 @@ impl Lowering<'_> {
             return Err(Requirement::Path(PathValue::Target(target)));
         }
         let usage = attachment_usages(self.device, format, samples);
-        let format = Format::of(format)?;
+        let format = GpuFormat::of(format)?;
         let stored = match views {
             PathViews::Srgb => format.other_srgb(),
             PathViews::Same | PathViews::Uint => None,
@@ -91,7 +91,7 @@ impl Lowering<'_> {
     }
 
     /// Returns a texture that a fetch renders to, with undefined contents.
-    pub(crate) fn scratch(&mut self, format: Format, size: [u32; 2]) -> TextureTarget {
+    pub(crate) fn scratch(&mut self, format: GpuFormat, size: [u32; 2]) -> TextureTarget {
         let usage = texture_usages(TextureFormat::Rgba8Unorm) | texture_usage::RENDER_ATTACHMENT;
         let shape = AttachmentTexture::of(PathTarget::Plain, size);
         self.texture(format, format, shape, 1, usage)
@@ -99,8 +99,8 @@ impl Lowering<'_> {
 
     fn texture(
         &mut self,
-        format: Format,
-        stored: Format,
+        format: GpuFormat,
+        stored: GpuFormat,
         shape: AttachmentTexture,
         samples: u32,
         usage: u32,
@@ -150,7 +150,7 @@ impl Lowering<'_> {
         self.seen(target, TextureAspect::StencilOnly, target.format)
     }
 
-    fn seen(&mut self, target: TextureTarget, aspect: TextureAspect, format: Format) -> usize {
+    fn seen(&mut self, target: TextureTarget, aspect: TextureAspect, format: GpuFormat) -> usize {
         let shape = target.shape;
         let flat = shape.dimension == TextureDimension::D2;
         let view = TextureView {
@@ -215,7 +215,7 @@ impl Lowering<'_> {
         layout: Option<usize>,
         state: PipelineState,
     ) -> usize {
-        let pipeline = Pipeline {
+        let pipeline = RenderPipeline {
             shader,
             layout,
             state,

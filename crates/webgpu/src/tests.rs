@@ -2,8 +2,8 @@
 
 use crate::device::Abilities;
 use crate::{
-    Access, Binding, CallList, Command, Device, DrawCommand, PassCommand, RenderPass, buffer_usage,
-    lower,
+    Access, Binding, CallList, Device, DrawCommand, EncoderCommand, PassCommand, RenderPass,
+    buffer_usage, lower,
 };
 use etalon_backend::Backend;
 use etalon_case::{Library, Profile};
@@ -73,7 +73,7 @@ fn each_list(device: &Device, mut check: impl FnMut(&str, &Scene, &CallList)) ->
     lowered
 }
 
-fn commands(list: &CallList) -> impl Iterator<Item = &Command> {
+fn commands(list: &CallList) -> impl Iterator<Item = &EncoderCommand> {
     let frame = list.frame.iter().flatten();
     list.first.iter().chain(frame).chain(&list.read)
 }
@@ -81,7 +81,7 @@ fn commands(list: &CallList) -> impl Iterator<Item = &Command> {
 /// Returns the passes of the frame.
 fn passes(list: &CallList) -> impl Iterator<Item = &RenderPass> {
     commands(list).filter_map(|command| match command {
-        Command::Pass(pass) => Some(pass),
+        EncoderCommand::Pass(pass) => Some(pass),
         _ => None,
     })
 }
@@ -163,7 +163,7 @@ fn every_list_names_only_what_it_holds() {
             }
         }
         for command in commands(list) {
-            if let Command::Download { to, .. } = command {
+            if let EncoderCommand::Download { to, .. } = command {
                 assert_eq!(to.buffer, list.output, "{case}");
                 assert!(to.offset < list.reading.bytes, "{case}");
             }
@@ -184,7 +184,7 @@ fn every_draw_of_a_scene_is_in_its_list() {
             .iter()
             .flatten()
             .filter_map(|command| match command {
-                Command::Pass(pass) => Some(pass),
+                EncoderCommand::Pass(pass) => Some(pass),
                 _ => None,
             })
             .flat_map(|pass| &pass.commands)

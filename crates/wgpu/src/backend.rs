@@ -3,7 +3,7 @@
 use crate::gpu::Gpu;
 use crate::limits::{offer, used_features};
 use crate::messages;
-use crate::prepared::PreparedScene;
+use crate::prepared::WgpuScene;
 use etalon_backend::{Backend, BackendError, Fault, Prepared, Recording, Unavailable};
 use etalon_frame::{AdapterInfo, Limits};
 use etalon_scene::Scene;
@@ -26,7 +26,7 @@ pub enum Via {
 
 /// Options for [`open`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Options {
+pub struct WgpuOptions {
     /// The API under wgpu.
     pub via: Via,
     /// The adapter's index in [`enumerate`].
@@ -62,7 +62,7 @@ pub fn enumerate(via: Via) -> Result<Vec<AdapterInfo>, Unavailable> {
 ///
 /// # Errors
 /// If there is no such adapter, it provides no device, or validation is requested but not available.
-pub fn open(name: &str, options: &Options) -> Result<WgpuBackend, Unavailable> {
+pub fn open(name: &str, options: &WgpuOptions) -> Result<WgpuBackend, Unavailable> {
     let mut flags = InstanceFlags::empty();
     if options.validate {
         flags = WATCHED;
@@ -108,7 +108,7 @@ impl Backend for WgpuBackend {
     }
 
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
-        Ok(Box::new(PreparedScene::new(&self.gpu, scene)?))
+        Ok(Box::new(WgpuScene::new(&self.gpu, scene)?))
     }
 
     fn recording(&self) -> Option<Recording> {
@@ -162,7 +162,7 @@ fn adapters(via: Via, flags: InstanceFlags) -> Result<Vec<wgpu::Adapter>, Unavai
     Ok(found)
 }
 
-fn device(adapter: &wgpu::Adapter, options: &Options) -> Result<Gpu, String> {
+fn device(adapter: &wgpu::Adapter, options: &WgpuOptions) -> Result<Gpu, String> {
     let mut features = adapter.features() & used_features();
     let mut required_limits = adapter.limits();
     if options.record {
@@ -299,7 +299,7 @@ mod tests {
     use super::*;
 
     fn watched(via: Via) -> WgpuBackend {
-        let options = Options {
+        let options = WgpuOptions {
             via,
             device: 0,
             validate: true,

@@ -1,7 +1,7 @@
 //! Render bundles.
 
 use crate::gpu::Gpu;
-use crate::objects::Objects;
+use crate::objects::CallObjects;
 use crate::{encode, format};
 use etalon_backend::BackendError;
 use etalon_webgpu::{CallList, RenderBundle};
@@ -9,7 +9,7 @@ use etalon_webgpu::{CallList, RenderBundle};
 /// Returns the bundles of a list, recorded with its other objects.
 pub(crate) fn bundles(
     gpu: &Gpu,
-    objects: &Objects<'_>,
+    objects: &CallObjects<'_>,
     list: &CallList,
 ) -> Result<Vec<wgpu::RenderBundle>, BackendError> {
     let each = list.bundles.iter();
@@ -18,7 +18,7 @@ pub(crate) fn bundles(
 }
 
 fn bundle(
-    objects: &Objects<'_>,
+    objects: &CallObjects<'_>,
     gpu: &Gpu,
     bundle: &RenderBundle,
 ) -> Result<wgpu::RenderBundle, BackendError> {

@@ -2,26 +2,26 @@
 
 use crate::clock::Clock;
 use crate::gpu::extent;
-use crate::objects::Objects;
+use crate::objects::CallObjects;
 use crate::state;
 use etalon_webgpu::{
-    Access, ColorAttachment, Command, DepthStencilAttachment, DrawCommand, Filled, PassCommand,
-    QueryType, RenderPass, Rows, TexturePart,
+    Access, BufferRows, ColorAttachment, DepthStencilAttachment, DrawCommand, EncoderCommand,
+    Filled, PassCommand, QueryType, RenderPass, TexturePart,
 };
 use wgpu::util::RenderEncoder;
 
 /// Records a command. Timed passes write timestamps with the clock.
 pub(crate) fn command(
-    objects: &Objects<'_>,
+    objects: &CallObjects<'_>,
     encoder: &mut wgpu::CommandEncoder,
     clock: Option<&Clock>,
-    command: &Command,
+    command: &EncoderCommand,
 ) {
     match command {
-        Command::ClearBuffer { buffer, size } => {
+        EncoderCommand::ClearBuffer { buffer, size } => {
             encoder.clear_buffer(&objects.buffers[*buffer], 0, Some(*size));
         }
-        Command::CopyBuffer {
+        EncoderCommand::CopyBuffer {
             from,
             to,
             offset,
@@ -30,19 +30,19 @@ pub(crate) fn command(
             let (from, to) = (&objects.buffers[*from], &objects.buffers[*to]);
             encoder.copy_buffer_to_buffer(from, 0, to, *offset, *size);
         }
-        Command::Upload { from, to, size } => {
+        EncoderCommand::Upload { from, to, size } => {
             let (from, to) = (rows(objects, from), part(objects, to));
             encoder.copy_buffer_to_texture(from, to, extent(*size));
         }
-        Command::Download { from, to, size } => {
+        EncoderCommand::Download { from, to, size } => {
             let (from, to) = (part(objects, from), rows(objects, to));
             encoder.copy_texture_to_buffer(from, to, extent(*size));
         }
-        Command::CopyTexture { from, to, size } => {
+        EncoderCommand::CopyTexture { from, to, size } => {
             let (from, to) = (part(objects, from), part(objects, to));
             encoder.copy_texture_to_texture(from, to, extent(*size));
         }
-        Command::Resolve {
+        EncoderCommand::Resolve {
             set,
             buffer,
             offset,
@@ -50,11 +50,11 @@ pub(crate) fn command(
             let set = &objects.query_sets[*set];
             encoder.resolve_query_set(set, 0..set.count(), &objects.buffers[*buffer], *offset);
         }
-        Command::Pass(described) => pass(objects, encoder, clock, described),
+        EncoderCommand::Pass(described) => pass(objects, encoder, clock, described),
     }
 }
 
-fn rows<'o>(objects: &'o Objects<'_>, rows: &Rows) -> wgpu::TexelCopyBufferInfo<'o> {
+fn rows<'o>(objects: &'o CallObjects<'_>, rows: &BufferRows) -> wgpu::TexelCopyBufferInfo<'o> {
     wgpu::TexelCopyBufferInfo {
         buffer: &objects.buffers[rows.buffer],
         layout: wgpu::TexelCopyBufferLayout {
@@ -65,7 +65,7 @@ fn rows<'o>(objects: &'o Objects<'_>, rows: &Rows) -> wgpu::TexelCopyBufferInfo<
     }
 }
 
-fn part<'o>(objects: &'o Objects<'_>, part: &TexturePart) -> wgpu::TexelCopyTextureInfo<'o> {
+fn part<'o>(objects: &'o CallObjects<'_>, part: &TexturePart) -> wgpu::TexelCopyTextureInfo<'o> {
     let [x, y, z] = part.origin;
     wgpu::TexelCopyTextureInfo {
         texture: &objects.textures[part.texture].texture,
@@ -76,7 +76,7 @@ fn part<'o>(objects: &'o Objects<'_>, part: &TexturePart) -> wgpu::TexelCopyText
 }
 
 fn pass(
-    objects: &Objects<'_>,
+    objects: &CallObjects<'_>,
     encoder: &mut wgpu::CommandEncoder,
     clock: Option<&Clock>,
     pass: &RenderPass,
@@ -109,7 +109,7 @@ fn pass(
 }
 
 fn as_color<'o>(
-    objects: &'o Objects<'_>,
+    objects: &'o CallObjects<'_>,
     color: &ColorAttachment,
 ) -> wgpu::RenderPassColorAttachment<'o> {
     wgpu::RenderPassColorAttachment {
@@ -121,7 +121,7 @@ fn as_color<'o>(
 }
 
 fn as_depth_stencil<'o>(
-    objects: &'o Objects<'_>,
+    objects: &'o CallObjects<'_>,
     attachment: &DepthStencilAttachment,
 ) -> wgpu::RenderPassDepthStencilAttachment<'o> {
     wgpu::RenderPassDepthStencilAttachment {
@@ -154,7 +154,7 @@ fn operations<V, W>(filled: Filled<V>, value: impl Fn(V) -> W) -> wgpu::Operatio
 }
 
 fn in_pass<'o>(
-    objects: &'o Objects<'_>,
+    objects: &'o CallObjects<'_>,
     encoder: &mut wgpu::RenderPass<'o>,
     command: &PassCommand,
 ) {
@@ -184,7 +184,7 @@ fn in_pass<'o>(
 
 /// Records a command in a pass or a bundle.
 pub(crate) fn draw<'o>(
-    objects: &'o Objects<'_>,
+    objects: &'o CallObjects<'_>,
     encoder: &mut impl RenderEncoder<'o>,
     command: &DrawCommand,
 ) {

@@ -2,7 +2,7 @@
 
 use etalon_backend::BackendError;
 use etalon_frame::{Requirement, TextureFormat};
-use etalon_webgpu::Format;
+use etalon_webgpu::GpuFormat;
 
 /// Returns WebGPU's format, if it has one.
 pub(crate) fn texture(format: TextureFormat) -> Option<wgpu::TextureFormat> {
@@ -31,12 +31,12 @@ pub(crate) fn texture(format: TextureFormat) -> Option<wgpu::TextureFormat> {
 }
 
 /// Returns the format of a texture.
-pub(crate) fn known(format: Format) -> Result<wgpu::TextureFormat, BackendError> {
+pub(crate) fn known(format: GpuFormat) -> Result<wgpu::TextureFormat, BackendError> {
     match format {
-        Format::R32Uint => Ok(wgpu::TextureFormat::R32Uint),
-        Format::Rgba32Uint => Ok(wgpu::TextureFormat::Rgba32Uint),
-        Format::Bgra8UnormSrgb => Ok(wgpu::TextureFormat::Bgra8UnormSrgb),
-        Format::Attachment(format) => {
+        GpuFormat::R32Uint => Ok(wgpu::TextureFormat::R32Uint),
+        GpuFormat::Rgba32Uint => Ok(wgpu::TextureFormat::Rgba32Uint),
+        GpuFormat::Bgra8UnormSrgb => Ok(wgpu::TextureFormat::Bgra8UnormSrgb),
+        GpuFormat::Attachment(format) => {
             texture(format).ok_or(BackendError::NotSupported(Requirement::Format(format)))
         }
     }

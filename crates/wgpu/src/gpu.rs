@@ -3,8 +3,8 @@
 use crate::clock::Clock;
 use crate::error::Errors;
 use crate::format;
-use crate::pipelines::Pipelines;
-use crate::pool::{Lease, Pool};
+use crate::pipelines::SharedPipelines;
+use crate::pool::{KeyedPool, Lease};
 use crate::state;
 use etalon_backend::{BackendError, Fault};
 use etalon_webgpu::{CallList, Device, Texture, TextureDimension, TextureView};
@@ -27,11 +27,11 @@ pub(crate) struct Gpu {
     pub(crate) clock: Option<Clock>,
     /// The fault that a test plants.
     pub(crate) fault: Option<Fault>,
-    pub(crate) pipelines: Pipelines,
+    pub(crate) pipelines: SharedPipelines,
     /// The calls of the scene that was read last, if they are recorded.
     pub(crate) recorded: Option<RefCell<CallList>>,
-    textures: Pool<Texture, Rc<Viewed>>,
-    buffers: Pool<BufferKey, wgpu::Buffer>,
+    textures: KeyedPool<Texture, Rc<Viewed>>,
+    buffers: KeyedPool<BufferKey, wgpu::Buffer>,
 }
 
 /// A texture and the views of it that were created.
@@ -68,10 +68,10 @@ impl Gpu {
             facts,
             clock,
             fault,
-            pipelines: Pipelines::default(),
+            pipelines: SharedPipelines::default(),
             recorded: None,
-            textures: Pool::new(IDLE_BYTES),
-            buffers: Pool::new(IDLE_BYTES),
+            textures: KeyedPool::new(IDLE_BYTES),
+            buffers: KeyedPool::new(IDLE_BYTES),
         })
     }
 

@@ -27,4 +27,4 @@ mod pool;
 mod prepared;
 mod state;
 
-pub use backend::{Options, Via, WgpuBackend, enumerate, open};
+pub use backend::{Via, WgpuBackend, WgpuOptions, enumerate, open};

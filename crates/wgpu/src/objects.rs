@@ -6,7 +6,7 @@ use etalon_webgpu::{BindGroup, Binding, CallList, QueryType};
 use wgpu::BufferUsages;
 
 /// The objects of a list of calls, at the indices of their descriptions.
-pub(crate) struct Objects<'a> {
+pub(crate) struct CallObjects<'a> {
     pub(crate) textures: Vec<TextureLease<'a>>,
     pub(crate) views: Vec<wgpu::TextureView>,
     pub(crate) buffers: Vec<BufferLease<'a>>,
@@ -18,7 +18,7 @@ pub(crate) struct Objects<'a> {
     pub(crate) bundles: Vec<wgpu::RenderBundle>,
 }
 
-impl<'a> Objects<'a> {
+impl<'a> CallObjects<'a> {
     /// Creates the objects of a list and fills its buffers.
     pub(crate) fn new(gpu: &'a Gpu, list: &CallList) -> Result<Self, BackendError> {
         let textures = list.textures.iter().map(|texture| gpu.texture(texture));

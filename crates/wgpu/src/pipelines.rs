@@ -5,14 +5,14 @@ use crate::error::Errors;
 use crate::state;
 use etalon_backend::BackendError;
 use etalon_scene::Sampler;
-use etalon_webgpu::{CallList, LayoutEntry, Pipeline, PipelineState, Shader, VertexBuffer};
+use etalon_webgpu::{CallList, LayoutEntry, PipelineState, RenderPipeline, Shader, VertexBuffer};
 
 /// The description of a pipeline.
 type PipelineKey = (Shader, Vec<LayoutEntry>, PipelineState);
 
 /// The objects that do not depend on a scene's textures and buffers.
 #[derive(Default)]
-pub(crate) struct Pipelines {
+pub(crate) struct SharedPipelines {
     layouts: Cache<Vec<LayoutEntry>, Layout>,
     samplers: Cache<Sampler, wgpu::Sampler>,
     shaders: Cache<Shader, wgpu::ShaderModule>,
@@ -26,7 +26,7 @@ pub(crate) struct Layout {
     pipeline: wgpu::PipelineLayout,
 }
 
-impl Pipelines {
+impl SharedPipelines {
     pub(crate) fn clear(&self) {
         self.layouts.clear();
         self.samplers.clear();
@@ -71,7 +71,7 @@ impl Pipelines {
         device: &wgpu::Device,
         errors: &Errors,
         list: &CallList,
-        pipeline: &Pipeline,
+        pipeline: &RenderPipeline,
     ) -> Result<wgpu::RenderPipeline, BackendError> {
         let entries = pipeline.layout.map(|layout| list.layouts[layout].clone());
         let key = (

@@ -6,7 +6,7 @@ use std::hash::Hash;
 use std::ops::Deref;
 
 /// Unused objects, grouped by interchangeability, up to a total weight.
-pub(crate) struct Pool<K, T> {
+pub(crate) struct KeyedPool<K, T> {
     idle: RefCell<HashMap<K, Vec<T>>>,
     weight: Cell<u64>,
     most: u64,
@@ -15,14 +15,14 @@ pub(crate) struct Pool<K, T> {
 
 /// An object in use. It returns to its pool on drop.
 pub(crate) struct Lease<'a, K: Clone + Eq + Hash, T: Clone> {
-    pool: &'a Pool<K, T>,
+    pool: &'a KeyedPool<K, T>,
     key: K,
     item: T,
     weight: u64,
     generation: u64,
 }
 
-impl<K: Clone + Eq + Hash, T: Clone> Pool<K, T> {
+impl<K: Clone + Eq + Hash, T: Clone> KeyedPool<K, T> {
     /// Returns a pool that keeps unused objects up to this total weight.
     pub(crate) fn new(most: u64) -> Self {
         Self {
@@ -83,7 +83,7 @@ mod tests {
 
     #[test]
     fn objects_are_reused_within_the_bound_and_not_after_an_error() {
-        let pool = Pool::new(2);
+        let pool = KeyedPool::new(2);
         let made = Cell::new(0);
         let take = || {
             pool.take("key", 1, || {

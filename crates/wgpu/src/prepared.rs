@@ -4,7 +4,7 @@ use crate::bundles::bundles;
 use crate::clock::Clock;
 use crate::encode;
 use crate::gpu::Gpu;
-use crate::objects::Objects;
+use crate::objects::CallObjects;
 use etalon_backend::{BackendError, Fault, FrameTime, Prepared};
 use etalon_frame::Frame;
 use etalon_scene::Scene;
@@ -12,21 +12,21 @@ use etalon_webgpu::{CallList, lower, plant};
 use std::time::Instant;
 
 /// A scene as calls, with all objects that the calls need.
-pub(crate) struct PreparedScene<'a> {
+pub(crate) struct WgpuScene<'a> {
     gpu: &'a Gpu,
     list: CallList,
-    objects: Objects<'a>,
+    objects: CallObjects<'a>,
     submitted: bool,
 }
 
-impl<'a> PreparedScene<'a> {
+impl<'a> WgpuScene<'a> {
     pub(crate) fn new(gpu: &'a Gpu, scene: &Scene) -> Result<Self, BackendError> {
         let mut list = lower(&gpu.facts, scene).map_err(BackendError::NotSupported)?;
         if let Some(Fault::Call(fault)) = gpu.fault {
             plant(fault, &mut list);
         }
         let objects = gpu.guard("preparing a scene", || {
-            let mut objects = Objects::new(gpu, &list)?;
+            let mut objects = CallObjects::new(gpu, &list)?;
             objects.bundles = bundles(gpu, &objects, &list)?;
             Ok(objects)
         })?;
@@ -115,7 +115,7 @@ impl<'a> PreparedScene<'a> {
     }
 }
 
-impl Prepared for PreparedScene<'_> {
+impl Prepared for WgpuScene<'_> {
     fn submit(&mut self) -> Result<FrameTime, BackendError> {
         let gpu = self.gpu;
         gpu.guard("drawing a scene", || self.draw())

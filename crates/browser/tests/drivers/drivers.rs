@@ -1,8 +1,8 @@
 //! The browsers. A missing one is a failure: nothing would have been tested.
 
 use etalon_backend::{Backend, Fault};
-use etalon_browser::{Browser, BrowserBackend, Options, Source, open};
-use etalon_conformance::{Driver, Value, known};
+use etalon_browser::{Browser, BrowserBackend, BrowserOptions, PageSource, open};
+use etalon_conformance::{TestedDriver, Value, known};
 use etalon_frame::{Api, TextureFormat};
 use etalon_keeper::keep;
 use std::io::{BufReader, stdin};
@@ -45,8 +45,8 @@ fn started(name: &str, browser: Browser, validate: bool, fault: Option<Fault>) -
     let program = std::env::current_exe().expect("this program has a path");
     let mut keeper = Command::new(program);
     keeper.args(["--exact", "drivers::keeper", "--ignored", "--nocapture"]);
-    let options = Options {
-        source: Source::Started(browser, keeper),
+    let options = BrowserOptions {
+        source: PageSource::Started(browser, keeper),
         validate,
         fault,
         record: false,
@@ -58,8 +58,8 @@ fn started(name: &str, browser: Browser, validate: bool, fault: Option<Fault>) -
     backend
 }
 
-pub(crate) fn chromium() -> Driver<'static> {
-    Driver {
+pub(crate) fn chromium() -> TestedDriver<'static> {
+    TestedDriver {
         known: known("webgpu:chromium"),
         environment: Vec::new(),
         open: |validate| Box::new(opened("webgpu:chromium", validate, None)),
@@ -68,8 +68,8 @@ pub(crate) fn chromium() -> Driver<'static> {
 }
 
 /// Chromium, whose page asks for a device in compatibility mode.
-pub(crate) fn compatibility() -> Driver<'static> {
-    Driver {
+pub(crate) fn compatibility() -> TestedDriver<'static> {
+    TestedDriver {
         known: known("webgpu:compatibility"),
         environment: Vec::new(),
         open: |validate| {
@@ -85,9 +85,9 @@ pub(crate) fn compatibility() -> Driver<'static> {
     }
 }
 
-pub(crate) fn firefox() -> Driver<'static> {
+pub(crate) fn firefox() -> TestedDriver<'static> {
     let manifest = || LAVAPIPE.to_owned();
-    Driver {
+    TestedDriver {
         known: known("webgpu:firefox"),
         environment: vec![
             ("VK_DRIVER_FILES", manifest()),

@@ -1,7 +1,7 @@
 //! What a page may send, and what its server answers.
 
 use etalon_backend::{Backend, BackendError};
-use etalon_browser::{BrowserBackend, Options, Source, open};
+use etalon_browser::{BrowserBackend, BrowserOptions, PageSource, open};
 use etalon_conformance::{Value, json, scene};
 use etalon_frame::ErrorKind;
 use etalon_keeper::token;
@@ -48,9 +48,9 @@ impl Page {
 
     /// Waits for a page as a worker does.
     fn worker(&self) -> JoinHandle<Result<BrowserBackend, String>> {
-        let source = Source::Listening(self.address, self.token.clone());
+        let source = PageSource::Listening(self.address, self.token.clone());
         thread::spawn(move || {
-            let options = Options {
+            let options = BrowserOptions {
                 source,
                 validate: true,
                 fault: None,

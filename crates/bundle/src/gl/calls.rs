@@ -3,7 +3,7 @@
 use crate::c;
 use crate::declarations::{Body, Declarations, Words};
 use crate::error::BundleError;
-use etalon_backend::{Argument, Call, Constant};
+use etalon_backend::{Argument, Constant, RecordedCall};
 use std::collections::{BTreeMap, HashMap};
 
 /// Prints calls.
@@ -18,7 +18,7 @@ pub(super) struct Printer {
 
 impl Printer {
     /// Returns the functions that make the calls.
-    pub(super) fn body(&mut self, calls: &[&Call]) -> Result<Body, BundleError> {
+    pub(super) fn body(&mut self, calls: &[&RecordedCall]) -> Result<Body, BundleError> {
         Body::of(calls.iter().copied(), |call| self.statement(call))
     }
 
@@ -30,7 +30,7 @@ impl Printer {
             .collect()
     }
 
-    fn statement(&mut self, call: &Call) -> Result<String, BundleError> {
+    fn statement(&mut self, call: &RecordedCall) -> Result<String, BundleError> {
         let name = call.function.as_str();
         if !c::is_identifier(name) {
             return Err(BundleError::Call(name.to_owned()));
@@ -97,7 +97,7 @@ impl Printer {
     }
 
     /// Returns the program whose uniforms a call names.
-    fn program_of(&self, call: &Call) -> u64 {
+    fn program_of(&self, call: &RecordedCall) -> u64 {
         match call.arguments.first() {
             Some(Argument::Object(kind, program)) if kind == "program" => *program,
             _ => self.program,
@@ -113,7 +113,7 @@ impl Printer {
     }
 
     /// Returns the expression of an argument.
-    fn value(&mut self, call: &Call, argument: &Argument) -> Result<String, BundleError> {
+    fn value(&mut self, call: &RecordedCall, argument: &Argument) -> Result<String, BundleError> {
         Ok(match argument {
             Argument::Integer(value) if *value == i32::MIN => "INT32_MIN".to_owned(),
             Argument::Integer(value) => value.to_string(),
@@ -192,7 +192,7 @@ fn finite(word: u32) -> Option<String> {
 }
 
 /// Returns true if the bytes of a call are floats: vertices or uniform blocks.
-fn holds_floats(call: &Call) -> bool {
+fn holds_floats(call: &RecordedCall) -> bool {
     let targets = ["GL_ARRAY_BUFFER", "GL_UNIFORM_BUFFER"];
     matches!(call.arguments.first(), Some(Argument::Constant(c)) if targets.contains(&c.name.as_str()))
 }

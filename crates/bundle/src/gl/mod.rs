@@ -16,7 +16,7 @@ use trim::trimmed;
 pub use trim::Trim;
 
 /// The EGL context that a program creates.
-pub(crate) struct Context<'a> {
+pub(crate) struct ProgramContext<'a> {
     /// True for OpenGL ES.
     pub(crate) es: bool,
     /// Major and minor version.
@@ -30,12 +30,12 @@ pub(crate) struct Context<'a> {
 /// Returns the program.
 pub(crate) fn program(
     head: &Head,
-    context: &Context<'_>,
+    context: &ProgramContext<'_>,
     recording: &Recording,
     expected: &Due,
     trim: Trim,
 ) -> Result<String, BundleError> {
-    let Context {
+    let ProgramContext {
         es,
         version: [major, minor],
         library,

@@ -5,7 +5,7 @@
 //! 4.6, 21: state has the initial values of its tables, and is read when a command draws, clears or
 //! copies). But a driver's bug can depend on it, so a trimmed program must be run before it is trusted.
 
-use etalon_backend::{Argument, Call};
+use etalon_backend::{Argument, RecordedCall};
 use std::collections::BTreeMap;
 
 /// The state that is removed from a program.
@@ -25,7 +25,7 @@ impl Trim {
 }
 
 /// Returns the remaining calls, in their order.
-pub(super) fn trimmed(calls: &[Call], trim: Trim) -> Vec<&Call> {
+pub(super) fn trimmed(calls: &[RecordedCall], trim: Trim) -> Vec<&RecordedCall> {
     if trim == Trim::Nothing {
         return calls.iter().collect();
     }
@@ -365,7 +365,7 @@ fn is_whole((function, _): &Value) -> bool {
 }
 
 /// Returns a call as a setter of state; `None` if it does anything else.
-fn setter(call: &Call) -> Option<Setter> {
+fn setter(call: &RecordedCall) -> Option<Setter> {
     if call.result.is_some() {
         return None;
     }
@@ -469,8 +469,8 @@ mod tests {
     use super::*;
     use etalon_backend::{Constant, Phase};
 
-    fn call(function: &str, values: &[u32]) -> Call {
-        Call {
+    fn call(function: &str, values: &[u32]) -> RecordedCall {
+        RecordedCall {
             phase: Phase::Submit,
             function: function.to_owned(),
             arguments: values
@@ -488,11 +488,11 @@ mod tests {
 
     /// Returns the remaining calls, as text.
     fn left(calls: &[(&str, &[u32])], trim: Trim) -> Vec<String> {
-        let calls: Vec<Call> = calls
+        let calls: Vec<RecordedCall> = calls
             .iter()
             .map(|(name, values)| call(name, values))
             .collect();
-        let text = |call: &&Call| {
+        let text = |call: &&RecordedCall| {
             let values: Vec<u64> = call.arguments.iter().filter_map(number).collect();
             format!("{}{values:?}", call.function)
         };

@@ -4,7 +4,7 @@ use crate::c;
 use crate::declarations::{Body, Declarations, Words};
 use crate::error::BundleError;
 use crate::wrap::wrapped;
-use etalon_backend::{Argument, Call, Constant, Member};
+use etalon_backend::{Argument, Constant, Member, RecordedCall};
 use std::collections::{BTreeSet, HashMap};
 use std::fmt::Write;
 
@@ -36,7 +36,7 @@ impl Printer {
     }
 
     /// Returns the functions that make the calls.
-    pub(super) fn body(&mut self, calls: &[Call]) -> Result<Body, BundleError> {
+    pub(super) fn body(&mut self, calls: &[RecordedCall]) -> Result<Body, BundleError> {
         Body::of(calls, |call| Ok(wrapped(&self.statement(call)?)))
     }
 
@@ -58,7 +58,7 @@ impl Printer {
         text
     }
 
-    fn statement(&mut self, call: &Call) -> Result<String, BundleError> {
+    fn statement(&mut self, call: &RecordedCall) -> Result<String, BundleError> {
         let name = call.function.as_str();
         let unknown = || BundleError::Call(name.to_owned());
         if !c::is_identifier(name) {
@@ -164,7 +164,7 @@ impl Printer {
     }
 
     /// Returns the expression of an argument.
-    fn value(&mut self, call: &Call, argument: &Argument) -> Result<String, BundleError> {
+    fn value(&mut self, call: &RecordedCall, argument: &Argument) -> Result<String, BundleError> {
         Ok(match argument {
             Argument::Integer(value) if *value == i32::MIN => "INT32_MIN".to_owned(),
             Argument::Integer(value) => value.to_string(),
@@ -226,7 +226,11 @@ impl Printer {
         })
     }
 
-    fn values(&mut self, call: &Call, arguments: &[Argument]) -> Result<String, BundleError> {
+    fn values(
+        &mut self,
+        call: &RecordedCall,
+        arguments: &[Argument],
+    ) -> Result<String, BundleError> {
         let mut values = Vec::new();
         for value in arguments {
             values.push(self.value(call, value)?);
@@ -363,7 +367,7 @@ mod tests {
         let offset = || structure("VkOffset", 4, "x", Argument::Integer(1));
         let offsets = Argument::Values(vec![offset(), offset()]);
         let mut printer = Printer::new();
-        let call = Call {
+        let call = RecordedCall {
             phase: Phase::Prepare,
             function: "vkCmdBlit".to_owned(),
             arguments: vec![Argument::Array(vec![structure(

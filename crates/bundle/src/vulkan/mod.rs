@@ -12,7 +12,7 @@ use calls::Printer;
 use etalon_backend::{Recording, VulkanNeeds};
 
 /// The device of a program.
-pub(crate) struct Context<'a> {
+pub(crate) struct ProgramDevice<'a> {
     /// The device's name.
     pub(crate) device: &'a str,
     /// The version of Vulkan.
@@ -24,11 +24,11 @@ pub(crate) struct Context<'a> {
 /// Returns the program.
 pub(crate) fn program(
     head: &Head,
-    context: &Context<'_>,
+    context: &ProgramDevice<'_>,
     recording: &Recording,
     expected: &Due,
 ) -> Result<String, BundleError> {
-    let Context {
+    let ProgramDevice {
         device,
         version,
         needs,

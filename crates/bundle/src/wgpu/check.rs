@@ -4,7 +4,7 @@ use super::code::{Code, Structure, list};
 use super::literals::{number, string};
 use crate::due::Due;
 use crate::error::BundleError;
-use crate::table::{self, CheckedChannel, Order, Texel};
+use crate::table::{self, BitOrder, CheckedChannel, TableTexel};
 use crate::wrap::wrapped;
 use etalon_backend::Recording;
 
@@ -205,7 +205,7 @@ pub(super) fn check(recording: &Recording, expected: &Due) -> Result<Code, Bundl
     Ok(text)
 }
 
-fn texel(texel: &Texel) -> Code {
+fn texel(texel: &TableTexel) -> Code {
     let outcome = |outcome: &Vec<[f64; 2]>| {
         let range = |ends: &[f64; 2]| {
             let [least, most] = ends.map(number);
@@ -229,12 +229,12 @@ fn texel(texel: &Texel) -> Code {
 
 fn channel(channel: &CheckedChannel) -> Code {
     let (rust, script) = match channel.order {
-        Order::Unsigned => ("Order::Unsigned", "\"unsigned\""),
-        Order::Signed => ("Order::Signed", "\"signed\""),
-        Order::Half => ("Order::Half", "\"half\""),
-        Order::Single => ("Order::Single", "\"single\""),
-        Order::Value => ("Order::Value", "\"value\""),
-        Order::Widened => ("Order::Widened", "\"widened\""),
+        BitOrder::Unsigned => ("Order::Unsigned", "\"unsigned\""),
+        BitOrder::Signed => ("Order::Signed", "\"signed\""),
+        BitOrder::Half => ("Order::Half", "\"half\""),
+        BitOrder::Single => ("Order::Single", "\"single\""),
+        BitOrder::Value => ("Order::Value", "\"value\""),
+        BitOrder::Widened => ("Order::Widened", "\"widened\""),
     };
     Structure::of("Channel")
         .with("name", string(&channel.name))

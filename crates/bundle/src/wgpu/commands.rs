@@ -4,15 +4,15 @@ use super::code::{Code, Structure, call, defined, defined_to_change, list, optio
 use super::literals::{float, format, number, of, plain};
 use super::objects::{aspect, extent, named, object, variable};
 use etalon_webgpu::{
-    Access, CallList, ColorAttachment, Command, DepthStencilAttachment, DrawCommand, Filled,
-    PassCommand, QueryType, RenderBundle, RenderPass, Rows, TexturePart,
+    Access, BufferRows, CallList, ColorAttachment, DepthStencilAttachment, DrawCommand,
+    EncoderCommand, Filled, PassCommand, QueryType, RenderBundle, RenderPass, TexturePart,
 };
 use std::ops::Range;
 
 /// Returns the statements that submit one command buffer. `number` distinguishes its encoder from others.
 pub(super) fn submission<'c>(
     calls: &CallList,
-    commands: impl IntoIterator<Item = &'c Command>,
+    commands: impl IntoIterator<Item = &'c EncoderCommand>,
     number: usize,
 ) -> Vec<Code> {
     let encoder = format!("encoder_{number}");
@@ -31,13 +31,13 @@ pub(super) fn submission<'c>(
 }
 
 /// Returns the statements of an encoder's command.
-fn encoded(calls: &CallList, encoder: &str, command: &Command) -> Vec<Code> {
+fn encoded(calls: &CallList, encoder: &str, command: &EncoderCommand) -> Vec<Code> {
     let copy = |method: &str, from: Code, to: Code, [width, height]: [u32; 2]| {
         call(encoder, method, [from, to, extent([width, height, 1])])
     };
     vec![match command {
-        Command::Pass(described) => return pass(encoder, described),
-        Command::ClearBuffer { buffer, size } => {
+        EncoderCommand::Pass(described) => return pass(encoder, described),
+        EncoderCommand::ClearBuffer { buffer, size } => {
             let size = option(Some(plain(size)));
             call(
                 encoder,
@@ -45,7 +45,7 @@ fn encoded(calls: &CallList, encoder: &str, command: &Command) -> Vec<Code> {
                 [object("buffer", *buffer), plain(0), size],
             )
         }
-        Command::CopyBuffer {
+        EncoderCommand::CopyBuffer {
             from,
             to,
             offset,
@@ -61,16 +61,16 @@ fn encoded(calls: &CallList, encoder: &str, command: &Command) -> Vec<Code> {
                 option(Some(plain(size))),
             ],
         ),
-        Command::Upload { from, to, size } => {
+        EncoderCommand::Upload { from, to, size } => {
             copy("copy_buffer_to_texture", rows(from), part(to), *size)
         }
-        Command::Download { from, to, size } => {
+        EncoderCommand::Download { from, to, size } => {
             copy("copy_texture_to_buffer", part(from), rows(to), *size)
         }
-        Command::CopyTexture { from, to, size } => {
+        EncoderCommand::CopyTexture { from, to, size } => {
             copy("copy_texture_to_texture", part(from), part(to), *size)
         }
-        Command::Resolve {
+        EncoderCommand::Resolve {
             set,
             buffer,
             offset,
@@ -87,7 +87,7 @@ fn encoded(calls: &CallList, encoder: &str, command: &Command) -> Vec<Code> {
     }]
 }
 
-fn rows(rows: &Rows) -> Code {
+fn rows(rows: &BufferRows) -> Code {
     let layout = Structure::of("wgpu::TexelCopyBufferLayout")
         .with("offset", plain(rows.offset))
         .optional("bytes_per_row", Some(plain(rows.pitch)))

@@ -1,7 +1,7 @@
 //! Texts, numbers, names and bytes of calls as literals.
 
 use super::code::Code;
-use etalon_webgpu::Format;
+use etalon_webgpu::GpuFormat;
 
 /// Returns a text as a literal, which cannot end a script element.
 pub(super) fn string(text: &str) -> Code {
@@ -124,7 +124,7 @@ pub(super) fn of(kind: &str, name: &str) -> Code {
 }
 
 /// Returns a format.
-pub(super) fn format(format: Format) -> Code {
+pub(super) fn format(format: GpuFormat) -> Code {
     const PARTS: [&str; 7] = [
         "unorm", "snorm", "uint", "sint", "ufloat", "plus", "stencil",
     ];
@@ -256,12 +256,12 @@ mod tests {
             (TextureFormat::Rgb10a2Unorm, "Rgb10a2Unorm"),
             (TextureFormat::Stencil8, "Stencil8"),
         ] {
-            let printed = format(Format::Attachment(known));
+            let printed = format(GpuFormat::Attachment(known));
             assert_eq!(printed.rust, format!("wgpu::TextureFormat::{wgpu}"));
             assert_eq!(printed.script.unwrap(), format!("\"{known}\""));
         }
         assert_eq!(
-            format(Format::Rgba32Uint).rust,
+            format(GpuFormat::Rgba32Uint).rust,
             "wgpu::TextureFormat::Rgba32Uint"
         );
     }

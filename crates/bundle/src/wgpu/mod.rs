@@ -18,7 +18,7 @@ use crate::head::Head;
 use crate::language::Language;
 use crate::program::Program;
 use etalon_backend::Recording;
-use program::Api;
+use program::ProgramApi;
 
 /// Returns the program for a device and the API below wgpu, with a page if WebGPU has everything that it
 /// needs. For a browser, the API is `webgpu` and the features have WebGPU's names.
@@ -34,8 +34,8 @@ pub(crate) fn program(
     let calls = serde_json::from_str(calls).map_err(unread)?;
     let check = check::check(recording, expected)?;
     let below = match api {
-        "vulkan" => Api::Vulkan,
-        "gl" => Api::Gl,
+        "vulkan" => ProgramApi::Vulkan,
+        "gl" => ProgramApi::Gl,
         "webgpu" => {
             let features = page::names_of_wgpu(features);
             let statements = printer::statements(recording, &calls, &features);

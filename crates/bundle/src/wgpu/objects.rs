@@ -7,9 +7,9 @@ use super::literals::{
 };
 use etalon_webgpu::{
     BindGroup, Binding, BlendComponent, Buffer, CallList, CullMode, DepthStencil, LayoutEntry,
-    LayoutResource, Pipeline, PipelineTarget, Primitive, PrimitiveTopology, QuerySet, QueryType,
-    SampleType, Sampler, Shader, StencilFace, Texture, TextureAspect, TextureDimension,
-    TextureView, VertexAttribute, VertexBuffer,
+    LayoutResource, PipelineTarget, Primitive, PrimitiveTopology, QuerySet, QueryType,
+    RenderPipeline, SampleType, Sampler, Shader, StencilFace, Texture, TextureAspect,
+    TextureDimension, TextureView, VertexAttribute, VertexBuffer,
 };
 
 /// Returns the variable of the object with this kind and index.
@@ -341,7 +341,7 @@ fn query_set(set: &QuerySet) -> Code {
         .end()
 }
 
-fn pipeline(pipeline: &Pipeline, layout: usize) -> Code {
+fn pipeline(pipeline: &RenderPipeline, layout: usize) -> Code {
     let state = &pipeline.state;
     let stage = |kind: &str, entry: &str| {
         Structure::of(kind)

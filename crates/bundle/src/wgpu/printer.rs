@@ -1,7 +1,7 @@
 //! A list of calls as statements.
 
 use super::code::Code;
-use super::memories::{Memory, memories};
+use super::memories::{FilledMemory, memories};
 use super::objects::variable;
 use super::{commands, objects};
 use crate::wrap::wrapped;
@@ -15,7 +15,7 @@ pub(super) struct Statements<'a> {
     /// The buffer that is mapped.
     pub(super) mapped: String,
     /// The memory regions that are filled from it.
-    pub(super) memories: Vec<Memory>,
+    pub(super) memories: Vec<FilledMemory>,
     /// The features that the device had.
     pub(super) features: Vec<&'a str>,
     /// The features that the calls need.

@@ -8,10 +8,10 @@ use crate::head::Head;
 use std::fmt::Write;
 
 /// Returns the manifest of the package, which depends on the wgpu version whose calls were recorded.
-pub(super) fn package(api: Api) -> String {
+pub(super) fn package(api: ProgramApi) -> String {
     let feature = match api {
-        Api::Vulkan => "vulkan",
-        Api::Gl => "gles",
+        ProgramApi::Vulkan => "vulkan",
+        ProgramApi::Gl => "gles",
     };
     format!(
         r#"[package]
@@ -35,7 +35,7 @@ pollster = "=1.0.1"
 
 /// The API below wgpu.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Api {
+pub(super) enum ProgramApi {
     Vulkan,
     Gl,
 }
@@ -43,7 +43,7 @@ pub(super) enum Api {
 /// Returns the program for a device of an API.
 pub(super) fn program(
     head: &Head,
-    api: Api,
+    api: ProgramApi,
     device: &str,
     statements: &Statements<'_>,
     check: &Code,
@@ -63,8 +63,8 @@ pub(super) fn program(
          0 if not, 77 if the adapter lacks something, 2 if a call fails.\n\n",
     );
     let backend = match api {
-        Api::Vulkan => "VULKAN",
-        Api::Gl => "GL",
+        ProgramApi::Vulkan => "VULKAN",
+        ProgramApi::Gl => "GL",
     };
     let _ = write!(
         text,

@@ -1,6 +1,6 @@
 //! Axes, and values derived from them.
 
-use crate::place::Step;
+use crate::place::PathStep;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
@@ -162,13 +162,13 @@ pub(crate) enum DerivedValues {
 
 impl DerivedValues {
     /// Returns the value for the axis's value of this number, and its place; `None` if there is none.
-    pub(crate) fn get(&self, axis: &[AxisValue], number: usize) -> Option<(&Value, Step)> {
+    pub(crate) fn get(&self, axis: &[AxisValue], number: usize) -> Option<(&Value, PathStep)> {
         match self {
-            Self::Listed(values) => Some((values.get(number)?, Step::Index(number))),
+            Self::Listed(values) => Some((values.get(number)?, PathStep::Index(number))),
             Self::Named(values) => {
                 let by_name = values.get_key_value(&axis.get(number)?.name);
                 let (name, value) = by_name.or_else(|| values.get_key_value(OTHERS))?;
-                Some((value, Step::Key(name.clone())))
+                Some((value, PathStep::Key(name.clone())))
             }
         }
     }

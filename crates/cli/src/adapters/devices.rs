@@ -4,7 +4,7 @@
 use super::backend_name::BackendName;
 use super::names::sanitized;
 use super::runtime_folder::default_runtime_folder;
-use etalon_process::Group;
+use etalon_process::ProcessGroup;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::io::Read;
@@ -66,7 +66,7 @@ pub(super) fn enumerate(backend: &str) -> Result<Vec<HardwareDevice>, String> {
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::null());
-    let (mut child, group) = Group::start(&mut command)
+    let (mut child, group) = ProcessGroup::start(&mut command)
         .map_err(|e| format!("cannot start the process that lists devices: {e}"))?;
     let input = child.stdin.take();
     let mut pipe = child.stdout.take();

@@ -8,7 +8,7 @@ use super::devices::{self, BACKENDS, HardwareDevice, enumerate};
 use super::origin::Origin;
 use super::query::Query;
 use crate::failure::Failure;
-use crate::interruption::Opening;
+use crate::interruption::OpeningGuard;
 use crate::near::did_you_mean;
 use crate::output::say;
 use etalon_backend::Fault;
@@ -37,7 +37,7 @@ pub(crate) struct Adapters {
 /// # Errors
 /// If a name is unknown, or the user's file is invalid or describes something that does not exist.
 pub(crate) fn discover(query: &Query<'_>) -> Result<Adapters, Failure> {
-    let _opening = Opening::begin();
+    let _opening = OpeningGuard::begin();
     let mut adapters = Adapters {
         ready: Vec::new(),
         absent: Vec::new(),

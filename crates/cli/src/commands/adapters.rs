@@ -2,7 +2,7 @@
 
 use crate::adapters::{Origin, Query, discover};
 use crate::failure::Failure;
-use crate::flags::{AdapterFileArguments, Format};
+use crate::flags::{AdapterFileArguments, OutputFormat};
 use crate::output::{print, print_json};
 use clap::Args;
 use etalon_frame::Api;
@@ -20,7 +20,7 @@ pub(crate) struct Arguments {
     pub(crate) remedies: bool,
     /// Output format; JSON is an array with one object per adapter that can be used
     #[arg(long, value_enum, default_value = "text")]
-    pub(crate) format: Format,
+    pub(crate) format: OutputFormat,
 }
 
 /// All facts of an adapter: identity, limits and origin.
@@ -46,7 +46,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             origin: adapters.origins.get(&launch.adapter),
         })
         .collect();
-    if arguments.format == Format::Json {
+    if arguments.format == OutputFormat::Json {
         print_json(&ready)?;
         return Ok(0);
     }

@@ -3,7 +3,7 @@
 use crate::adapters::{Adapters, Query, cache, discover, refuse_absent};
 use crate::cases::chosen;
 use crate::failure::{Failure, UNEXPECTED};
-use crate::flags::{AdapterFileArguments, CaseArguments, Format, parse_timeout};
+use crate::flags::{AdapterFileArguments, CaseArguments, OutputFormat, parse_timeout};
 use crate::out_folder::Out;
 use crate::output::{print_json, say, summarize, table_options};
 use crate::progress::progress;
@@ -70,7 +70,7 @@ pub(crate) struct Arguments {
     pub(crate) cold: bool,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
-    pub(crate) format: Format,
+    pub(crate) format: OutputFormat,
 }
 
 /// The folder that each bench without `--out` replaces.
@@ -290,7 +290,7 @@ fn print(
     names: &BTreeSet<String>,
     written: &WrittenBench,
 ) -> Result<(), Failure> {
-    if arguments.format == Format::Json {
+    if arguments.format == OutputFormat::Json {
         return print_json(&json!({
             "pictures": summary.pictures,
             "timed": summary.timed,

@@ -3,7 +3,7 @@
 use crate::adapters::{Adapters, Query, discover, releases_of};
 use crate::cases::{chosen, round_trips};
 use crate::failure::{Failure, INCOMPLETE};
-use crate::flags::{CaseArguments, CaseProfile, Format};
+use crate::flags::{CaseArguments, CaseProfile, OutputFormat};
 use crate::interruption::listen;
 use crate::out_folder::Out;
 use crate::output::{print_json, say, summarize, table_options};
@@ -18,7 +18,7 @@ use etalon_record::{
     VersionsHeader, WORK_FOLDER,
 };
 use etalon_runner::{
-    Event, Launch, Options, Plan, RunError, Worker, releases_to_draw, run as draw,
+    Launch, Plan, RunError, RunEvent, RunOptions, Worker, releases_to_draw, run as draw,
 };
 use indicatif::ProgressBar;
 use serde_json::json;
@@ -55,7 +55,7 @@ pub(crate) struct Arguments {
     pub(crate) jobs: Option<u16>,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
-    pub(crate) format: Format,
+    pub(crate) format: OutputFormat,
 }
 
 /// One release that cases are drawn with.
@@ -133,13 +133,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
 
 /// Prints the result and the path of its report.
 fn print(
-    format: Format,
+    format: OutputFormat,
     versions: &Versions,
     report: &Path,
     interrupted: bool,
 ) -> Result<(), Failure> {
     match format {
-        Format::Json => print_json(&json!({
+        OutputFormat::Json => print_json(&json!({
             "line": versions.header.line,
             "releases": versions.header.releases,
             "cases": versions.cases.len(),
@@ -147,7 +147,7 @@ fn print(
             "interrupted": interrupted,
             "report": report,
         }))?,
-        Format::Text => {
+        OutputFormat::Text => {
             summarize(&etalon_report::versions_table(versions, table_options()));
             summarize(&format!("\nReport: {}\n", report.display()));
         }
@@ -333,10 +333,10 @@ impl ReleaseSearch<'_> {
             selection: None,
             adapters: vec![(drawn.launch.clone(), worker)],
             dead: Vec::new(),
-            options: Options {
+            options: RunOptions {
                 jobs: self.jobs,
                 recheck: u32::MAX,
-                ..Options::default()
+                ..RunOptions::default()
             },
             // Without expectations, every bad verdict is checked again.
             expectations: &Expectations::default(),
@@ -350,7 +350,7 @@ impl ReleaseSearch<'_> {
             drawn: &|_, _, _| {},
         };
         let drawing = draw(plan, &|event| {
-            if let Event::Recorded(record) = event {
+            if let RunEvent::Recorded(record) = event {
                 if let (Some(number), Ok(mut found)) = (by_id.get(&*record.case), found.lock()) {
                     found.push((*number, record.verdict));
                 }

@@ -4,7 +4,7 @@ use crate::adapters::{Query, discover, releases_of};
 use crate::built_program::{ProgramRun, built_and_run};
 use crate::expectations;
 use crate::failure::{Failure, NOTHING, UNEXPECTED};
-use crate::flags::Format;
+use crate::flags::OutputFormat;
 use crate::interruption::listen;
 use crate::out_folder::apart;
 use crate::output::{print_json, say, summarize};
@@ -17,16 +17,16 @@ use crate::saved_run::UnpackArguments;
 use clap::Args;
 use etalon_backend::Recording;
 use etalon_bundle::{
-    Checks, Due, DueChannel, DueCounter, DueTexel, Expected, File, Head, Language, Program, Report,
-    Trim, Versions, Written,
+    BadReleases, Checks, Due, DueChannel, DueCounter, DueTexel, File, Head, Language, Program,
+    Report, Trim, Written, WrongValue,
 };
 use etalon_case::Case;
-use etalon_diagnose::{Subject, Symptom};
+use etalon_diagnose::{Symptom, WrongPart};
 use etalon_explore::{Candidate, states};
 use etalon_frame::threads::share;
 use etalon_frame::{ChannelMismatch, Frame, WrongTexel};
 use etalon_judge::{Judge, Judged, judge_texel};
-use etalon_record::{AdapterRecord, Finding, Machine, Record, Source, check_folder};
+use etalon_record::{AdapterRecord, Finding, KnownSource, Machine, Record, check_folder};
 use etalon_report::{ReducedCase, story_text};
 use etalon_runner::{Launch, Recorded, Worker, smallest};
 use serde_json::{Value, json};
@@ -163,7 +163,7 @@ fn print(arguments: &Arguments, report: &Report, written: &Written) -> Result<()
         format!("  fails in {failed} of {runs} processes\n")
     });
     match arguments.failing.format {
-        Format::Text => summarize(&format!(
+        OutputFormat::Text => summarize(&format!(
             "{case} on {adapter}\n  {}\n  {}\n{frequency}  {}\nBundle: {}\nArchive: {}\n",
             report.title,
             report.sentence,
@@ -171,7 +171,7 @@ fn print(arguments: &Arguments, report: &Report, written: &Written) -> Result<()
             written.folder.display(),
             written.archive.display(),
         )),
-        Format::Json => print_json(&json!({
+        OutputFormat::Json => print_json(&json!({
             "case": case,
             "adapter": adapter,
             "title": report.title,
@@ -288,7 +288,7 @@ impl Bundled<'_> {
     /// Fails if the symptom is not a wrong value in one picture.
     fn require_value(&self) -> Result<(), Failure> {
         match self.symptom.subject {
-            Subject::Picture(_) | Subject::Counter(_) => Ok(()),
+            WrongPart::Picture(_) | WrongPart::Counter(_) => Ok(()),
             _ => Err(self.refused("it is not a wrong value in one picture")),
         }
     }
@@ -630,24 +630,24 @@ fn finding(adapter: &AdapterRecord, case: &str) -> Result<Option<Finding>, Failu
     Ok(findings
         .first_bad(adapter, case)
         .and_then(|known| match &known.source {
-            Source::Finding(finding) => Some(Finding::clone(finding)),
-            Source::Entry { .. } => None,
+            KnownSource::Finding(finding) => Some(Finding::clone(finding)),
+            KnownSource::Entry { .. } => None,
         }))
 }
 
-fn versions(finding: Option<&Finding>, newest: Option<(String, bool)>) -> Option<Versions> {
+fn versions(finding: Option<&Finding>, newest: Option<(String, bool)>) -> Option<BadReleases> {
     let range = finding.and_then(|f| f.versions.clone());
     if range.is_none() && newest.is_none() {
         return None;
     }
-    Some(Versions {
+    Some(BadReleases {
         bad: range.unwrap_or_default(),
         newest,
     })
 }
 
 /// Returns the first wrong values in words.
-fn expected(record: &Record) -> Vec<Expected> {
+fn expected(record: &Record) -> Vec<WrongValue> {
     const SHOWN: usize = 4;
     let mut lines = Vec::new();
     for wrong in record.wrong.iter().take(SHOWN) {
@@ -665,7 +665,7 @@ fn expected(record: &Record) -> Vec<Expected> {
                 0 => String::new(),
                 n => format!(", sample {n}"),
             };
-            lines.push(Expected {
+            lines.push(WrongValue {
                 place: format!(
                     "{channel} of {}, texel {},{}{sample}",
                     m.attachment, wrong.x, wrong.y
@@ -681,7 +681,7 @@ fn expected(record: &Record) -> Vec<Expected> {
     }
     for counter in &record.counters {
         if !counter.range().contains(counter.actual) {
-            lines.push(Expected {
+            lines.push(WrongValue {
                 place: format!("counter {}", counter.name),
                 due: counter.range().to_string(),
                 actual: counter.actual.to_string(),

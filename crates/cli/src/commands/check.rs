@@ -3,7 +3,7 @@
 use crate::cases::library;
 use crate::check::{CheckedCase, CheckedFile, check};
 use crate::failure::{Failure, UNEXPECTED, USAGE};
-use crate::flags::{CaseProfile, Format};
+use crate::flags::{CaseProfile, OutputFormat};
 use crate::output::{print, print_json};
 use clap::Args;
 use etalon_case::{CaseError, CaseFile, Library};
@@ -21,7 +21,7 @@ pub(crate) struct Arguments {
     pub(crate) profile: CaseProfile,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
-    pub(crate) format: Format,
+    pub(crate) format: OutputFormat,
 }
 
 /// Checks case files without a driver.
@@ -55,8 +55,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         each: arguments.paths.iter().any(|path| path.is_file()),
     };
     match arguments.format {
-        Format::Text => print(&report.text())?,
-        Format::Json => print_json(&report.json())?,
+        OutputFormat::Text => print(&report.text())?,
+        OutputFormat::Json => print_json(&report.json())?,
     }
     Ok(match (report.errors(), report.warnings()) {
         (1.., _) => USAGE,

@@ -1,7 +1,7 @@
 //! `etalon diff`.
 
 use crate::failure::{Failure, IMPROVED, INCOMPLETE, UNEXPECTED};
-use crate::flags::Format;
+use crate::flags::OutputFormat;
 use crate::named_files::Renewed;
 use crate::output::{print, print_json, say, table_options};
 use crate::saved_run::UnpackArguments;
@@ -53,7 +53,7 @@ pub(crate) struct Arguments {
     pub(crate) unpack: UnpackArguments,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
-    pub(crate) format: Format,
+    pub(crate) format: OutputFormat,
 }
 
 /// Compares two runs or two benches.
@@ -167,7 +167,7 @@ fn report(
     page: Option<PathBuf>,
     table: impl FnOnce() -> String,
 ) -> Result<(), Failure> {
-    if arguments.format == Format::Json {
+    if arguments.format == OutputFormat::Json {
         return print_json(diff);
     }
     print(&table())?;

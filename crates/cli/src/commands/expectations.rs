@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 
 /// Conversions between expectations and deqp-runner's lists.
 #[derive(Debug, Subcommand)]
-pub(crate) enum Command {
+pub(crate) enum Conversion {
     /// Add the contents of deqp-runner's lists to an expectations file
     Import(ImportArguments),
     /// Write the expectations of an adapter as deqp-runner's lists: fails.txt, flakes.txt, skips.txt
@@ -91,10 +91,10 @@ const LISTS: [&str; 3] = ["fails.txt", "flakes.txt", "skips.txt"];
 const PRINTED: usize = 20;
 
 /// Imports or exports deqp-runner's lists.
-pub(crate) fn run(command: &Command) -> Result<u8, Failure> {
+pub(crate) fn run(command: &Conversion) -> Result<u8, Failure> {
     match command {
-        Command::Import(arguments) => import(arguments),
-        Command::Export(arguments) => export(arguments),
+        Conversion::Import(arguments) => import(arguments),
+        Conversion::Export(arguments) => export(arguments),
     }
 }
 

@@ -8,8 +8,8 @@ use crate::cases::library;
 use crate::counted::counted;
 use crate::expectations::ExpectArguments;
 use crate::failure::{Failure, INCOMPLETE, UNEXPECTED};
-use crate::failure_groups::{FailingScenes, Group};
-use crate::flags::{AdapterFileArguments, Format, parse_timeout};
+use crate::failure_groups::{FailingScenes, FailureGroup};
+use crate::flags::{AdapterFileArguments, OutputFormat, parse_timeout};
 use crate::group_text;
 use crate::interruption::listen;
 use crate::known_look::known_bugs;
@@ -82,7 +82,7 @@ pub(crate) struct Arguments {
     pub(crate) timeout: f64,
     /// Format of the summary
     #[arg(long, value_enum, default_value = "text")]
-    pub(crate) format: Format,
+    pub(crate) format: OutputFormat,
 }
 
 /// Parses a time: seconds, or a number with `s`, `m` or `h`.
@@ -115,12 +115,12 @@ struct SceneTally {
     seconds: f64,
     /// The time in seconds for confirming failures in new processes and for comparing them with findings.
     comparing: f64,
-    groups: Vec<Group>,
+    groups: Vec<FailureGroup>,
 }
 
 impl SceneTally {
     /// Returns the groups that no finding explains.
-    fn unexplained(&self) -> impl Iterator<Item = &Group> {
+    fn unexplained(&self) -> impl Iterator<Item = &FailureGroup> {
         self.groups.iter().filter(|g| !g.is_explained())
     }
 }
@@ -188,13 +188,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
 fn print(arguments: &Arguments, tallies: &[SceneTally], interrupted: bool) -> Result<(), Failure> {
     let report = arguments.out.join(FUZZ_FILE);
     match arguments.format {
-        Format::Json => print_json(&json!({
+        OutputFormat::Json => print_json(&json!({
             "interrupted": interrupted,
             "adapters": tallies.iter().map(SceneTally::json).collect::<Vec<_>>(),
             "groups": tallies.iter().flat_map(|t| t.groups.iter().map(group_text::json)).collect::<Vec<_>>(),
             "report": report,
         }))?,
-        Format::Text => {
+        OutputFormat::Text => {
             for tally in tallies {
                 summarize(&tally.text());
             }
@@ -443,7 +443,7 @@ impl SceneTally {
 
     /// Returns the numbers of groups that are new, that resemble a finding, and that a finding explains.
     fn counts(&self) -> [usize; 3] {
-        let alike = |g: &&Group| g.known.is_some();
+        let alike = |g: &&FailureGroup| g.known.is_some();
         let unexplained = self.unexplained().count();
         let alike = self.unexplained().filter(alike).count();
         [unexplained - alike, alike, self.groups.len() - unexplained]
@@ -463,7 +463,7 @@ impl SceneTally {
             self.pairs
         );
         let new = self.groups.iter().filter(|g| g.known.is_none());
-        let new: Vec<&Group> = new.collect();
+        let new: Vec<&FailureGroup> = new.collect();
         let (shown, left) = new.split_at(new.len().min(MOST_NEW));
         text.extend(shown.iter().map(|group| group_text::text(group)));
         if !left.is_empty() {
@@ -486,8 +486,8 @@ impl SceneTally {
 
     /// Returns the findings that explain or resemble groups, each with its groups. Findings with the most
     /// scenes come first.
-    fn by_finding(&self, explained: bool) -> Vec<(&Match, Vec<&Group>)> {
-        let mut matches: Vec<(&Match, Vec<&Group>)> = Vec::new();
+    fn by_finding(&self, explained: bool) -> Vec<(&Match, Vec<&FailureGroup>)> {
+        let mut matches: Vec<(&Match, Vec<&FailureGroup>)> = Vec::new();
         for group in &self.groups {
             let Some(known) = group.known.as_ref().filter(|k| k.is_exact() == explained) else {
                 continue;
@@ -503,7 +503,7 @@ impl SceneTally {
 }
 
 /// Returns the line about groups that are not printed.
-fn others(groups: &[&Group]) -> String {
+fn others(groups: &[&FailureGroup]) -> String {
     format!(
         "and {} of {}, in {FUZZ_FILE}",
         counted(groups.len() as u64, "more group"),
@@ -512,12 +512,12 @@ fn others(groups: &[&Group]) -> String {
 }
 
 /// Returns the number of scenes in groups.
-fn scenes(groups: &[&Group]) -> u64 {
+fn scenes(groups: &[&FailureGroup]) -> u64 {
     groups.iter().map(|g| g.count).sum()
 }
 
 /// Returns the heading of a finding's groups.
-fn headed(word: &str, known: &Match, groups: &[&Group]) -> String {
+fn headed(word: &str, known: &Match, groups: &[&FailureGroup]) -> String {
     format!(
         "\n  {word}: {}: {}: {} in {}\n",
         known.finding,

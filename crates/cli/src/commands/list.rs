@@ -2,7 +2,7 @@
 
 use crate::cases::{chosen, chosen_ids, leave_measured, left_out};
 use crate::failure::Failure;
-use crate::flags::{CaseArguments, Format};
+use crate::flags::{CaseArguments, OutputFormat};
 use crate::output::{print, print_json, say};
 use clap::Args;
 use etalon_case::Case;
@@ -14,13 +14,13 @@ pub(crate) struct Arguments {
     pub(crate) selection: CaseArguments,
     /// Output format; JSON has the purpose, axes and requirements of each case
     #[arg(long, value_enum, default_value = "text")]
-    pub(crate) format: Format,
+    pub(crate) format: OutputFormat,
 }
 
 /// Prints the ids of the cases that `run` would draw, and the numbers of cases that it would leave out.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let Arguments { selection, format } = arguments;
-    if *format == Format::Json {
+    if *format == OutputFormat::Json {
         let mut cases = chosen(selection)?;
         let measured = leave_measured(&mut cases, selection, |case| case.measured);
         print_json(&cases.iter().map(facts).collect::<Vec<_>>())?;

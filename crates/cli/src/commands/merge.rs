@@ -2,7 +2,7 @@
 
 use crate::catalogue::{catalogue_of, draws_built_in};
 use crate::failure::{Failure, IMPROVED, INCOMPLETE, UNEXPECTED};
-use crate::flags::Format;
+use crate::flags::OutputFormat;
 use crate::news::{NewsArguments, shown};
 use crate::out_folder::Out;
 use crate::output::{print_json, say, summarize, table_options};
@@ -10,7 +10,7 @@ use crate::saved_run::UnpackArguments;
 use crate::{idle, provenance};
 use clap::Args;
 use etalon_record::{FolderKind, MISSING_FILE, Merge, Merged, Run};
-use etalon_report::{Catalogue, News, RunReport};
+use etalon_report::{Catalogue, RunNews, RunReport};
 use serde_json::json;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -32,7 +32,7 @@ pub(crate) struct Arguments {
     pub(crate) news: NewsArguments,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
-    pub(crate) format: Format,
+    pub(crate) format: OutputFormat,
 }
 
 /// The largest number of missing records that are printed.
@@ -102,7 +102,7 @@ fn print(
     merged: &Merged,
     run: &Run,
     catalogue: Option<&Catalogue>,
-    news: Option<&News>,
+    news: Option<&RunNews>,
 ) -> Result<(), Failure> {
     let out = &arguments.out;
     let shown = shown(run, news);
@@ -115,7 +115,7 @@ fn print(
     }
     .write()
     .map_err(Failure::incomplete)?;
-    if arguments.format == Format::Json {
+    if arguments.format == OutputFormat::Json {
         let pair = |(adapter, case): &(String, String)| json!({"adapter": adapter, "case": case});
         return print_json(&json!({
             "records": merged.records,

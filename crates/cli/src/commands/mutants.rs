@@ -2,9 +2,9 @@
 
 use crate::cases::{build, library};
 use crate::failure::{Failure, UNEXPECTED};
-use crate::flags::{CaseProfile, Format};
+use crate::flags::{CaseProfile, OutputFormat};
 use crate::named_files::{Renewed, replace};
-use crate::out_folder::{Claim, Out};
+use crate::out_folder::{ClaimedFolder, Out};
 use crate::output::{print, print_json, summarize, table_options};
 use crate::processors::processors;
 use crate::progress::progress;
@@ -70,7 +70,7 @@ pub(crate) struct Arguments {
     pub(crate) force: bool,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
-    pub(crate) format: Format,
+    pub(crate) format: OutputFormat,
 }
 
 /// Hunts the selected bugs, or lists them.
@@ -110,7 +110,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let hunt = hunt(arguments, &cases, &chosen)?;
     let _lock = claim.take()?;
     let written = etalon_report::write_hunt(&arguments.out, &hunt).map_err(Failure::incomplete)?;
-    if arguments.format == Format::Json {
+    if arguments.format == OutputFormat::Json {
         print_json(&hunt)?;
     } else {
         let options = table_options();
@@ -147,8 +147,8 @@ fn chosen(globs: &[String]) -> Result<Vec<MutantInfo>, Failure> {
     Ok(chosen)
 }
 
-fn list(chosen: &[MutantInfo], format: Format) -> Result<u8, Failure> {
-    if format == Format::Json {
+fn list(chosen: &[MutantInfo], format: OutputFormat) -> Result<u8, Failure> {
+    if format == OutputFormat::Json {
         print_json(&chosen)?;
         return Ok(0);
     }
@@ -220,7 +220,7 @@ fn fuzz(
     arguments: &Arguments,
     scenes: u64,
     chosen: &[MutantInfo],
-    claim: Claim<'_>,
+    claim: ClaimedFolder<'_>,
 ) -> Result<u8, Failure> {
     let (started, start) = (provenance::now(), Instant::now());
     let (found, failing) = fuzzed(arguments.seed, scenes, chosen);
@@ -237,8 +237,8 @@ fn fuzz(
         .and_then(|out| out.write(RECALL, table.as_bytes()))
         .map_err(Failure::incomplete)?;
     match arguments.format {
-        Format::Json => print_json(&hunt)?,
-        Format::Text => summarize(&format!("{table}\nReport: {}\n", written.html.display())),
+        OutputFormat::Json => print_json(&hunt)?,
+        OutputFormat::Text => summarize(&format!("{table}\nReport: {}\n", written.html.display())),
     }
     let wrong = |m: &MutantRecord| m.outcome == Catch::Caught && m.mutant.legal.is_some();
     Ok(if hunt.mutants.iter().any(wrong) || !failing.is_empty() {

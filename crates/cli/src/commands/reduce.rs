@@ -1,7 +1,7 @@
 //! `etalon reduce`.
 
 use crate::failure::Failure;
-use crate::flags::Format;
+use crate::flags::OutputFormat;
 use crate::interruption::listen;
 use crate::named_files::NamedFiles;
 use crate::out_folder::apart;
@@ -68,8 +68,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         .map_err(|e| Failure::incomplete(format!("cannot write JSON: {e}")))?;
     out.write(&[(name, (text + "\n").into_bytes())])?;
     match arguments.failing.format {
-        Format::Text => summarize(&report.text(&path.display().to_string())),
-        Format::Json => print_json(&report.json(&path.display().to_string()))?,
+        OutputFormat::Text => summarize(&report.text(&path.display().to_string())),
+        OutputFormat::Json => print_json(&report.json(&path.display().to_string()))?,
     }
     Ok(0)
 }

@@ -3,12 +3,12 @@
 use crate::adapters::{Adapters, Query, cache, discover, refuse_absent, take_unstarted};
 use crate::blessing::{bless, to_bless};
 use crate::cases::{chosen, leave_measured, left_out, library, round_trips};
-use crate::catalogue::{Pictures, catalogue};
+use crate::catalogue::{CataloguePictures, catalogue};
 use crate::expectations::{ExpectArguments, counting};
 use crate::failure::{Failure, IMPROVED, INCOMPLETE, UNEXPECTED};
-use crate::flags::{AdapterFileArguments, CaseArguments, Format, parse_timeout};
+use crate::flags::{AdapterFileArguments, CaseArguments, OutputFormat, parse_timeout};
 use crate::interruption::{how_to_resume, listen};
-use crate::known_look::{self, Looks};
+use crate::known_look::{self, LookInputs};
 use crate::news::{NewsArguments, shown};
 use crate::out_folder::Out;
 use crate::output::{print_json, say, summarize, table_options};
@@ -23,8 +23,10 @@ use etalon_record::{
     AdapterRecord, Dead, Expectations, FolderKind, Header, Run, Settings, Shard, Verdict,
     selection_digest,
 };
-use etalon_report::{News, RunReport};
-use etalon_runner::{Event, KeptFrames, Launch, Options, Plan, Rechecks, RunError, RunSummary};
+use etalon_report::{RunNews, RunReport};
+use etalon_runner::{
+    KeptFrames, Launch, Plan, Rechecks, RunError, RunEvent, RunOptions, RunSummary,
+};
 use indicatif::ProgressBar;
 use serde_json::json;
 use std::collections::BTreeMap;
@@ -125,7 +127,7 @@ pub(crate) struct Arguments {
     pub(crate) validate: bool,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
-    pub(crate) format: Format,
+    pub(crate) format: OutputFormat,
 }
 
 /// Failures whose frames are kept.
@@ -209,7 +211,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         .iter()
         .map(|a| a.info.name.clone())
         .collect();
-    let pictures = Pictures::default();
+    let pictures = CataloguePictures::default();
     let mut summary = draw(Plan {
         cases: &selected.cases,
         round_trips: &selected.round_trips,
@@ -265,7 +267,7 @@ fn known_by_look(
     launches: &[Launch],
     stop: &AtomicBool,
 ) -> Result<u64, Failure> {
-    let looks = Looks {
+    let looks = LookInputs {
         library: &library(arguments.selection.cases.as_ref())?,
         expectations,
         launches,
@@ -365,8 +367,8 @@ fn start(arguments: &Arguments) -> Result<(Adapters, Vec<(AdapterRecord, String)
     Ok((adapters, dead))
 }
 
-fn options(arguments: &Arguments) -> Options {
-    Options {
+fn options(arguments: &Arguments) -> RunOptions {
+    RunOptions {
         jobs: arguments.jobs.map_or_else(processors, usize::from),
         timeout: Duration::from_secs_f64(arguments.timeout),
         memory: Some(arguments.memory),
@@ -400,7 +402,7 @@ struct Results<'a> {
     adapter_names: Vec<String>,
     run: Run,
     dead: Vec<Dead>,
-    news: Option<News>,
+    news: Option<RunNews>,
     report: PathBuf,
 }
 
@@ -410,7 +412,7 @@ impl<'a> Results<'a> {
         arguments: &'a Arguments,
         selected: &RunCases,
         expectations: &Expectations,
-        pictures: &Pictures,
+        pictures: &CataloguePictures,
         summary: RunSummary,
         adapter_names: Vec<String>,
     ) -> Result<Self, Failure> {
@@ -446,7 +448,7 @@ impl<'a> Results<'a> {
     }
 
     fn print(&self) -> Result<(), Failure> {
-        if self.arguments.format == Format::Json {
+        if self.arguments.format == OutputFormat::Json {
             return print_json(&json!({
                 "records": self.summary.records,
                 "missing": self.run.missing(),
@@ -608,8 +610,8 @@ fn execute(plan: Plan<'_>, bar: &ProgressBar) -> Result<RunSummary, RunError> {
     // Bad verdicts are printed with their reasons after the run; until then the bar counts them.
     let bad: Mutex<BTreeMap<Verdict, u64>> = Mutex::default();
     etalon_runner::run(plan, &|event| match event {
-        Event::AdapterStarted { .. } => {}
-        Event::Recorded(record) => {
+        RunEvent::AdapterStarted { .. } => {}
+        RunEvent::Recorded(record) => {
             if record.unexpected()
                 && let Ok(mut bad) = bad.lock()
             {
@@ -619,7 +621,7 @@ fn execute(plan: Plan<'_>, bar: &ProgressBar) -> Result<RunSummary, RunError> {
             }
             bar.inc(1);
         }
-        Event::AdapterFinished { adapter, wall } => bar.suspend(|| {
+        RunEvent::AdapterFinished { adapter, wall } => bar.suspend(|| {
             say!("{adapter} done in {:.1} s", wall.as_secs_f64());
         }),
     })

@@ -2,7 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::etalon;
-use etalon_record::{Expectations, Finding, Grade, Source};
+use etalon_record::{Expectations, Finding, Grade, KnownSource};
 use predicates::prelude::*;
 use predicates::str::contains;
 use std::collections::BTreeMap;
@@ -23,7 +23,7 @@ fn root() -> PathBuf {
 fn findings() -> Vec<(String, Finding)> {
     let expectations = Expectations::read(&root().join("ci/findings")).unwrap();
     let each = expectations.all().iter().map(|known| {
-        let Source::Finding(finding) = &known.source else {
+        let KnownSource::Finding(finding) = &known.source else {
             panic!("{}: no finding", known.place());
         };
         let name = known.path.file_stem().unwrap().to_str().unwrap();

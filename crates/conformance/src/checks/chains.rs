@@ -1,9 +1,9 @@
 //! Passes that read the results of earlier passes: drawn, resolved, cleared or uploaded.
 
-use super::Checked;
+use super::CheckEnd;
 use crate::frames::{BLUE, Expect, GREEN, NONE, RED, check_near, color, texels, values};
 use crate::scenes::{blend, corners, green, rect, red};
-use crate::subject::Subject;
+use crate::subject::CheckedBackend;
 use etalon_frame::{ChannelEncoding, TextureFormat};
 use serde_json::{Value, json};
 
@@ -24,7 +24,7 @@ fn fetch(texels: [u32; 4], texture: &str) -> Value {
 
 /// Alternately adds one of two attachments to the other. The first pass reads an upload and draws to a
 /// cleared attachment; later passes read what was drawn.
-pub(crate) fn two_attachments_take_turns(s: &Subject) -> Checked {
+pub(crate) fn two_attachments_take_turns(s: &CheckedBackend) -> CheckEnd {
     let start = |x: u32, y: u32| [x + 5 * y, 1, 0, 2];
     let grid = [0, 1, 2, 3].map(|y| [0, 1, 2, 3, 4].map(|x| start(x, y)));
     for (format, passes) in [
@@ -73,7 +73,7 @@ pub(crate) fn two_attachments_take_turns(s: &Subject) -> Checked {
 }
 
 /// An attachment that is read before anything is drawn to it has its clear value.
-pub(crate) fn a_clear_is_read_before_the_first_draw(s: &Subject) -> Checked {
+pub(crate) fn a_clear_is_read_before_the_first_draw(s: &CheckedBackend) -> CheckEnd {
     let frame = s.show(json!({
         "attachments": {
             "a": { "format": "rgba8unorm", "size": [5, 4] },
@@ -91,7 +91,7 @@ pub(crate) fn a_clear_is_read_before_the_first_draw(s: &Subject) -> Checked {
 }
 
 /// Resolves and reads an attachment, draws to it again, and resolves and reads it again.
-pub(crate) fn what_was_resolved_is_read(s: &Subject) -> Checked {
+pub(crate) fn what_was_resolved_is_read(s: &CheckedBackend) -> CheckEnd {
     let many = |texels: [u32; 4], params: Value| {
         json!({ "color": ["many"], "resolve": ["one"], "draws": [
             { "mesh": corners(texels), "topology": "triangle-strip", "shader": "uniform_color",
@@ -116,7 +116,7 @@ pub(crate) fn what_was_resolved_is_read(s: &Subject) -> Checked {
 }
 
 /// Each texel samples the corner that four texels of a larger attachment share.
-pub(crate) fn a_larger_attachment_is_averaged(s: &Subject) -> Checked {
+pub(crate) fn a_larger_attachment_is_averaged(s: &CheckedBackend) -> CheckEnd {
     let columns = [0, 1, 2, 3, 4, 5, 6, 7];
     let grid = [0, 1, 2, 3].map(|y| columns.map(|x| [28 * x, 60 * y, 7, 255]));
     for format in ["rgba8unorm", "rgba16float"] {
@@ -148,7 +148,7 @@ pub(crate) fn a_larger_attachment_is_averaged(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn sampled_fragments_are_discarded(s: &Subject) -> Checked {
+pub(crate) fn sampled_fragments_are_discarded(s: &CheckedBackend) -> CheckEnd {
     let rows = json!({ "kind": "rows", "values": [[1, 0, 0, 1], [0, 1, 0, 0.25]] });
     let frame = s.show(json!({
         "attachments": {
@@ -167,7 +167,7 @@ pub(crate) fn sampled_fragments_are_discarded(s: &Subject) -> Checked {
 }
 
 /// The statistics of all passes add up, and requesting them changes no picture.
-pub(crate) fn invocations_of_all_passes_add_up(s: &Subject) -> Checked {
+pub(crate) fn invocations_of_all_passes_add_up(s: &CheckedBackend) -> CheckEnd {
     let drawn = |counters: Value, both: &[&str], second: &[&str]| {
         let pass = |to: &str, texels, from: &str, names: &[&str]| {
             let mut draw = fetch(texels, from);

@@ -1,15 +1,19 @@
 //! Counters of each kind.
 
-use super::Checked;
+use super::CheckEnd;
 use crate::frames::{Expect, NONE, RED};
 use crate::scenes::{full, rect, red, scene, test, uploaded, with};
-use crate::subject::{Missing, Subject};
+use crate::subject::{CheckedBackend, Missing};
 use etalon_frame::{Feature, Frame};
 use serde_json::{Value, json};
 
 /// Draws to a colour attachment, and a depth attachment cleared to a half. The texture `half` has alpha 1
 /// in the first ten columns.
-pub(super) fn counted(s: &Subject, kinds: Value, draws: Vec<Value>) -> Result<Frame, Missing> {
+pub(super) fn counted(
+    s: &CheckedBackend,
+    kinds: Value,
+    draws: Vec<Value>,
+) -> Result<Frame, Missing> {
     let half: Vec<_> = (0..16).map(|x| if x < 10 { RED } else { NONE }).collect();
     s.show(json!({
         "attachments": {
@@ -46,7 +50,7 @@ pub(super) fn check_painted(frame: &Frame, red: impl Fn(u32, u32) -> bool) {
 }
 
 /// Some draws pass, some fail, one has no counter, and one counter has no draw.
-pub(crate) fn any_samples_that_pass_are_told(s: &Subject) -> Checked {
+pub(crate) fn any_samples_that_pass_are_told(s: &CheckedBackend) -> CheckEnd {
     let draws = vec![
         corner(true, "uniform_color", &["a"]),
         corner(false, "uniform_color", &["b"]),
@@ -61,7 +65,7 @@ pub(crate) fn any_samples_that_pass_are_told(s: &Subject) -> Checked {
 }
 
 /// Counts over two passes, and a single texel that passes.
-pub(crate) fn any_samples_of_several_passes_are_told(s: &Subject) -> Checked {
+pub(crate) fn any_samples_of_several_passes_are_told(s: &CheckedBackend) -> CheckEnd {
     let draw = |texels: [u32; 4], compare: &str, counters: &[&str]| {
         json!({ "mesh": { "kind": "rect", "texels": texels, "z": 0.5 }, "shader": "flat_color",
                 "depth": test(compare, false), "counters": counters })
@@ -85,7 +89,7 @@ pub(crate) fn any_samples_of_several_passes_are_told(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn samples_that_pass_are_counted(s: &Subject) -> Checked {
+pub(crate) fn samples_that_pass_are_counted(s: &CheckedBackend) -> CheckEnd {
     let precise = || counters_of(&["a", "b", "c"], "samples-passed");
     let scissored = json!({ "scissor": [1, 1, 2, 16] });
     let draws = vec![
@@ -110,7 +114,7 @@ pub(crate) fn samples_that_pass_are_counted(s: &Subject) -> Checked {
 
 /// A query over three draws, one of them rejected, and over passes. In Vulkan, other commands within the
 /// query can count too.
-pub(crate) fn a_query_counts_what_it_encloses(s: &Subject) -> Checked {
+pub(crate) fn a_query_counts_what_it_encloses(s: &CheckedBackend) -> CheckEnd {
     let draws = || {
         [
             (true, "a"),
@@ -145,7 +149,7 @@ pub(crate) fn a_query_counts_what_it_encloses(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn each_sample_counts_by_itself(s: &Subject) -> Checked {
+pub(crate) fn each_sample_counts_by_itself(s: &CheckedBackend) -> CheckEnd {
     for (mask, expected) in [(15, 1024), (5, 512), (0, 0)] {
         let frame = s.show(json!({
             "attachments": { "color": { "format": "rgba8unorm", "samples": 4 } },
@@ -159,7 +163,7 @@ pub(crate) fn each_sample_counts_by_itself(s: &Subject) -> Checked {
 }
 
 /// Drivers can run the shader for texels next to the primitive, but not if nothing is rasterized.
-pub(crate) fn invocations_are_counted(s: &Subject) -> Checked {
+pub(crate) fn invocations_are_counted(s: &CheckedBackend) -> CheckEnd {
     let draw = |name: &str, state: Value| with(corner(true, "uniform_color", &[name]), state);
     let draws = vec![
         draw("a", json!({})),
@@ -178,7 +182,7 @@ pub(crate) fn invocations_are_counted(s: &Subject) -> Checked {
 
 /// Statistics need not be exact, but nothing runs without being rasterized, and a shader that counts its
 /// own runs has run.
-pub(crate) fn statistics_tell_that_shaders_ran(s: &Subject) -> Checked {
+pub(crate) fn statistics_tell_that_shaders_ran(s: &CheckedBackend) -> CheckEnd {
     let draw = |scissor: [u32; 4], name: &str| {
         json!({ "mesh": full(), "shader": "counted_color", "scissor": scissor,
                 "counters": ["runs", name] })
@@ -196,7 +200,7 @@ pub(crate) fn statistics_tell_that_shaders_ran(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn discarded_primitives_run_no_shader(s: &Subject) -> Checked {
+pub(crate) fn discarded_primitives_run_no_shader(s: &CheckedBackend) -> CheckEnd {
     let discarded = json!({ "rasterizer_discard": true });
     let draw = with(corner(true, "uniform_color", &["n"]), discarded);
     let frame = counted(s, counters_of(&["n"], "fragment-invocations"), vec![draw])?;
@@ -204,7 +208,7 @@ pub(crate) fn discarded_primitives_run_no_shader(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn runs_are_counted(s: &Subject) -> Checked {
+pub(crate) fn runs_are_counted(s: &CheckedBackend) -> CheckEnd {
     let draws = [(true, "a"), (false, "b"), (true, "c"), (true, "c")].map(|(front, name)| {
         with(
             corner(front, "counted_color", &[name]),
@@ -222,7 +226,7 @@ pub(crate) fn runs_are_counted(s: &Subject) -> Checked {
 }
 
 /// Unless early tests are forced, the shader runs for fragments that the tests reject.
-pub(crate) fn rejected_fragments_run(s: &Subject) -> Checked {
+pub(crate) fn rejected_fragments_run(s: &CheckedBackend) -> CheckEnd {
     let draw = |texels: [u32; 4], shader: &str, textures: &[&str], name: &str| {
         json!({ "mesh": { "kind": "rect", "texels": texels, "value": 0.5 }, "shader": shader,
                 "textures": textures, "params": red(), "depth": test("never", true),
@@ -248,7 +252,7 @@ pub(crate) fn rejected_fragments_run(s: &Subject) -> Checked {
 }
 
 /// A draw that discards, for which shader runs, invocations and passed samples are counted separately.
-pub(crate) fn counters_of_all_kinds_go_together(s: &Subject) -> Checked {
+pub(crate) fn counters_of_all_kinds_go_together(s: &CheckedBackend) -> CheckEnd {
     let drawn = |kinds: Value| {
         let names: Vec<_> = kinds.as_object().unwrap().keys().cloned().collect();
         let draw = json!({
@@ -273,7 +277,7 @@ pub(crate) fn counters_of_all_kinds_go_together(s: &Subject) -> Checked {
 }
 
 /// Counts all kinds over two passes, repeatedly, alternating with a scene that has more draws.
-pub(crate) fn counters_start_from_0_at_every_submit(s: &Subject) -> Checked {
+pub(crate) fn counters_start_from_0_at_every_submit(s: &CheckedBackend) -> CheckEnd {
     let draw =
         json!({ "mesh": full(), "shader": "counted_color", "counters": ["runs", "passed", "run"] });
     let scene = |draws: usize| {
@@ -305,7 +309,7 @@ pub(crate) fn counters_start_from_0_at_every_submit(s: &Subject) -> Checked {
 }
 
 /// Storage writes happen even if the test then fails, unless the test is forced to come first.
-pub(crate) fn forced_tests_come_before_the_shader(s: &Subject) -> Checked {
+pub(crate) fn forced_tests_come_before_the_shader(s: &CheckedBackend) -> CheckEnd {
     for (early, runs) in [("implicit", 256), ("forced", 128)] {
         let draw = |counters: &[&str]| {
             vec![with(
@@ -326,7 +330,7 @@ pub(crate) fn forced_tests_come_before_the_shader(s: &Subject) -> Checked {
 }
 
 /// A forced test compares and stores the fragment's own depth, not the shader's.
-pub(crate) fn forced_tests_ignore_the_written_depth(s: &Subject) -> Checked {
+pub(crate) fn forced_tests_ignore_the_written_depth(s: &CheckedBackend) -> CheckEnd {
     let kinds = || counters_of(&["runs"], "shader-runs");
     let full = json!({
         "mesh": { "kind": "full", "z": 0.25, "value": 0.125 }, "shader": "counted_depth",

@@ -1,15 +1,15 @@
 //! Clears, writes, compares and stores depth.
 
-use super::Checked;
+use super::CheckEnd;
 use crate::frames::{BLUE, Expect, GREEN, RED, depth, stencil, texels, values};
 use crate::scenes::{blue, green, painted, rect, red, scene, test, with};
-use crate::subject::{Missing, Subject};
+use crate::subject::{CheckedBackend, Missing};
 use etalon_frame::{ChannelEncoding, Frame, ReadPath, TextureFormat};
 use etalon_scene::Scene;
 use serde_json::{Value, json};
 
 /// Returns every format with depth; all backends must offer all of them.
-fn formats(s: &Subject) -> impl Iterator<Item = TextureFormat> {
+fn formats(s: &CheckedBackend) -> impl Iterator<Item = TextureFormat> {
     let formats = TextureFormat::ALL.iter().copied();
     let formats: Vec<_> = formats.filter(|f| f.has_depth()).collect();
     for format in &formats {
@@ -29,7 +29,12 @@ fn cleared(format: TextureFormat, depth: f64) -> Value {
 
 /// Asserts that `depth` has the stored depths: 0 and 1 exactly, others within a step of the format.
 #[track_caller]
-fn check_stored(s: &Subject, format: TextureFormat, frame: &Frame, expected: impl Fn(u32) -> f64) {
+fn check_stored(
+    s: &CheckedBackend,
+    format: TextureFormat,
+    frame: &Frame,
+    expected: impl Fn(u32) -> f64,
+) {
     let (image, support) = (depth(frame, "depth"), &s.limits().formats[&format]);
     assert_eq!(image.read, support.read, "{format}");
     match image.read {
@@ -53,7 +58,7 @@ fn check_stored(s: &Subject, format: TextureFormat, frame: &Frame, expected: imp
     }
 }
 
-pub(crate) fn depths_start_from_their_clear(s: &Subject) -> Checked {
+pub(crate) fn depths_start_from_their_clear(s: &CheckedBackend) -> CheckEnd {
     for format in formats(s) {
         for value in [0.0, 1.0] {
             let depth = with(cleared(format, value), json!({ "size": [3, 5] }));
@@ -94,7 +99,7 @@ const COMPARISONS: [DepthComparison; 7] = [
 
 /// First draws a depth that differs from the clear value. The last draw does not write depth, so it changes
 /// nothing.
-pub(crate) fn depths_are_compared_with_the_stored_one(s: &Subject) -> Checked {
+pub(crate) fn depths_are_compared_with_the_stored_one(s: &CheckedBackend) -> CheckEnd {
     for format in formats(s) {
         for (stored, compare, write, columns, passes) in COMPARISONS {
             let mut draws = vec![
@@ -137,7 +142,7 @@ pub(crate) fn depths_are_compared_with_the_stored_one(s: &Subject) -> Checked {
 }
 
 /// Only clears and draws, with depths that no normalized format can represent.
-pub(crate) fn floats_keep_any_depth(s: &Subject) -> Checked {
+pub(crate) fn floats_keep_any_depth(s: &CheckedBackend) -> CheckEnd {
     let written = [0.1_f32, 0.333_333_3, 1e-7, 0.999_999_9, 0.7];
     let frame = s.show(json!({
         "attachments": { "d": { "format": "depth32float", "size": [10, 4], "clear": 0.3 } },
@@ -150,7 +155,7 @@ pub(crate) fn floats_keep_any_depth(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn a_draw_without_a_depth_test_neither_tests_nor_writes(s: &Subject) -> Checked {
+pub(crate) fn a_draw_without_a_depth_test_neither_tests_nor_writes(s: &CheckedBackend) -> CheckEnd {
     let draws = json!([{ "mesh": { "kind": "full", "value": 1 }, "shader": "flat_color_depth",
                          "params": red() }]);
     let frame = s.show(json!({
@@ -166,7 +171,7 @@ pub(crate) fn a_draw_without_a_depth_test_neither_tests_nor_writes(s: &Subject) 
     Ok(())
 }
 
-pub(crate) fn depth_and_stencil_may_be_read_only(s: &Subject) -> Checked {
+pub(crate) fn depth_and_stencil_may_be_read_only(s: &CheckedBackend) -> CheckEnd {
     let frame = s.show(json!({
         "attachments": {
             "color": blue(),
@@ -184,7 +189,7 @@ pub(crate) fn depth_and_stencil_may_be_read_only(s: &Subject) -> Checked {
 }
 
 /// Writes, tests without writing, and writes again.
-pub(crate) fn passes_that_write_take_turns_with_passes_that_do_not(s: &Subject) -> Checked {
+pub(crate) fn passes_that_write_take_turns_with_passes_that_do_not(s: &CheckedBackend) -> CheckEnd {
     for format in [
         TextureFormat::Depth32FloatStencil8,
         TextureFormat::Depth24PlusStencil8,
@@ -250,7 +255,7 @@ fn columns(z: [f64; 2], state: Value) -> Scene {
 }
 
 /// Draws columns, and returns the depths of both.
-fn depths(s: &Subject, z: [f64; 2], state: Value) -> Result<[f64; 2], Missing> {
+fn depths(s: &CheckedBackend, z: [f64; 2], state: Value) -> Result<[f64; 2], Missing> {
     let frame = s.draw(&columns(z, state))?;
     let columns = [2, 12].map(|x| values(depth(&frame, "depth"), x, 9)[0]);
     frame.depth_is("depth", |x, _| columns[x as usize / 8]);
@@ -258,7 +263,7 @@ fn depths(s: &Subject, z: [f64; 2], state: Value) -> Result<[f64; 2], Missing> {
 }
 
 /// Draws columns, and asserts that they are red and have these depths.
-fn stores(s: &Subject, z: [f64; 2], state: Value, expected: [f64; 2]) -> Checked {
+fn stores(s: &CheckedBackend, z: [f64; 2], state: Value, expected: [f64; 2]) -> CheckEnd {
     let frame = s.draw(&columns(z, state))?;
     frame.is_red(|_, _| true);
     frame.depth_is("depth", |x, _| expected[x as usize / 8]);
@@ -273,13 +278,13 @@ fn clamped(range_of: [f64; 2]) -> Value {
     with(range(range_of), json!({ "depth_clamp": true }))
 }
 
-pub(crate) fn a_viewport_moves_depths_into_its_range(s: &Subject) -> Checked {
+pub(crate) fn a_viewport_moves_depths_into_its_range(s: &CheckedBackend) -> CheckEnd {
     stores(s, [0.0, 1.0], json!({}), [0.0, 1.0])?;
     stores(s, [0.0, 1.0], range([0.0, 1.0]), [0.0, 1.0])?;
     stores(s, [0.0, 1.0], range([0.25, 0.75]), [0.25, 0.75])
 }
 
-pub(crate) fn a_range_of_depths_may_be_reversed(s: &Subject) -> Checked {
+pub(crate) fn a_range_of_depths_may_be_reversed(s: &CheckedBackend) -> CheckEnd {
     stores(s, [0.0, 1.0], range([1.0, 0.0]), [1.0, 0.0])?;
     stores(s, [0.0, 1.0], range([0.75, 0.5]), [0.75, 0.5])
 }
@@ -287,7 +292,7 @@ pub(crate) fn a_range_of_depths_may_be_reversed(s: &Subject) -> Checked {
 /// Depths on both sides of every range.
 const OUTSIDE: [[f64; 2]; 2] = [[-1.0, 2.0], [-0.5, 1.5]];
 
-pub(crate) fn depths_outside_are_clipped(s: &Subject) -> Checked {
+pub(crate) fn depths_outside_are_clipped(s: &CheckedBackend) -> CheckEnd {
     for z in OUTSIDE {
         for state in [json!({}), range([0.25, 0.75])] {
             let frame = s.draw(&columns(z, state))?;
@@ -298,7 +303,7 @@ pub(crate) fn depths_outside_are_clipped(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn depths_outside_are_clamped(s: &Subject) -> Checked {
+pub(crate) fn depths_outside_are_clamped(s: &CheckedBackend) -> CheckEnd {
     for z in OUTSIDE {
         for expected in [[0.0, 1.0], [0.25, 0.75]] {
             stores(s, z, clamped(expected), expected)?;
@@ -307,13 +312,13 @@ pub(crate) fn depths_outside_are_clamped(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn depths_are_clamped_to_a_reversed_range(s: &Subject) -> Checked {
+pub(crate) fn depths_are_clamped_to_a_reversed_range(s: &CheckedBackend) -> CheckEnd {
     stores(s, [-0.5, 1.5], clamped([0.75, 0.25]), [0.75, 0.25])
 }
 
 /// In 32-bit floats, the smallest step follows the exponent of the largest depth: 2^-24 from 0.5 to 1, and
 /// up to twice that (OpenGL 4.6, 14.6.5).
-pub(crate) fn a_constant_bias_counts_least_steps(s: &Subject) -> Checked {
+pub(crate) fn a_constant_bias_counts_least_steps(s: &CheckedBackend) -> CheckEnd {
     let biased = |bias: Value| depths(s, [0.5, 0.75], json!({ "depth_bias": bias }));
     let bias = |constant: i32| biased(json!({ "constant": constant }));
     let plain = biased(json!({}))?;
@@ -333,7 +338,7 @@ pub(crate) fn a_constant_bias_counts_least_steps(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn a_bias_is_held_to_its_clamp(s: &Subject) -> Checked {
+pub(crate) fn a_bias_is_held_to_its_clamp(s: &CheckedBackend) -> CheckEnd {
     for (constant, clamp) in [
         (16_777_216, 0.125),
         (4_000_000, 0.0625),
@@ -346,7 +351,7 @@ pub(crate) fn a_bias_is_held_to_its_clamp(s: &Subject) -> Checked {
 }
 
 /// Depth grows by 1/16 per texel to the right, so a slope factor of 2 adds 1/8.
-pub(crate) fn a_slope_bias_counts_the_slope(s: &Subject) -> Checked {
+pub(crate) fn a_slope_bias_counts_the_slope(s: &CheckedBackend) -> CheckEnd {
     let at_4 = |slope: u32| -> Result<f64, Missing> {
         let positions = [[-1, 1, 0], [-1, -1, 0], [1, 1, 1], [1, -1, 1]];
         let frame = s.show(json!({
@@ -365,7 +370,7 @@ pub(crate) fn a_slope_bias_counts_the_slope(s: &Subject) -> Checked {
 }
 
 /// The fragment's own depth is not tested against the bounds.
-pub(crate) fn bounds_reject_by_the_stored_depth(s: &Subject) -> Checked {
+pub(crate) fn bounds_reject_by_the_stored_depth(s: &CheckedBackend) -> CheckEnd {
     for (bounds, expected) in [([0.5, 0.75], [0.0, 1.0]), ([0.625, 1.0], [0.5, 0.5])] {
         let came = depths(s, [0.0, 1.0], json!({ "depth_bounds": bounds }))?;
         assert_eq!(came, expected, "{bounds:?}");

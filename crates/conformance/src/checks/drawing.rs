@@ -1,16 +1,16 @@
 //! The texels that a draw covers, and the channels that it writes.
 
-use super::Checked;
+use super::CheckEnd;
 use crate::frames::{BLUE, Expect, GREEN, NONE, RED, check_within_one, color};
 use crate::scenes::{
     blend, blue, component, full, green, over_blue, painted, rect, red, red_or_green, test,
     uploaded, with,
 };
-use crate::subject::{Missing, Subject};
+use crate::subject::{CheckedBackend, Missing};
 use etalon_frame::ReadPath;
 use serde_json::{Value, json};
 
-pub(crate) fn a_rectangle_stays_in_its_corner(s: &Subject) -> Checked {
+pub(crate) fn a_rectangle_stays_in_its_corner(s: &CheckedBackend) -> CheckEnd {
     let frame = s.show(json!({
         "attachments": { "color": with(blue(), json!({ "size": [16, 8] })) },
         "draws": [{ "mesh": rect([0, 0, 5, 3]), "shader": "uniform_color", "params": red() }],
@@ -20,7 +20,7 @@ pub(crate) fn a_rectangle_stays_in_its_corner(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn columns_run_to_the_right_and_rows_down(s: &Subject) -> Checked {
+pub(crate) fn columns_run_to_the_right_and_rows_down(s: &CheckedBackend) -> CheckEnd {
     let parts = [RED, GREEN, [51, 102, 153, 204], NONE, [255, 0, 255, 0]];
     let values = parts.map(|codes| codes.map(|code| f64::from(code) / 255.0));
     for (kind, across) in [("columns", true), ("rows", false)] {
@@ -35,7 +35,7 @@ pub(crate) fn columns_run_to_the_right_and_rows_down(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn a_pass_without_draws_leaves_the_clear_values(s: &Subject) -> Checked {
+pub(crate) fn a_pass_without_draws_leaves_the_clear_values(s: &CheckedBackend) -> CheckEnd {
     let frame = s.show(json!({
         "attachments": {
             "color": { "format": "rgba8unorm", "clear": [0, 1, 0, 1] },
@@ -54,7 +54,7 @@ pub(crate) fn a_pass_without_draws_leaves_the_clear_values(s: &Subject) -> Check
 }
 
 /// Rows whose length in bytes has no useful alignment.
-pub(crate) fn sizes_need_not_be_even(s: &Subject) -> Checked {
+pub(crate) fn sizes_need_not_be_even(s: &CheckedBackend) -> CheckEnd {
     for size in [[1, 1], [7, 3], [65, 2], [200, 130]] {
         let frame = s.show(json!({
             "attachments": {
@@ -74,7 +74,7 @@ pub(crate) fn sizes_need_not_be_even(s: &Subject) -> Checked {
 }
 
 /// With y up, the left column is wound counter-clockwise.
-pub(crate) fn faces_are_told_apart_and_culled(s: &Subject) -> Checked {
+pub(crate) fn faces_are_told_apart_and_culled(s: &CheckedBackend) -> CheckEnd {
     for cull in ["none", "front", "back", "front-and-back"] {
         for front_face in ["ccw", "cw"] {
             let Ok(frame) = s.show(over_blue(json!({
@@ -97,7 +97,7 @@ pub(crate) fn faces_are_told_apart_and_culled(s: &Subject) -> Checked {
 }
 
 /// Every second triangle of a strip has the opposite vertex order.
-pub(crate) fn strips_keep_their_winding(s: &Subject) -> Checked {
+pub(crate) fn strips_keep_their_winding(s: &CheckedBackend) -> CheckEnd {
     for (positions, expected) in [
         ([[-1, -1, 0], [1, -1, 0], [-1, 1, 0], [1, 1, 0]], RED),
         ([[-1, 1, 0], [-1, -1, 0], [1, 1, 0], [1, -1, 0]], RED),
@@ -113,7 +113,7 @@ pub(crate) fn strips_keep_their_winding(s: &Subject) -> Checked {
 
 /// Draws a colour over another, and returns the result, which must be the same in all texels.
 fn drawn_over(
-    s: &Subject,
+    s: &CheckedBackend,
     clear: [f64; 4],
     source: [f64; 4],
     state: Value,
@@ -144,7 +144,7 @@ const BLENDS: [Blend; 8] = [
     (["reverse-subtract", "one", "one"], ["reverse-subtract", "one", "one"], [0.0; 4], [255, 0, 0, 102]),
 ];
 
-pub(crate) fn blending_weighs_source_and_destination(s: &Subject) -> Checked {
+pub(crate) fn blending_weighs_source_and_destination(s: &CheckedBackend) -> CheckEnd {
     let state = |rgb: [&str; 3], alpha: [&str; 3], constant: [f64; 4]| {
         let [rgb, alpha] = [rgb, alpha].map(|[op, src, dst]| component(op, src, dst));
         json!({ "blend": { "color": rgb, "alpha": alpha }, "blend_constant": constant })
@@ -162,7 +162,7 @@ pub(crate) fn blending_weighs_source_and_destination(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn write_masks_keep_the_other_channels(s: &Subject) -> Checked {
+pub(crate) fn write_masks_keep_the_other_channels(s: &CheckedBackend) -> CheckEnd {
     for bits in 0..16_usize {
         let on = |i: usize| bits >> i & 1 == 1;
         let mask: String = (0..4)
@@ -183,7 +183,7 @@ pub(crate) fn write_masks_keep_the_other_channels(s: &Subject) -> Checked {
 }
 
 /// The first pass writes depths. The second one tests against them but must not write any.
-pub(crate) fn a_pass_tests_what_an_earlier_one_wrote(s: &Subject) -> Checked {
+pub(crate) fn a_pass_tests_what_an_earlier_one_wrote(s: &CheckedBackend) -> CheckEnd {
     let frame = s.show(json!({
         "attachments": { "color": blue(), "d": { "format": "depth16unorm", "clear": 1 } },
         "passes": [
@@ -199,7 +199,7 @@ pub(crate) fn a_pass_tests_what_an_earlier_one_wrote(s: &Subject) -> Checked {
 }
 
 /// Draws to two attachments alternately, the first with depth and stencil.
-pub(crate) fn passes_keep_contents(s: &Subject) -> Checked {
+pub(crate) fn passes_keep_contents(s: &CheckedBackend) -> CheckEnd {
     let columns = [1, 2, 3, 4, 5, 6].map(|x| [x, 2, 3, 4]);
     let frame = s.show(json!({
         "attachments": {
@@ -228,7 +228,7 @@ pub(crate) fn passes_keep_contents(s: &Subject) -> Checked {
 }
 
 /// Indices count from the draw's own first vertex, although draws share buffers.
-pub(crate) fn draws_of_a_pass_have_their_own_vertices(s: &Subject) -> Checked {
+pub(crate) fn draws_of_a_pass_have_their_own_vertices(s: &CheckedBackend) -> CheckEnd {
     let points = json!({
         "kind": "vertices", "units": "texels", "indices": [0, 2],
         "positions": [[1.5, 2.5, 0], [9.5, 4.5, 0], [15.5, 15.5, 0]] });

@@ -1,14 +1,14 @@
 //! Tests before the shader, and promises about the depth that the shader writes.
 
-use super::Checked;
+use super::CheckEnd;
 use super::counters::{check_painted, counted};
 use crate::frames::{BLUE, Expect, RED};
 use crate::scenes::{blue, red, test, uploaded, with};
-use crate::subject::Subject;
+use crate::subject::CheckedBackend;
 use serde_json::{Value, json};
 
 /// Discards the columns from the tenth on; forced early tests have already stored their depth.
-fn discards(s: &Subject, shader: &str, kinds: Value, names: Value) -> Checked {
+fn discards(s: &CheckedBackend, shader: &str, kinds: Value, names: Value) -> CheckEnd {
     for (early, behind) in [("implicit", 0.5), ("forced", 0.25)] {
         let draw = json!({
             "mesh": { "kind": "full", "z": 0.25 }, "shader": shader, "textures": ["half"],
@@ -21,11 +21,11 @@ fn discards(s: &Subject, shader: &str, kinds: Value, names: Value) -> Checked {
     Ok(())
 }
 
-pub(crate) fn discarded_fragments_leave_early_depths_alone(s: &Subject) -> Checked {
+pub(crate) fn discarded_fragments_leave_early_depths_alone(s: &CheckedBackend) -> CheckEnd {
     discards(s, "texel_discard", json!({}), json!([]))
 }
 
-pub(crate) fn discards_that_count_leave_early_depths_alone(s: &Subject) -> Checked {
+pub(crate) fn discards_that_count_leave_early_depths_alone(s: &CheckedBackend) -> CheckEnd {
     discards(
         s,
         "counted_discard",
@@ -35,7 +35,7 @@ pub(crate) fn discards_that_count_leave_early_depths_alone(s: &Subject) -> Check
 }
 
 /// Depth and stencil in one attachment.
-pub(crate) fn discarded_fragments_leave_early_stencils_alone(s: &Subject) -> Checked {
+pub(crate) fn discarded_fragments_leave_early_stencils_alone(s: &CheckedBackend) -> CheckEnd {
     let texels = [RED, RED, [255, 0, 0, 0], [255, 0, 0, 0]];
     for (tests, early) in [("implicit", false), ("forced", true)] {
         let frame = s.show(json!({
@@ -57,7 +57,11 @@ pub(crate) fn discarded_fragments_leave_early_stencils_alone(s: &Subject) -> Che
 }
 
 /// Each half writes its own depth, and both are tested against a half.
-fn promise(s: &Subject, shader: &str, (early, z, written): (&str, f64, [f64; 2])) -> Checked {
+fn promise(
+    s: &CheckedBackend,
+    shader: &str,
+    (early, z, written): (&str, f64, [f64; 2]),
+) -> CheckEnd {
     let counts = shader.starts_with("counted");
     let (kinds, names) = if counts {
         (json!({ "n": "shader-runs" }), json!(["n"]))
@@ -92,7 +96,7 @@ const PROMISES: [(&str, f64, [f64; 2]); 10] = [
     ("unchanged", 0.75, [0.75, 0.75]),
 ];
 
-pub(crate) fn kept_promises_change_nothing(s: &Subject) -> Checked {
+pub(crate) fn kept_promises_change_nothing(s: &CheckedBackend) -> CheckEnd {
     for case in PROMISES {
         promise(s, "flat_color_depth", case)?;
     }
@@ -100,7 +104,7 @@ pub(crate) fn kept_promises_change_nothing(s: &Subject) -> Checked {
     promise(s, "frag_coord_depth", PROMISES[9])
 }
 
-pub(crate) fn kept_promises_of_shaders_that_count_change_nothing(s: &Subject) -> Checked {
+pub(crate) fn kept_promises_of_shaders_that_count_change_nothing(s: &CheckedBackend) -> CheckEnd {
     for case in PROMISES {
         promise(s, "counted_depth", case)?;
     }
@@ -108,7 +112,7 @@ pub(crate) fn kept_promises_of_shaders_that_count_change_nothing(s: &Subject) ->
 }
 
 /// There is no depth attachment, or the test passes only against the cleared depth.
-pub(crate) fn promises_need_no_depth_attachment(s: &Subject) -> Checked {
+pub(crate) fn promises_need_no_depth_attachment(s: &CheckedBackend) -> CheckEnd {
     for early in ["greater-equal", "less-equal", "unchanged"] {
         let frame = s.show(json!({
             "attachments": { "alone": { "format": "rgba8unorm", "size": [4, 4] } },

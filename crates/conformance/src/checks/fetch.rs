@@ -1,9 +1,9 @@
 //! How vertices reach the pipeline: indices, offsets and instances, which must not change the picture.
 
-use super::Checked;
+use super::CheckEnd;
 use crate::frames::{BLUE, Expect, GREEN, RED};
 use crate::scenes::{blue, with};
-use crate::subject::Subject;
+use crate::subject::CheckedBackend;
 use serde_json::{Value, json};
 
 const WHITE: [u32; 4] = [255; 4];
@@ -27,7 +27,7 @@ fn draw(row: u32, mesh: Value, keys: Value) -> Value {
 }
 
 /// Draws a row by a path between two rows without it, and checks that all three are the same.
-fn is_like_the_others(s: &Subject, mesh: Value, keys: Value) -> Checked {
+fn is_like_the_others(s: &CheckedBackend, mesh: Value, keys: Value) -> CheckEnd {
     let frame = s.show(json!({
         "attachments": { "color": with(blue(), json!({ "size": [4, 3] })) },
         "draws": [draw(0, mesh.clone(), json!({})), draw(1, mesh.clone(), keys), draw(2, mesh, json!({}))],
@@ -36,7 +36,7 @@ fn is_like_the_others(s: &Subject, mesh: Value, keys: Value) -> Checked {
     Ok(())
 }
 
-pub(crate) fn a_base_vertex_is_added_to_every_index(s: &Subject) -> Checked {
+pub(crate) fn a_base_vertex_is_added_to_every_index(s: &CheckedBackend) -> CheckEnd {
     for base in [1, -1, 3, 1000, -70_000] {
         let fetch = json!({ "fetch": { "base_vertex": base } });
         is_like_the_others(s, row(json!({ "indexed": true })), fetch)?;
@@ -44,7 +44,7 @@ pub(crate) fn a_base_vertex_is_added_to_every_index(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn draws_start_at_their_first_index(s: &Subject) -> Checked {
+pub(crate) fn draws_start_at_their_first_index(s: &CheckedBackend) -> CheckEnd {
     for index in ["uint16", "uint32"] {
         for first in [0, 1, 3, 70_000] {
             let fetch = json!({ "fetch": { "index": index, "first_index": first } });
@@ -54,7 +54,7 @@ pub(crate) fn draws_start_at_their_first_index(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn draws_start_at_their_first_vertex(s: &Subject) -> Checked {
+pub(crate) fn draws_start_at_their_first_vertex(s: &CheckedBackend) -> CheckEnd {
     for first in [1, 3, 70_000] {
         let fetch = json!({ "fetch": { "first_vertex": first } });
         is_like_the_others(s, row(json!({})), fetch)?;
@@ -63,13 +63,13 @@ pub(crate) fn draws_start_at_their_first_vertex(s: &Subject) -> Checked {
 }
 
 /// The last 16-bit index is 65,535, which does not restart a list.
-pub(crate) fn the_last_short_index_names_a_vertex(s: &Subject) -> Checked {
+pub(crate) fn the_last_short_index_names_a_vertex(s: &CheckedBackend) -> CheckEnd {
     let mesh = row(json!({ "indexed": true, "spare": 65_536 - 12 }));
     is_like_the_others(s, mesh, json!({ "fetch": { "index": "uint16" } }))
 }
 
 /// Two strips of a column each, which would join into one without a restart.
-pub(crate) fn short_strips_begin_again(s: &Subject) -> Checked {
+pub(crate) fn short_strips_begin_again(s: &CheckedBackend) -> CheckEnd {
     for base in [0, 5] {
         let frame = s.show(json!({
             "attachments": { "color": blue() },
@@ -92,7 +92,7 @@ pub(crate) fn short_strips_begin_again(s: &Subject) -> Checked {
 }
 
 /// The last of three instances stays visible, and each instance is counted.
-fn instances(s: &Subject, mesh: Value, first: u32, fetch: Value) -> Checked {
+fn instances(s: &CheckedBackend, mesh: Value, first: u32, fetch: Value) -> CheckEnd {
     let colors = json!([[0, 1, 0, 1], [1, 1, 1, 1], [1, 0, 0, 1]]);
     let count = json!({ "front": { "compare": "always", "pass_op": "increment-clamp" } });
     let middle = json!({
@@ -111,14 +111,14 @@ fn instances(s: &Subject, mesh: Value, first: u32, fetch: Value) -> Checked {
     Ok(())
 }
 
-pub(crate) fn instances_have_a_color_each(s: &Subject) -> Checked {
+pub(crate) fn instances_have_a_color_each(s: &CheckedBackend) -> CheckEnd {
     for indexed in [false, true] {
         instances(s, row(json!({ "indexed": indexed })), 0, json!({}))?;
     }
     Ok(())
 }
 
-pub(crate) fn instances_start_at_their_first(s: &Subject) -> Checked {
+pub(crate) fn instances_start_at_their_first(s: &CheckedBackend) -> CheckEnd {
     for indexed in [false, true] {
         for first in [1, 1000] {
             instances(s, row(json!({ "indexed": indexed })), first, json!({}))?;
@@ -127,7 +127,7 @@ pub(crate) fn instances_start_at_their_first(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn instances_have_offsets_too(s: &Subject) -> Checked {
+pub(crate) fn instances_have_offsets_too(s: &CheckedBackend) -> CheckEnd {
     instances(s, row(json!({})), 0, json!({ "first_vertex": 4 }))?;
     let fetch = json!({ "index": "uint16", "base_vertex": 7, "first_index": 5 });
     instances(s, row(json!({ "indexed": true })), 0, fetch.clone())?;

@@ -1,11 +1,11 @@
 //! Clears, uploads, fetches, draws and blends every offered colour format.
 
-use super::Checked;
+use super::CheckEnd;
 use crate::frames::{Expect, check_within_one, codes, color, texels, values};
 use crate::scenes::{blend, full, scene};
-use crate::subject::Subject;
+use crate::subject::CheckedBackend;
 use etalon_frame::{Api, ChannelEncoding, ReadPath, TextureFormat};
-use etalon_scene::{Contents, Scene};
+use etalon_scene::{AttachmentContents, Scene};
 use serde_json::{Value, json};
 
 /// The values of eight columns, which every format represents exactly.
@@ -21,12 +21,12 @@ const VALUES: [[f64; 4]; 8] = [
 ];
 
 /// Returns the offered colour formats, with their sample counts as attachments.
-fn colors<'a>(s: &'a Subject<'_>) -> impl Iterator<Item = (TextureFormat, &'a [u32])> {
+fn colors<'a>(s: &'a CheckedBackend<'_>) -> impl Iterator<Item = (TextureFormat, &'a [u32])> {
     let formats = s.limits().formats.iter().filter(|f| f.0.is_color());
     formats.map(|(format, support)| (*format, &support.samples[..]))
 }
 
-pub(crate) fn clears_store_0_and_1(s: &Subject) -> Checked {
+pub(crate) fn clears_store_0_and_1(s: &CheckedBackend) -> CheckEnd {
     for (format, samples) in colors(s) {
         let channels = format.color_channels();
         // Even a format that cannot be drawn to can be cleared.
@@ -72,11 +72,11 @@ fn whole_range(format: TextureFormat, seen: bool) -> (Scene, Vec<i64>) {
     }
     let pairs = channels.iter().cycle().zip(&orders);
     let codes = pairs.map(|(e, order)| e.code_of_order(*order)).collect();
-    scene.attachments.last_mut().unwrap().contents = Contents::Texels(codes);
+    scene.attachments.last_mut().unwrap().contents = AttachmentContents::Texels(codes);
     (scene, orders)
 }
 
-pub(crate) fn uploads_come_back(s: &Subject) -> Checked {
+pub(crate) fn uploads_come_back(s: &CheckedBackend) -> CheckEnd {
     for (format, _) in colors(s) {
         let (scene, _) = whole_range(format, false);
         let frame = s.draw(&scene)?;
@@ -85,7 +85,7 @@ pub(crate) fn uploads_come_back(s: &Subject) -> Checked {
         // OpenGL reads through floats (4.6, 18.2.8), in which both codes of -1 have the same value.
         let is_gl = matches!(s.limits().api, Api::OpenGl | Api::OpenGlEs);
         if is_gl && format == TextureFormat::Rgba8Snorm {
-            let Contents::Texels(expected) = expected else {
+            let AttachmentContents::Texels(expected) = expected else {
                 panic!("texels are uploaded")
             };
             for (code, expected) in codes.iter_mut().zip(expected) {
@@ -94,13 +94,13 @@ pub(crate) fn uploads_come_back(s: &Subject) -> Checked {
                 }
             }
         }
-        assert_eq!(&Contents::Texels(codes), expected, "{format}");
+        assert_eq!(&AttachmentContents::Texels(codes), expected, "{format}");
     }
     Ok(())
 }
 
 /// Values as in a case file, different in each channel, and the clear of another attachment.
-pub(crate) fn values_are_uploaded_as_codes(s: &Subject) -> Checked {
+pub(crate) fn values_are_uploaded_as_codes(s: &CheckedBackend) -> CheckEnd {
     for (format, _) in colors(s) {
         let channels = format.color_channels();
         // Float formats take values and other formats take codes, as in case files.
@@ -130,7 +130,7 @@ pub(crate) fn values_are_uploaded_as_codes(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn uploads_are_fetched(s: &Subject) -> Checked {
+pub(crate) fn uploads_are_fetched(s: &CheckedBackend) -> CheckEnd {
     for (format, _) in colors(s).filter(|(f, _)| !f.is_integer()) {
         let (scene, orders) = whole_range(format, true);
         let frame = s.draw(&scene)?;
@@ -164,7 +164,7 @@ pub(crate) fn uploads_are_fetched(s: &Subject) -> Checked {
 
 /// Tests each channel by itself, so that channels cannot be confused. Columns are squares four texels wide;
 /// all samples of their inner texels are covered.
-pub(crate) fn draws_store_0_and_1(s: &Subject) -> Checked {
+pub(crate) fn draws_store_0_and_1(s: &CheckedBackend) -> CheckEnd {
     for (format, counts) in colors(s).filter(|(f, _)| !f.is_integer()) {
         for samples in counts {
             let frame = s.show(json!({
@@ -190,7 +190,7 @@ pub(crate) fn draws_store_0_and_1(s: &Subject) -> Checked {
 }
 
 /// Uses factors that give the larger of source and destination, and sums of zeros and ones.
-pub(crate) fn blendable_formats_blend(s: &Subject) -> Checked {
+pub(crate) fn blendable_formats_blend(s: &CheckedBackend) -> CheckEnd {
     for (format, support) in &s.limits().formats {
         assert!(format.is_color() || !support.blendable, "{format}");
         if !support.blendable || support.samples.is_empty() {
@@ -218,7 +218,7 @@ pub(crate) fn blendable_formats_blend(s: &Subject) -> Checked {
 }
 
 /// sRGB codes are the stored bytes: linear 0.5 is stored as 188, whether cleared or drawn, in every sample.
-pub(crate) fn srgb_codes_are_the_stored_bytes(s: &Subject) -> Checked {
+pub(crate) fn srgb_codes_are_the_stored_bytes(s: &CheckedBackend) -> CheckEnd {
     let half = json!({ "kind": "rect", "texels": [0, 0, 16, 4], "value": 0.5 });
     let draws = json!([{ "mesh": half, "shader": "flat_color" }]);
     for samples in &s.limits().formats[&TextureFormat::Rgba8UnormSrgb].samples {
@@ -240,7 +240,7 @@ pub(crate) fn srgb_codes_are_the_stored_bytes(s: &Subject) -> Checked {
 }
 
 /// The fetch decodes sRGB, and the draw encodes it.
-pub(crate) fn srgb_is_fetched_and_drawn(s: &Subject) -> Checked {
+pub(crate) fn srgb_is_fetched_and_drawn(s: &CheckedBackend) -> CheckEnd {
     let steps = [0, 10, 50, 90, 130, 170, 210, 251].repeat(2);
     let columns: Vec<_> = steps.iter().map(|v| [*v, v + 1, v + 2, v + 3]).collect();
     let texels = json!({ "kind": "columns", "values": columns });

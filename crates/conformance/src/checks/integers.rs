@@ -1,13 +1,13 @@
 //! Clears, uploads, draws, masks and resolves attachments of integers.
 
-use super::Checked;
+use super::CheckEnd;
 use crate::frames::{Expect, check_samples, color, texels};
 use crate::scenes::rect;
-use crate::subject::Subject;
+use crate::subject::CheckedBackend;
 use etalon_frame::{Api, ReadPath, TextureFormat};
 use serde_json::json;
 
-pub(crate) fn integers_are_cleared_and_uploaded(s: &Subject) -> Checked {
+pub(crate) fn integers_are_cleared_and_uploaded(s: &CheckedBackend) -> CheckEnd {
     let support = &s.limits().formats[&TextureFormat::Rgba8Uint];
     assert_eq!((support.read, support.blendable), (ReadPath::Copy, false));
     let rows: Vec<_> = (0..16).map(|y| [y, 255 - y, 7 * y, 128]).collect();
@@ -23,7 +23,7 @@ pub(crate) fn integers_are_cleared_and_uploaded(s: &Subject) -> Checked {
 }
 
 /// Covers all texels, so that the clear does not matter.
-pub(crate) fn integers_are_drawn_over_all(s: &Subject) -> Checked {
+pub(crate) fn integers_are_drawn_over_all(s: &CheckedBackend) -> CheckEnd {
     let frame = s.show(json!({
         "attachments": { "color": { "format": "rgba8uint", "clear": [1, 1, 1, 1] } },
         "draws": [
@@ -39,7 +39,7 @@ pub(crate) fn integers_are_drawn_over_all(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn integers_are_drawn_through_the_write_mask(s: &Subject) -> Checked {
+pub(crate) fn integers_are_drawn_through_the_write_mask(s: &CheckedBackend) -> CheckEnd {
     let frame = s.show(json!({
         "attachments": { "color": { "format": "rgba8uint", "clear": [1, 128, 254, 255] } },
         "draws": [{ "mesh": rect([2, 3, 9, 12]), "shader": "uint_color",
@@ -53,7 +53,7 @@ pub(crate) fn integers_are_drawn_through_the_write_mask(s: &Subject) -> Checked 
 }
 
 /// The samples differ, and the resolve takes one of them; in Vulkan the first one, which the mode requires.
-pub(crate) fn one_sample_of_integers_is_taken(s: &Subject) -> Checked {
+pub(crate) fn one_sample_of_integers_is_taken(s: &CheckedBackend) -> CheckEnd {
     let (cleared, drawn) = ([1, 2, 3, 4], [200, 100, 50, 25]);
     for mask in [1, 2] {
         let frame = s.show(json!({

@@ -1,10 +1,10 @@
 //! Separating and combining layers: depth peeling from one end or from both, weighted sums, and samples
 //! discarded by thresholds.
 
-use super::Checked;
+use super::CheckEnd;
 use crate::frames::{Expect, GREEN, NONE, RED, check_near, color, texels, values};
 use crate::scenes::{blend, blue, full, test, with};
-use crate::subject::Subject;
+use crate::subject::CheckedBackend;
 use etalon_frame::Frame;
 use serde_json::{Value, json};
 
@@ -34,7 +34,7 @@ fn near(frame: &Frame, name: &str, (x, y): (u32, u32), expected: [f64; 4], off: 
 }
 
 /// The last pass ignores the depth that the shader writes.
-pub(crate) fn layers_are_peeled_one_by_one(s: &Subject) -> Checked {
+pub(crate) fn layers_are_peeled_one_by_one(s: &CheckedBackend) -> CheckEnd {
     let names = ["first", "second", "third"];
     let mut attachments = json!({
         "none": float("rgba32float", [0, 0, 0, 1]),
@@ -74,7 +74,7 @@ pub(crate) fn layers_are_peeled_one_by_one(s: &Subject) -> Checked {
 }
 
 /// The nearest and the farthest layer are peeled in the same pass, by maxima of 32-bit floats.
-pub(crate) fn layers_are_peeled_from_both_ends(s: &Subject) -> Checked {
+pub(crate) fn layers_are_peeled_from_both_ends(s: &CheckedBackend) -> CheckEnd {
     let max = blend("max", "one", "one");
     let range = json!({ "shader": "depth_range", "blend": max });
     let peel = json!({ "shader": "dual_peel", "blend": max, "textures": ["range", "none"] });
@@ -100,7 +100,7 @@ pub(crate) fn layers_are_peeled_from_both_ends(s: &Subject) -> Checked {
 }
 
 /// Sums and products in one pass, and how both combine with the background.
-pub(crate) fn weighted_layers_are_summed_and_shown(s: &Subject) -> Checked {
+pub(crate) fn weighted_layers_are_summed_and_shown(s: &CheckedBackend) -> CheckEnd {
     let layer = |texels: [u32; 4], color: [f64; 4]| {
         json!({ "mesh": { "kind": "rect", "texels": texels, "z": 0.5, "value": color },
                 "shader": "weighted_accumulate", "targets": [
@@ -144,7 +144,7 @@ pub(crate) fn weighted_layers_are_summed_and_shown(s: &Subject) -> Checked {
 
 /// Two layers at different depths, the farther one first. The moments give the light that reaches each of
 /// them.
-pub(crate) fn moments_of_layers_tell_what_is_in_front(s: &Subject) -> Checked {
+pub(crate) fn moments_of_layers_tell_what_is_in_front(s: &CheckedBackend) -> CheckEnd {
     let float = || json!({ "format": "rgba32float", "size": [4, 4] });
     let layers = |shader: &str, textures: &[&str]| {
         let layer = |texels: [u32; 4], z: f64, color: [f64; 4]| {
@@ -197,7 +197,7 @@ pub(crate) fn moments_of_layers_tell_what_is_in_front(s: &Subject) -> Checked {
 }
 
 /// Each of four samples has its own threshold, in a texture that an earlier pass drew.
-pub(crate) fn samples_are_discarded_by_thresholds(s: &Subject) -> Checked {
+pub(crate) fn samples_are_discarded_by_thresholds(s: &CheckedBackend) -> CheckEnd {
     let frame = s.show(json!({
         "attachments": {
             "color": { "format": "rgba8unorm", "size": [4, 4], "samples": 4 },

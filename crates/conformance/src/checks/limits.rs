@@ -1,11 +1,11 @@
 //! Limits that every driver of every API has.
 
-use super::Checked;
-use crate::subject::Subject;
+use super::CheckEnd;
+use crate::subject::CheckedBackend;
 use etalon_frame::{Api, ReadPath, TextureFormat};
 
 /// The required limits: Vulkan, Required Limits; OpenGL 4.6, tables 23.53 and 23.58; WebGPU, limits.
-pub(crate) fn limits_are_at_least_the_required_ones(s: &Subject) -> Checked {
+pub(crate) fn limits_are_at_least_the_required_ones(s: &CheckedBackend) -> CheckEnd {
     let limits = s.limits();
     assert!(limits.sub_pixel_bits >= 4);
     assert!(limits.max_size >= 4096);
@@ -17,7 +17,7 @@ pub(crate) fn limits_are_at_least_the_required_ones(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn formats_are_described_without_contradiction(s: &Subject) -> Checked {
+pub(crate) fn formats_are_described_without_contradiction(s: &CheckedBackend) -> CheckEnd {
     for format in TextureFormat::ALL.iter().copied() {
         let Some(support) = s.limits().formats.get(&format) else {
             println!("{format}: not offered");

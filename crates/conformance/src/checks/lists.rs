@@ -1,9 +1,9 @@
 //! Lists of fragments that one pass leaves in storage and a later one reads.
 
-use super::Checked;
+use super::CheckEnd;
 use crate::frames::{check_near, color, texels, values};
 use crate::scenes::{blend, full, scene, test};
-use crate::subject::Subject;
+use crate::subject::CheckedBackend;
 use etalon_frame::Frame;
 use serde_json::{Value, json};
 
@@ -45,7 +45,7 @@ const GREEN: [f64; 4] = [0.0, 1.0, 0.0, 0.5];
 
 /// The farther layer is drawn first, one layer is behind the stored depth, and one covers half of the
 /// texels.
-pub(crate) fn fragments_are_listed_and_composed(s: &Subject) -> Checked {
+pub(crate) fn fragments_are_listed_and_composed(s: &CheckedBackend) -> CheckEnd {
     let layers = [
         (ALL, 0.6, RED),
         (ALL, 0.9, [1.0, 1.0, 1.0, 0.9]),
@@ -64,7 +64,7 @@ pub(crate) fn fragments_are_listed_and_composed(s: &Subject) -> Checked {
 }
 
 /// Whichever fragments fit, the lists have as many as the pool has nodes, in every submission.
-pub(crate) fn a_full_pool_drops_the_rest(s: &Subject) -> Checked {
+pub(crate) fn a_full_pool_drops_the_rest(s: &CheckedBackend) -> CheckEnd {
     let scene = scene(listed(&[(ALL, 0.3, RED), (ALL, 0.4, RED)], 20));
     let mut prepared = s.prepare(&scene)?;
     for _ in 0..3 {

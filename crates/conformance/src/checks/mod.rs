@@ -23,24 +23,24 @@ mod stencil;
 mod targets;
 mod uploads;
 
-use crate::subject::{CheckResult, Missing, Subject};
+use crate::subject::{CheckResult, CheckedBackend, Missing};
 
 /// A check ends early if the limits deny a scene.
-type Checked = Result<(), Missing>;
+type CheckEnd = Result<(), Missing>;
 
 /// A check of a driver.
-pub struct Check {
+pub struct DriverCheck {
     /// The check's subject and name: `chains::two_attachments_take_turns`.
     pub name: &'static str,
-    body: fn(&Subject<'_>) -> Checked,
+    body: fn(&CheckedBackend<'_>) -> CheckEnd,
 }
 
-impl Check {
+impl DriverCheck {
     /// Draws the scenes that the limits allow, and compares them with the expected values.
     ///
     /// # Panics
     /// If the backend fails the check.
-    pub fn run(&self, subject: &Subject<'_>) -> CheckResult {
+    pub fn run(&self, subject: &CheckedBackend<'_>) -> CheckResult {
         // The subject has recorded the scene that was denied.
         let _ = (self.body)(subject);
         subject.outcome()
@@ -51,7 +51,7 @@ macro_rules! registry {
     ($($module:ident { $($check:ident)+ })+) => {
         /// Every check, in the order of a full run. Draws with two sources come last: wgpu's OpenGL does
         /// not reset their factors, and Mesa then drops draws to several targets.
-        pub const CHECKS: &[Check] = &[$($(Check {
+        pub const CHECKS: &[DriverCheck] = &[$($(DriverCheck {
             name: concat!(stringify!($module), "::", stringify!($check)),
             body: $module::$check,
         }),+),+];

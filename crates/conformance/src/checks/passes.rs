@@ -1,9 +1,9 @@
 //! Load and store operations of passes, and clears between their draws.
 
-use super::Checked;
+use super::CheckEnd;
 use crate::frames::{BLUE, Expect, GREEN, RED};
 use crate::scenes::{blue, corners, everywhere, filled, full, green, rect, red, test, with};
-use crate::subject::Subject;
+use crate::subject::CheckedBackend;
 use etalon_frame::Feature;
 use serde_json::{Value, json};
 
@@ -25,7 +25,7 @@ fn stencil_equal(reference: u8) -> Value {
 }
 
 /// A load operation that clears removes the previous pass's drawing.
-pub(crate) fn load_operations_clear_everything(s: &Subject) -> Checked {
+pub(crate) fn load_operations_clear_everything(s: &CheckedBackend) -> CheckEnd {
     let load = json!({ "color": [{ "load": { "clear": [1, 0, 0, 1] } }] });
     for draws in [json!([]), json!([green_over([3, 2, 7, 11])])] {
         let painted = draws != json!([]);
@@ -47,7 +47,7 @@ pub(crate) fn load_operations_clear_everything(s: &Subject) -> Checked {
 }
 
 /// The first pass that uses two attachments clears only one of them.
-pub(crate) fn each_attachment_has_its_own_load_operation(s: &Subject) -> Checked {
+pub(crate) fn each_attachment_has_its_own_load_operation(s: &CheckedBackend) -> CheckEnd {
     let [clear, keep] = [json!({ "load": { "clear": [0, 1, 0, 1] } }), json!({})];
     for first in [true, false] {
         let both = if first {
@@ -66,7 +66,7 @@ pub(crate) fn each_attachment_has_its_own_load_operation(s: &Subject) -> Checked
 }
 
 /// Depth and stencil of one attachment, each with its own load operation.
-pub(crate) fn depth_and_stencil_are_loaded_apart(s: &Subject) -> Checked {
+pub(crate) fn depth_and_stencil_are_loaded_apart(s: &CheckedBackend) -> CheckEnd {
     for format in ["depth24plus-stencil8", "depth32float-stencil8"] {
         for (depth, stencil) in [(true, true), (true, false), (false, true)] {
             let mut operations = json!({});
@@ -102,7 +102,7 @@ pub(crate) fn depth_and_stencil_are_loaded_apart(s: &Subject) -> Checked {
 }
 
 /// Contents that are discarded and then cleared equal contents that were stored and then cleared.
-pub(crate) fn discarded_contents_are_cleared_again(s: &Subject) -> Checked {
+pub(crate) fn discarded_contents_are_cleared_again(s: &CheckedBackend) -> CheckEnd {
     let discard = json!({ "store": "discard" });
     let frame = s.show(json!({
         "attachments": { "color": blue(), "other": blue(), "t": filled(RED), "u": filled(GREEN),
@@ -134,7 +134,7 @@ pub(crate) fn discarded_contents_are_cleared_again(s: &Subject) -> Checked {
 }
 
 /// A discarded attachment whose average is kept, and a depth attachment that is not read.
-pub(crate) fn samples_are_discarded_after_their_average(s: &Subject) -> Checked {
+pub(crate) fn samples_are_discarded_after_their_average(s: &CheckedBackend) -> CheckEnd {
     let discard = json!({ "store": "discard" });
     let frame = s.show(json!({
         "attachments": { "many": with(blue(), json!({ "samples": 4 })), "color": blue(),
@@ -157,7 +157,7 @@ pub(crate) fn samples_are_discarded_after_their_average(s: &Subject) -> Checked 
 }
 
 /// Clears of rectangles before a draw, between draws and after a draw.
-pub(crate) fn clears_reach_their_rectangle(s: &Subject) -> Checked {
+pub(crate) fn clears_reach_their_rectangle(s: &CheckedBackend) -> CheckEnd {
     let clear = |before: u32, value: Value, rect: [u32; 4]| json!({ "before": before, "color": 0, "value": value, "rect": rect });
     let frame = s.show(json!({
         "attachments": { "color": blue() },
@@ -183,7 +183,7 @@ pub(crate) fn clears_reach_their_rectangle(s: &Subject) -> Checked {
 }
 
 /// The state of the draw before a clear: scissor, masks, discarded primitives and tests.
-pub(crate) fn clears_ignore_the_draws_around(s: &Subject) -> Checked {
+pub(crate) fn clears_ignore_the_draws_around(s: &CheckedBackend) -> CheckEnd {
     let discards = s.offers(Feature::RasterizerDiscard);
     let narrow = json!({
         "mesh": full(), "shader": "uniform_color", "params": green(), "scissor": [1, 1, 2, 2],
@@ -212,7 +212,7 @@ pub(crate) fn clears_ignore_the_draws_around(s: &Subject) -> Checked {
 }
 
 /// Clearing depth or stencil leaves the other aspect unchanged.
-pub(crate) fn clears_leave_the_other_aspect(s: &Subject) -> Checked {
+pub(crate) fn clears_leave_the_other_aspect(s: &CheckedBackend) -> CheckEnd {
     for format in ["depth24plus-stencil8", "depth32float-stencil8"] {
         for clear in [
             json!({ "before": 1, "depth": 1 }),
@@ -237,7 +237,7 @@ pub(crate) fn clears_leave_the_other_aspect(s: &Subject) -> Checked {
 }
 
 /// Clears of integers, of the second of two targets, and of all samples of a texel.
-pub(crate) fn clears_know_their_target(s: &Subject) -> Checked {
+pub(crate) fn clears_know_their_target(s: &CheckedBackend) -> CheckEnd {
     let frame = s.show(json!({
         "attachments": { "a": blue(), "b": blue() },
         "passes": [{ "color": ["a", "b"], "draws": [],
@@ -272,7 +272,7 @@ pub(crate) fn clears_know_their_target(s: &Subject) -> Checked {
 }
 
 /// Channels and bits outside a mask keep their values.
-pub(crate) fn masked_clears_keep_the_rest(s: &Subject) -> Checked {
+pub(crate) fn masked_clears_keep_the_rest(s: &CheckedBackend) -> CheckEnd {
     let frame = s.show(json!({
         "attachments": { "color": blue(),
             "depth": { "format": "depth24plus-stencil8", "clear": { "depth": 0, "stencil": 0xaa } } },
@@ -319,7 +319,7 @@ fn sample_by_sample(depth: bool, stencil: bool) -> Value {
 }
 
 /// Resolves depth and stencil to the first, the lowest or the highest sample.
-pub(crate) fn depth_and_stencil_are_resolved_by_their_modes(s: &Subject) -> Checked {
+pub(crate) fn depth_and_stencil_are_resolved_by_their_modes(s: &CheckedBackend) -> CheckEnd {
     let depths = [("sample-zero", 1.0), ("min", 0.0), ("max", 1.0)];
     let stencils = [("sample-zero", 7), ("min", 3), ("max", 9), ("none", 100)];
     for format in ["depth32float", "depth32float-stencil8", "stencil8"] {
@@ -366,7 +366,7 @@ pub(crate) fn depth_and_stencil_are_resolved_by_their_modes(s: &Subject) -> Chec
 }
 
 /// Averages depths of 0 and 1, and takes the first stencil value.
-pub(crate) fn depths_are_averaged(s: &Subject) -> Checked {
+pub(crate) fn depths_are_averaged(s: &CheckedBackend) -> CheckEnd {
     for (format, clear, stencil) in [
         ("depth32float", json!(0.25), false),
         (
@@ -397,7 +397,7 @@ pub(crate) fn depths_are_averaged(s: &Subject) -> Checked {
 }
 
 /// A pass tests against depths that the previous pass resolved and then discarded.
-pub(crate) fn what_was_resolved_is_tested(s: &Subject) -> Checked {
+pub(crate) fn what_was_resolved_is_tested(s: &CheckedBackend) -> CheckEnd {
     let frame = s.show(json!({
         "attachments": {
             "color": blue(),

@@ -1,11 +1,11 @@
 //! Prepared scenes: drawn repeatedly, side by side and one after another, and refused.
 
-use super::Checked;
+use super::CheckEnd;
 use crate::frames::{BLUE, Expect, GREEN, RED};
 use crate::scenes::{
     blend, component, full, green, over_blue, painted, rect, red, scene, test, uploaded, with,
 };
-use crate::subject::Subject;
+use crate::subject::CheckedBackend;
 use etalon_backend::{BackendError, Prepared};
 use etalon_frame::{Feature, Frame, Requirement, TextureFormat};
 use etalon_scene::Scene;
@@ -42,7 +42,7 @@ fn read(prepared: &mut Box<dyn Prepared + '_>) -> Frame {
     prepared.read_back().expect("the frame is read back")
 }
 
-pub(crate) fn a_second_submit_gives_the_same_frame(s: &Subject) -> Checked {
+pub(crate) fn a_second_submit_gives_the_same_frame(s: &CheckedBackend) -> CheckEnd {
     let scene = busy(CLEAR);
     let mut prepared = s.prepare(&scene)?;
     prepared.submit().expect("the scene is drawn");
@@ -63,7 +63,7 @@ pub(crate) fn a_second_submit_gives_the_same_frame(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn prepared_scenes_do_not_disturb_each_other(s: &Subject) -> Checked {
+pub(crate) fn prepared_scenes_do_not_disturb_each_other(s: &CheckedBackend) -> CheckEnd {
     let (first, second) = (busy(CLEAR), busy([0.0, 0.0, 1.0, 1.0]));
     let (expected_first, expected_second) = (s.draw(&first)?, s.draw(&second)?);
     assert_ne!(expected_first, expected_second);
@@ -83,7 +83,7 @@ pub(crate) fn prepared_scenes_do_not_disturb_each_other(s: &Subject) -> Checked 
 }
 
 /// Scenes of different colours, submitted one after another and read in the same order.
-pub(crate) fn scenes_are_submitted_in_turns(s: &Subject) -> Checked {
+pub(crate) fn scenes_are_submitted_in_turns(s: &CheckedBackend) -> CheckEnd {
     let [red, green] = [red(), green()].map(|params| {
         let mesh = rect([0, 0, 5, 3]);
         scene(over_blue(
@@ -105,7 +105,7 @@ pub(crate) fn scenes_are_submitted_in_turns(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn reading_before_drawing_is_an_error(s: &Subject) -> Checked {
+pub(crate) fn reading_before_drawing_is_an_error(s: &CheckedBackend) -> CheckEnd {
     let error = s.prepare(&busy(CLEAR))?.read_back().unwrap_err();
     assert_eq!(
         error,
@@ -115,7 +115,7 @@ pub(crate) fn reading_before_drawing_is_an_error(s: &Subject) -> Checked {
 }
 
 /// Draws a scene whose states write nothing and whose tests never pass, then a plain scene, and both again.
-pub(crate) fn nothing_leaks_into_the_next_scene(s: &Subject) -> Checked {
+pub(crate) fn nothing_leaks_into_the_next_scene(s: &CheckedBackend) -> CheckEnd {
     // A factor other than one, if the driver allows it with min.
     let factor = if s.offers(Feature::MinMaxBlendFactors) {
         "zero"
@@ -144,7 +144,7 @@ pub(crate) fn nothing_leaks_into_the_next_scene(s: &Subject) -> Checked {
 }
 
 /// A size above the limits, and more samples than any driver has.
-pub(crate) fn denials_are_named(s: &Subject) -> Checked {
+pub(crate) fn denials_are_named(s: &CheckedBackend) -> CheckEnd {
     let mut large = busy(CLEAR);
     let size = s.limits().max_size + 1;
     large.attachments[0].size = [size, 1];

@@ -1,19 +1,19 @@
 //! Viewport, scissor, topologies, indices and polygon modes.
 
-use super::Checked;
+use super::CheckEnd;
 use crate::frames::{BLUE, Expect, GREEN, RED, color, texels};
 use crate::scenes::{blue, full, over_blue, painted, rect, red_or_green, test, with};
-use crate::subject::{Missing, Subject};
+use crate::subject::{CheckedBackend, Missing};
 use etalon_frame::Frame;
 use serde_json::{Value, json};
 
 /// Draws red over a blue attachment of 16 by 16 texels.
-fn drawn(s: &Subject, draw: Value) -> Result<Frame, Missing> {
+fn drawn(s: &CheckedBackend, draw: Value) -> Result<Frame, Missing> {
     s.show(over_blue(with(draw, painted())))
 }
 
 /// Draws front faces red and back faces green over a blue attachment of 16 by 16 texels.
-fn faces(s: &Subject, draw: Value) -> Result<Frame, Missing> {
+fn faces(s: &CheckedBackend, draw: Value) -> Result<Frame, Missing> {
     let facing = json!({ "shader": "front_facing", "params": red_or_green() });
     s.show(over_blue(with(draw, facing)))
 }
@@ -46,7 +46,7 @@ fn viewport(draw: Value, rect: [i32; 4]) -> Value {
     )
 }
 
-pub(crate) fn a_viewport_counts_from_the_top_left(s: &Subject) -> Checked {
+pub(crate) fn a_viewport_counts_from_the_top_left(s: &CheckedBackend) -> CheckEnd {
     let frame = drawn(s, viewport(viewport_rect(), [4, 2, 8, 4]))?;
     frame.is_red(|x, y| (4..12).contains(&x) && (2..6).contains(&y));
     let frame = drawn(s, viewport(quarter(), [4, 2, 8, 4]))?;
@@ -58,7 +58,7 @@ pub(crate) fn a_viewport_counts_from_the_top_left(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn a_viewport_moves_depths_in_its_corner(s: &Subject) -> Checked {
+pub(crate) fn a_viewport_moves_depths_in_its_corner(s: &CheckedBackend) -> CheckEnd {
     let frame = s.show(json!({
         "attachments": { "depth": { "format": "depth32float", "size": [8, 8], "clear": 1 } },
         "draws": [{ "mesh": { "kind": "columns", "values": [0, 0], "z": [0, 1] }, "shader": "flat_color",
@@ -74,7 +74,7 @@ pub(crate) fn a_viewport_moves_depths_in_its_corner(s: &Subject) -> Checked {
 }
 
 /// With a negative height, the second number is the bottom, and faces show their other side.
-pub(crate) fn a_viewport_of_negative_height_turns_the_picture_over(s: &Subject) -> Checked {
+pub(crate) fn a_viewport_of_negative_height_turns_the_picture_over(s: &CheckedBackend) -> CheckEnd {
     let frame = drawn(s, viewport(viewport_rect(), [4, 6, 8, -4]))?;
     frame.is_red(|x, y| (4..12).contains(&x) && (2..6).contains(&y));
     let frame = drawn(s, viewport(quarter(), [4, 6, 8, -4]))?;
@@ -85,7 +85,7 @@ pub(crate) fn a_viewport_of_negative_height_turns_the_picture_over(s: &Subject) 
     Ok(())
 }
 
-pub(crate) fn a_viewport_may_reach_outside(s: &Subject) -> Checked {
+pub(crate) fn a_viewport_may_reach_outside(s: &CheckedBackend) -> CheckEnd {
     let frame = drawn(s, viewport(viewport_rect(), [-8, -4, 16, 8]))?;
     frame.is_red(|x, y| x < 8 && y < 4);
     let frame = drawn(s, viewport(viewport_rect(), [12, 14, 100, 100]))?;
@@ -99,7 +99,7 @@ pub(crate) fn a_viewport_may_reach_outside(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn a_scissor_leaves_the_texels_inside(s: &Subject) -> Checked {
+pub(crate) fn a_scissor_leaves_the_texels_inside(s: &CheckedBackend) -> CheckEnd {
     for [x0, y0, width, height] in [[5, 7, 1, 1], [3, 12, 1, 1], [0, 0, 0, 0], [3, 12, 0, 4]] {
         let scissor = json!({ "scissor": [x0, y0, width, height] });
         for draw in [viewport_rect(), json!({ "mesh": full() })] {
@@ -120,7 +120,7 @@ pub(crate) fn a_scissor_leaves_the_texels_inside(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn a_scissor_may_reach_outside(s: &Subject) -> Checked {
+pub(crate) fn a_scissor_may_reach_outside(s: &CheckedBackend) -> CheckEnd {
     for [left, top, width, height] in [[12, 13, 100, 4_000_000_000], [12, 2, u32::MAX, u32::MAX]] {
         let scissor = json!({ "scissor": [left, top, width, height] });
         drawn(s, with(viewport_rect(), scissor))?.is_red(|x, y| x >= left && y >= top);
@@ -128,7 +128,7 @@ pub(crate) fn a_scissor_may_reach_outside(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn discarded_primitives_draw_nothing(s: &Subject) -> Checked {
+pub(crate) fn discarded_primitives_draw_nothing(s: &CheckedBackend) -> CheckEnd {
     let frame = drawn(
         s,
         with(viewport_rect(), json!({ "rasterizer_discard": true })),
@@ -157,7 +157,7 @@ fn indexed(topology: &str, positions: &[[f64; 2]], indices: Value) -> Value {
     draw
 }
 
-pub(crate) fn points_cover_the_texel_they_lie_in(s: &Subject) -> Checked {
+pub(crate) fn points_cover_the_texel_they_lie_in(s: &CheckedBackend) -> CheckEnd {
     let points = vertices("point-list", &[[3.5, 4.5], [10.5, 0.5], [15.5, 15.5]]);
     drawn(s, points)?.is_red(|x, y| [(3, 4), (10, 0), (15, 15)].contains(&(x, y)));
     let positions = [[1.5, 2.5], [9.5, 4.5], [15.5, 15.5]];
@@ -167,7 +167,7 @@ pub(crate) fn points_cover_the_texel_they_lie_in(s: &Subject) -> Checked {
 }
 
 /// Lines from edge to edge, and from centre to centre, where the diamond rule omits the last texel.
-pub(crate) fn lines_through_centres_cover_their_texels(s: &Subject) -> Checked {
+pub(crate) fn lines_through_centres_cover_their_texels(s: &CheckedBackend) -> CheckEnd {
     let lines = vertices(
         "line-list",
         &[[2.0, 5.5], [9.0, 5.5], [12.5, 3.0], [12.5, 8.0]],
@@ -185,7 +185,7 @@ pub(crate) fn lines_through_centres_cover_their_texels(s: &Subject) -> Checked {
 }
 
 /// The two parts of a list of points have different values.
-pub(crate) fn points_and_lines_share_a_pass(s: &Subject) -> Checked {
+pub(crate) fn points_and_lines_share_a_pass(s: &CheckedBackend) -> CheckEnd {
     let colored = |mut draw: Value, values: &[[u32; 4]]| {
         draw["mesh"]["values"] = json!(values);
         with(draw, json!({ "shader": "flat_color" }))
@@ -212,7 +212,7 @@ fn strip([left, top, right, bottom]: [f64; 4]) -> [[f64; 2]; 4] {
 }
 
 /// Indices select the vertices, and primitives that a restart leaves incomplete are not drawn.
-pub(crate) fn lists_are_indexed(s: &Subject) -> Checked {
+pub(crate) fn lists_are_indexed(s: &CheckedBackend) -> CheckEnd {
     let indices = json!([0, 1, null, 2, 1, 0, 2, 3, 1]);
     let list = indexed("triangle-list", &strip([1.0, 2.0, 5.0, 9.0]), indices);
     drawn(s, list)?.is_red(|x, y| (1..5).contains(&x) && (2..9).contains(&y));
@@ -228,7 +228,7 @@ pub(crate) fn lists_are_indexed(s: &Subject) -> Checked {
 
 /// Two rectangles with a gap, which a strip without restart would fill. In some cases the second one is
 /// wound the other way.
-pub(crate) fn strips_begin_again(s: &Subject) -> Checked {
+pub(crate) fn strips_begin_again(s: &CheckedBackend) -> CheckEnd {
     let two = |rectangles: [[f64; 4]; 2]| {
         let indices = json!([0, 1, 2, 3, null, 4, 5, 6, 7]);
         indexed("triangle-strip", &rectangles.map(strip).concat(), indices)
@@ -250,7 +250,7 @@ pub(crate) fn strips_begin_again(s: &Subject) -> Checked {
 
 /// The fan's centre and its rim, counter-clockwise, without the top triangle. The texels on its diagonal
 /// edges are not checked.
-pub(crate) fn fans_turn_about_their_first_vertex(s: &Subject) -> Checked {
+pub(crate) fn fans_turn_about_their_first_vertex(s: &CheckedBackend) -> CheckEnd {
     let rim = [
         [8.0, 8.0],
         [0.0, 0.0],
@@ -279,8 +279,8 @@ pub(crate) fn fans_turn_about_their_first_vertex(s: &Subject) -> Checked {
 }
 
 /// Texels on straight edges, away from their ends, are red; other texels inside and outside are not.
-pub(crate) fn polygons_may_be_drawn_as_their_edges(s: &Subject) -> Checked {
-    let edges = |positions: &[[f64; 2]], red: &[(u32, u32)], blue: &[(u32, u32)]| -> Checked {
+pub(crate) fn polygons_may_be_drawn_as_their_edges(s: &CheckedBackend) -> CheckEnd {
+    let edges = |positions: &[[f64; 2]], red: &[(u32, u32)], blue: &[(u32, u32)]| -> CheckEnd {
         let line = json!({ "polygon_mode": "line" });
         let frame = drawn(s, with(vertices("triangle-list", positions), line))?;
         for (texels, expected) in [(red, RED), (blue, BLUE)] {

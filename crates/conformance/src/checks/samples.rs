@@ -1,12 +1,12 @@
 //! Attachments with several samples: positions, masks, coverage, shading and averages.
 
-use super::Checked;
+use super::CheckEnd;
 use crate::frames::{
     BLUE, Expect, NONE, RED, check_samples, check_within_one, codes, color, depth, image, stencil,
     texels,
 };
 use crate::scenes::{everywhere, filled, painted, rect, red, red_or_green, test, with};
-use crate::subject::{Missing, Subject};
+use crate::subject::{CheckedBackend, Missing};
 use etalon_frame::{Aspect, Frame, Image, ReadPath, TextureFormat};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -17,7 +17,7 @@ fn four() -> Value {
 }
 
 /// Draws over four blue samples, and resolves them to their average.
-fn averaged(s: &Subject, draw: Value) -> Result<Frame, Missing> {
+fn averaged(s: &CheckedBackend, draw: Value) -> Result<Frame, Missing> {
     s.show(json!({
         "attachments": {
             "m": { "format": "rgba8unorm", "size": [8, 8], "samples": 4, "clear": [0, 0, 1, 1] },
@@ -38,7 +38,7 @@ fn check_red(image: &Image, red: impl Fn(u32, u32, u32) -> bool) {
 }
 
 /// A rectangle whose edges cut through texels covers the samples inside it.
-pub(crate) fn positions_are_those_of_the_limits(s: &Subject) -> Checked {
+pub(crate) fn positions_are_those_of_the_limits(s: &CheckedBackend) -> CheckEnd {
     for (dx, dy) in [(64, 0), (192, 0), (0, 64), (0, 192), (128, 0), (0, 128)] {
         // From this corner to beyond the bottom right corner, in a single triangle.
         let (x, y) = (f64::from(dx) / 256.0, f64::from(dy) / 256.0);
@@ -56,7 +56,7 @@ pub(crate) fn positions_are_those_of_the_limits(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn masks_let_their_samples_through(s: &Subject) -> Checked {
+pub(crate) fn masks_let_their_samples_through(s: &CheckedBackend) -> CheckEnd {
     for mask in [0, 0b0101, 0b1010, 0b1000, 0b1111, u32::MAX] {
         let draw = covered([1.0, 0.0, 0.0, 1.0], json!({ "mask": mask }));
         let frame = averaged(s, with(draw, painted()))?;
@@ -73,7 +73,7 @@ pub(crate) fn masks_let_their_samples_through(s: &Subject) -> Checked {
 }
 
 /// The average is taken in all texels, whatever the draws' scissor.
-pub(crate) fn averages_ignore_the_scissor(s: &Subject) -> Checked {
+pub(crate) fn averages_ignore_the_scissor(s: &CheckedBackend) -> CheckEnd {
     let scissored = json!({ "mesh": everywhere(json!(1)), "scissor": [0, 0, 4, 8] });
     let frame = averaged(s, with(scissored, painted()))?;
     for image in &frame.images {
@@ -83,7 +83,7 @@ pub(crate) fn averages_ignore_the_scissor(s: &Subject) -> Checked {
 }
 
 /// Draws to half of the samples of two attachments and averages only one, over a clear.
-pub(crate) fn single_attachments_of_a_pass_are_averaged(s: &Subject) -> Checked {
+pub(crate) fn single_attachments_of_a_pass_are_averaged(s: &CheckedBackend) -> CheckEnd {
     let frame = s.show(json!({
         "attachments": {
             "color": four(), "other": four(), "red": filled(RED),
@@ -107,7 +107,7 @@ pub(crate) fn single_attachments_of_a_pass_are_averaged(s: &Subject) -> Checked 
 }
 
 /// A draw over an average remains, and a later pass averages again.
-pub(crate) fn averages_are_drawn_over_and_taken_again(s: &Subject) -> Checked {
+pub(crate) fn averages_are_drawn_over_and_taken_again(s: &CheckedBackend) -> CheckEnd {
     let frame = s.show(json!({
         "attachments": {
             "color": four(), "first": { "format": "rgba8unorm" }, "second": { "format": "rgba8unorm" } },
@@ -124,7 +124,7 @@ pub(crate) fn averages_are_drawn_over_and_taken_again(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn alpha_takes_all_samples_or_none_away(s: &Subject) -> Checked {
+pub(crate) fn alpha_takes_all_samples_or_none_away(s: &CheckedBackend) -> CheckEnd {
     for (alpha, mask, expected) in [(0.0, 15, 0), (1.0, 15, 15), (1.0, 6, 6)] {
         let multisample = json!({ "mask": mask, "alpha_to_coverage": true });
         let frame = averaged(s, covered([1.0, 0.0, 0.0, alpha], multisample))?;
@@ -135,7 +135,7 @@ pub(crate) fn alpha_takes_all_samples_or_none_away(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn alpha_counts_as_one_where_asked(s: &Subject) -> Checked {
+pub(crate) fn alpha_counts_as_one_where_asked(s: &CheckedBackend) -> CheckEnd {
     for (alpha, to_one, expected) in [
         (0.0, false, 0),
         (0.0, true, 255),
@@ -148,7 +148,7 @@ pub(crate) fn alpha_counts_as_one_where_asked(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn shaders_run_for_each_sample(s: &Subject) -> Checked {
+pub(crate) fn shaders_run_for_each_sample(s: &CheckedBackend) -> CheckEnd {
     for format in ["rgba8unorm", "bgra8unorm"] {
         let Ok(frame) = s.show(json!({
             "attachments": { "m": { "format": format, "size": [4, 4], "samples": 4 } },
@@ -164,7 +164,7 @@ pub(crate) fn shaders_run_for_each_sample(s: &Subject) -> Checked {
 }
 
 /// Against a clear above all depths, and a clear that the last two samples do not pass.
-pub(crate) fn shaders_write_the_depth_of_each_sample(s: &Subject) -> Checked {
+pub(crate) fn shaders_write_the_depth_of_each_sample(s: &CheckedBackend) -> CheckEnd {
     for clear in [1.0_f32, 2.5 / 32.0] {
         let frame = s.show(json!({
             "attachments": {
@@ -185,7 +185,7 @@ pub(crate) fn shaders_write_the_depth_of_each_sample(s: &Subject) -> Checked {
 }
 
 /// An edge covers only the leftmost samples of the third column, if there are several.
-pub(crate) fn attributes_at_centres_are_as_in_their_texel(s: &Subject) -> Checked {
+pub(crate) fn attributes_at_centres_are_as_in_their_texel(s: &CheckedBackend) -> CheckEnd {
     let mesh = json!({
         "kind": "vertices", "units": "texels", "values": [1],
         "positions": [[-2, -2, 0], [-2, 6, 0], [2.25, -2, 0], [2.25, 6, 0]],
@@ -208,7 +208,7 @@ pub(crate) fn attributes_at_centres_are_as_in_their_texel(s: &Subject) -> Checke
 }
 
 /// The coordinate is 0 on the slanted edge and grows inside.
-pub(crate) fn attributes_stay_inside_slanted_edges(s: &Subject) -> Checked {
+pub(crate) fn attributes_stay_inside_slanted_edges(s: &CheckedBackend) -> CheckEnd {
     let mesh = json!({
         "kind": "vertices", "units": "texels", "positions": [[3, 0, 0], [9, 16, 0], [16, 8, 0]],
         "uv": [[0, 0], [0, 0], [1, 0]] });
@@ -228,7 +228,7 @@ pub(crate) fn attributes_stay_inside_slanted_edges(s: &Subject) -> Checked {
 }
 
 /// A slanted edge through the middle, from (8, 0) to (9, 16) in texels; the right side is drawn.
-pub(crate) fn samples_are_drawn_one_by_one(s: &Subject) -> Checked {
+pub(crate) fn samples_are_drawn_one_by_one(s: &CheckedBackend) -> CheckEnd {
     let slanted = json!({
         "kind": "vertices", "values": [0.25], "positions": [[-0.125, 3, 0], [0.25, -3, 0], [6.5, 0, 0]] });
     // Four samples are requested even if they are not supported.
@@ -282,7 +282,7 @@ pub(crate) fn samples_are_drawn_one_by_one(s: &Subject) -> Checked {
 }
 
 /// Samples 1 and 2 of every format take 1, or depth 0 and stencil 9; the others keep their clear value.
-pub(crate) fn every_format_keeps_its_samples(s: &Subject) -> Checked {
+pub(crate) fn every_format_keeps_its_samples(s: &CheckedBackend) -> CheckEnd {
     for format in TextureFormat::ALL.iter().copied() {
         let clear = match (format.has_depth(), format.has_stencil()) {
             (false, false) => json!([0, 0, 1, 1]),
@@ -335,7 +335,7 @@ fn drawn_to(format: TextureFormat) -> Value {
 }
 
 /// Draws to half of the samples in the left half. Integers are not averaged; the resolve takes one sample.
-pub(crate) fn every_format_is_averaged(s: &Subject) -> Checked {
+pub(crate) fn every_format_is_averaged(s: &CheckedBackend) -> CheckEnd {
     for format in s.limits().formats.keys().filter(|f| f.is_color()) {
         let draw = with(drawn_to(*format), json!({ "scissor": [0, 0, 4, 8] }));
         let Ok(frame) = s.show(json!({

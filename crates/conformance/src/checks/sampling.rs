@@ -1,9 +1,9 @@
 //! Textures sampled with filters and address modes.
 
-use super::Checked;
+use super::CheckEnd;
 use crate::frames::{Expect, check_near, check_within_one, color, texels, values};
 use crate::scenes::{blue, corners, rect, uploaded, with};
-use crate::subject::{Missing, Subject};
+use crate::subject::{CheckedBackend, Missing};
 use etalon_frame::Frame;
 use etalon_scene::AddressMode;
 use serde_json::{Value, json};
@@ -31,7 +31,7 @@ fn addressed(mode: AddressMode, count: i32, texel: i32) -> i32 {
 
 /// Shows the part of a texture between texture coordinates in an attachment of this size.
 fn sampled(
-    s: &Subject,
+    s: &CheckedBackend,
     size: [u32; 2],
     source: Value,
     uv: [f32; 4],
@@ -48,7 +48,9 @@ fn sampled(
 
 /// Row 0 of a texture, the first that is uploaded, is at coordinate 0. Each texel is shown twice in either
 /// direction, across three repetitions of the texture, or two from the middle of one.
-pub(crate) fn the_nearest_texel_is_taken_from_where_the_address_leads(s: &Subject) -> Checked {
+pub(crate) fn the_nearest_texel_is_taken_from_where_the_address_leads(
+    s: &CheckedBackend,
+) -> CheckEnd {
     for (size, uv, origin) in [
         ([24, 12], [-1.0, -1.0, 2.0, 2.0], [-4, -2]),
         ([24, 8], [-1.0, -0.5, 2.0, 1.5], [-4, -1]),
@@ -68,7 +70,7 @@ pub(crate) fn the_nearest_texel_is_taken_from_where_the_address_leads(s: &Subjec
 }
 
 /// Four attachment texels per texel of the texture: the weights are multiples of an eighth.
-fn weights(s: &Subject, mode: AddressMode) -> Checked {
+fn weights(s: &CheckedBackend, mode: AddressMode) -> CheckEnd {
     let rows = [0, 1, 2, 3].map(|y| [0, 1, 2, 3].map(|x| [40 * x, 50 * y, 7, 255]));
     let source = with(uploaded("grid", rows), json!({ "size": [4, 4] }));
     let uv = [0.0, 0.0, 1.0, 1.0];
@@ -89,7 +91,7 @@ fn weights(s: &Subject, mode: AddressMode) -> Checked {
 }
 
 /// In the middle between two texels both have equal weight; at a texel's centre only that texel counts.
-fn middles(s: &Subject, mode: AddressMode, expected: [u32; 8]) -> Checked {
+fn middles(s: &CheckedBackend, mode: AddressMode, expected: [u32; 8]) -> CheckEnd {
     let columns = uploaded("columns", [[40, 0, 0, 255], [200, 0, 0, 255]]);
     let source = with(columns, json!({ "size": [2, 4] }));
     let modes = [mode, AddressMode::ClampToEdge];
@@ -109,23 +111,23 @@ const A: u32 = 40;
 const M: u32 = 120;
 const B: u32 = 200;
 
-pub(crate) fn neighbours_are_averaged(s: &Subject) -> Checked {
+pub(crate) fn neighbours_are_averaged(s: &CheckedBackend) -> CheckEnd {
     middles(s, AddressMode::ClampToEdge, [A, A, M, B, B, B, B, B])?;
     weights(s, AddressMode::ClampToEdge)
 }
 
-pub(crate) fn neighbours_across_the_edge_are_averaged(s: &Subject) -> Checked {
+pub(crate) fn neighbours_across_the_edge_are_averaged(s: &CheckedBackend) -> CheckEnd {
     middles(s, AddressMode::Repeat, [M, A, M, B, M, A, M, B])?;
     weights(s, AddressMode::Repeat)
 }
 
-pub(crate) fn neighbours_in_the_mirror_are_averaged(s: &Subject) -> Checked {
+pub(crate) fn neighbours_in_the_mirror_are_averaged(s: &CheckedBackend) -> CheckEnd {
     middles(s, AddressMode::MirrorRepeat, [A, A, M, B, B, B, M, A])?;
     weights(s, AddressMode::MirrorRepeat)
 }
 
 /// Weights may have only 8 bits.
-pub(crate) fn averages_of_floats_are_floats(s: &Subject) -> Checked {
+pub(crate) fn averages_of_floats_are_floats(s: &CheckedBackend) -> CheckEnd {
     let grid = [[[0, 0, 0, 1], [1, 0, 0, 1]], [[0, 1, 0, 1], [1, 1, 0, 1]]];
     let frame = s.show(json!({
         "attachments": {
@@ -148,7 +150,7 @@ pub(crate) fn averages_of_floats_are_floats(s: &Subject) -> Checked {
 }
 
 /// The sampler of an earlier draw does not affect fetches.
-pub(crate) fn fetches_need_no_sampler(s: &Subject) -> Checked {
+pub(crate) fn fetches_need_no_sampler(s: &CheckedBackend) -> CheckEnd {
     let floats = [[0, 1, 0, 1], [1, 0, 0, 1], [0, 0, 1, 1], [1, 1, 1, 1]];
     let frame = s.show(json!({
         "attachments": {
@@ -169,7 +171,7 @@ pub(crate) fn fetches_need_no_sampler(s: &Subject) -> Checked {
 }
 
 /// Draws in one pass, each with its own sampler and texture.
-pub(crate) fn each_draw_has_its_own_sampler(s: &Subject) -> Checked {
+pub(crate) fn each_draw_has_its_own_sampler(s: &CheckedBackend) -> CheckEnd {
     let draw = |texels: [u32; 4], texture: &str, filter: &str| {
         json!({ "mesh": with(corners(texels), json!({ "uv": [[0.5, 0.5]] })),
                 "topology": "triangle-strip", "shader": "sampled_color", "textures": [texture],

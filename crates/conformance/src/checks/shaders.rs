@@ -1,12 +1,12 @@
 //! Every shader of the suite, translated and drawn.
 
-use super::Checked;
-use crate::subject::Subject;
+use super::CheckEnd;
+use crate::subject::CheckedBackend;
 use etalon_scene::Shader;
 use serde_json::{Value, json};
 
 /// Draws with as many attachments as a shader has outputs, and with fewer.
-pub(crate) fn every_shader_draws(s: &Subject) -> Checked {
+pub(crate) fn every_shader_draws(s: &CheckedBackend) -> CheckEnd {
     for shader in Shader::ALL {
         for targets in 1..=shader.outputs() {
             let _ = s.show(with_shader(*shader, targets));

@@ -1,14 +1,14 @@
 //! Stencil tests, operations and masks, face by face.
 
-use super::Checked;
+use super::CheckEnd;
 use crate::frames::{Expect, stencil};
 use crate::scenes::{blue, painted, rect, red, red_or_green, test, with};
-use crate::subject::{Missing, Subject};
+use crate::subject::{CheckedBackend, Missing};
 use etalon_frame::{ChannelEncoding, Frame, ReadPath};
 use serde_json::{Value, json};
 
 /// Draws two columns, front faces on the left, over blue and a stencil value.
-fn faces(s: &Subject, format: &str, value: u32, state: Value) -> Result<Frame, Missing> {
+fn faces(s: &CheckedBackend, format: &str, value: u32, state: Value) -> Result<Frame, Missing> {
     let clear = match format {
         "stencil8" => json!(value),
         _ => json!({ "depth": 0, "stencil": value }),
@@ -24,7 +24,7 @@ const FORMATS: [&str; 3] = ["depth24plus-stencil8", "depth32float-stencil8", "st
 
 /// Front: 247 equals 5 under mask 13, so its low half replaces. Back: 9 never equals 5, so the high
 /// half is inverted.
-pub(crate) fn faces_have_masks_and_references_of_their_own(s: &Subject) -> Checked {
+pub(crate) fn faces_have_masks_and_references_of_their_own(s: &CheckedBackend) -> CheckEnd {
     for format in FORMATS {
         let state = json!({ "shader": "front_facing", "params": red_or_green(), "stencil": {
             "front": { "compare": "equal", "fail_op": "zero", "pass_op": "replace",
@@ -56,7 +56,7 @@ pub(crate) fn faces_have_masks_and_references_of_their_own(s: &Subject) -> Check
 
 /// Front faces: 7 is less than 200, so 200 + 1. Back faces: 7 is not greater than 200, so the bits are
 /// inverted. Only the low nibble and the top bit may change.
-pub(crate) fn faces_have_operations_of_their_own(s: &Subject) -> Checked {
+pub(crate) fn faces_have_operations_of_their_own(s: &CheckedBackend) -> CheckEnd {
     for format in FORMATS {
         for (front_face, turned) in [("ccw", false), ("cw", true)] {
             let state = json!({ "front_face": front_face, "stencil": { "reference": 7, "write_mask": 143,
@@ -73,7 +73,7 @@ pub(crate) fn faces_have_operations_of_their_own(s: &Subject) -> Checked {
 }
 
 /// The depth of 1 is not less than the cleared 0. One face keeps its value at 255, the other wraps to 0.
-pub(crate) fn a_failed_depth_test_has_its_own_operation(s: &Subject) -> Checked {
+pub(crate) fn a_failed_depth_test_has_its_own_operation(s: &CheckedBackend) -> CheckEnd {
     let state = json!({ "shader": "flat_color_depth", "depth": test("less", true), "stencil": {
         "front": { "compare": "always", "depth_fail_op": "increment-clamp", "pass_op": "zero" },
         "back": { "compare": "always", "depth_fail_op": "increment-wrap", "pass_op": "zero" } } });
@@ -82,7 +82,7 @@ pub(crate) fn a_failed_depth_test_has_its_own_operation(s: &Subject) -> Checked 
     Ok(())
 }
 
-pub(crate) fn operations_follow_the_depth_test(s: &Subject) -> Checked {
+pub(crate) fn operations_follow_the_depth_test(s: &CheckedBackend) -> CheckEnd {
     for format in ["depth24plus-stencil8", "depth32float-stencil8"] {
         let frame = s.show(json!({
             "attachments": { "ds": { "format": format, "clear": { "depth": 0, "stencil": 5 } } },
@@ -98,7 +98,7 @@ pub(crate) fn operations_follow_the_depth_test(s: &Subject) -> Checked {
 }
 
 /// Writes every value from 0 to 255 by eight replacements of one bit each, without a depth aspect.
-pub(crate) fn every_bit_is_masked_by_itself(s: &Subject) -> Checked {
+pub(crate) fn every_bit_is_masked_by_itself(s: &CheckedBackend) -> CheckEnd {
     let mut draws = Vec::new();
     for bit in 0..8 {
         for start in (0..256).filter(|v| v % (2 << bit) == 1 << bit) {

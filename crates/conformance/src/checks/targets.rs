@@ -1,11 +1,11 @@
 //! Several colour attachments, two sources and logic operations.
 
-use super::Checked;
+use super::CheckEnd;
 use crate::frames::{Expect, RED, check, codes};
 use crate::scenes::{
     blend, blue, component, filled, full, over_blue, painted, rect, uploaded, with,
 };
-use crate::subject::Subject;
+use crate::subject::CheckedBackend;
 use etalon_frame::TextureFormat;
 use etalon_scene::LogicOperation;
 use serde_json::{Value, json};
@@ -17,7 +17,7 @@ const ROWS: [[u32; 4]; 4] = [
     [0, 0, 0, 255],
 ];
 
-pub(crate) fn images_of_all_targets_agree(s: &Subject) -> Checked {
+pub(crate) fn images_of_all_targets_agree(s: &CheckedBackend) -> CheckEnd {
     assert!(s.limits().max_color_attachments >= 4);
     let target = json!({ "format": "rgba8unorm", "size": [4, 4] });
     let frame = s.show(json!({
@@ -32,7 +32,7 @@ pub(crate) fn images_of_all_targets_agree(s: &Subject) -> Checked {
 }
 
 /// The last two draws share no state; the last one writes nothing.
-pub(crate) fn targets_blend_and_mask_on_their_own(s: &Subject) -> Checked {
+pub(crate) fn targets_blend_and_mask_on_their_own(s: &CheckedBackend) -> CheckEnd {
     let add = component("add", "one", "one");
     let subtract = component("reverse-subtract", "one", "one");
     let target = with(blue(), json!({ "size": [4, 4] }));
@@ -54,7 +54,7 @@ pub(crate) fn targets_blend_and_mask_on_their_own(s: &Subject) -> Checked {
 }
 
 /// The sums do not overflow their channels. One target is also tested with the byte order of windows.
-pub(crate) fn targets_keep_apart(s: &Subject) -> Checked {
+pub(crate) fn targets_keep_apart(s: &CheckedBackend) -> CheckEnd {
     let add = component("add", "one", "one");
     let keep = component("reverse-subtract", "zero", "one");
     let stored = filled([100, 1, 2, 3]);
@@ -77,7 +77,7 @@ pub(crate) fn targets_keep_apart(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn targets_of_different_formats_take_one_draw(s: &Subject) -> Checked {
+pub(crate) fn targets_of_different_formats_take_one_draw(s: &CheckedBackend) -> CheckEnd {
     let targets = [
         ("z", TextureFormat::Rgba16Float),
         ("a", TextureFormat::R8Unorm),
@@ -121,7 +121,7 @@ const OPERATIONS: [(&str, u32); 16] = [
     ("set", 0xff),
 ];
 
-pub(crate) fn logic_operations_follow_their_truth_tables(s: &Subject) -> Checked {
+pub(crate) fn logic_operations_follow_their_truth_tables(s: &CheckedBackend) -> CheckEnd {
     assert_eq!(OPERATIONS.len(), LogicOperation::ALL.len());
     for (name, expected) in OPERATIONS {
         for mask in ["rgba", "rba"] {
@@ -145,7 +145,7 @@ pub(crate) fn logic_operations_follow_their_truth_tables(s: &Subject) -> Checked
 }
 
 /// The second source, 0 or 1 in each channel, chooses between source and destination.
-pub(crate) fn the_second_source_is_a_factor(s: &Subject) -> Checked {
+pub(crate) fn the_second_source_is_a_factor(s: &CheckedBackend) -> CheckEnd {
     let (stored, first) = ([101, 102, 103, 104], [11, 22, 33, 44]);
     for second in [[255, 0, 255, 255], [0, 255, 0, 0]] {
         for (factor, other) in [
@@ -173,7 +173,7 @@ pub(crate) fn the_second_source_is_a_factor(s: &Subject) -> Checked {
 }
 
 /// The second source is a factor of only the source, and then of only the destination.
-pub(crate) fn the_second_source_weighs_one_side(s: &Subject) -> Checked {
+pub(crate) fn the_second_source_weighs_one_side(s: &CheckedBackend) -> CheckEnd {
     let drawn = |rgb: Value, alpha: Value| {
         s.show(json!({
             "attachments": {
@@ -199,7 +199,7 @@ pub(crate) fn the_second_source_weighs_one_side(s: &Subject) -> Checked {
 }
 
 /// Factors that use the second source do not affect later draws.
-pub(crate) fn later_draws_have_one_source(s: &Subject) -> Checked {
+pub(crate) fn later_draws_have_one_source(s: &CheckedBackend) -> CheckEnd {
     the_second_source_weighs_one_side(s)?;
     images_of_all_targets_agree(s)?;
     let draw = json!({ "mesh": full(), "blend": blend("add", "one", "zero") });

@@ -1,13 +1,13 @@
 //! Texels that are uploaded, fetched and drawn over.
 
-use super::Checked;
+use super::CheckEnd;
 use crate::frames::{BLUE, Expect, RED, check};
 use crate::scenes::{blue, full, rect, red, uploaded, with};
-use crate::subject::Subject;
+use crate::subject::CheckedBackend;
 use serde_json::json;
 
 /// One texture is only fetched from; another is drawn over in a corner.
-pub(crate) fn texels_keep_their_places(s: &Subject) -> Checked {
+pub(crate) fn texels_keep_their_places(s: &CheckedBackend) -> CheckEnd {
     let value = |i: u32| [i * 16, 255 - i, i, 255];
     let bytes: Vec<_> = (0..16).map(value).collect();
     for (kind, across) in [("columns", true), ("rows", false)] {
@@ -40,7 +40,7 @@ pub(crate) fn texels_keep_their_places(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn floats_are_clamped_where_they_are_drawn(s: &Subject) -> Checked {
+pub(crate) fn floats_are_clamped_where_they_are_drawn(s: &CheckedBackend) -> CheckEnd {
     let unorm = [
         [1, 2, 3, 4],
         [5, 6, 7, 8],
@@ -71,7 +71,7 @@ pub(crate) fn floats_are_clamped_where_they_are_drawn(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn floats_come_back_bit_by_bit(s: &Subject) -> Checked {
+pub(crate) fn floats_come_back_bit_by_bit(s: &CheckedBackend) -> CheckEnd {
     let expected = [[0.1_f32, -3.0, 1e30, 0.0], [1.0, 2.5, 1e-30, 7.0]];
     let texels = json!({ "kind": "columns", "values": expected });
     let frame = s.show(json!({
@@ -82,7 +82,7 @@ pub(crate) fn floats_come_back_bit_by_bit(s: &Subject) -> Checked {
     Ok(())
 }
 
-pub(crate) fn floats_are_cleared_and_drawn_exactly(s: &Subject) -> Checked {
+pub(crate) fn floats_are_cleared_and_drawn_exactly(s: &CheckedBackend) -> CheckEnd {
     let values = [0.1_f32, -2.5, 1e30, 1.0 / 3.0];
     let frame = s.show(json!({
         "attachments": {
@@ -98,7 +98,7 @@ pub(crate) fn floats_are_cleared_and_drawn_exactly(s: &Subject) -> Checked {
 }
 
 /// Two thresholds, each between two of the texels' alphas.
-pub(crate) fn fragments_are_discarded_below_a_threshold(s: &Subject) -> Checked {
+pub(crate) fn fragments_are_discarded_below_a_threshold(s: &CheckedBackend) -> CheckEnd {
     let texels = [
         [10, 20, 30, 0],
         [11, 21, 31, 127],

@@ -7,7 +7,7 @@ use super::AREA;
 use super::fragments::Fragments;
 use super::layout::ChannelField;
 use super::planes::with_encoding;
-use crate::lanes::Codes;
+use crate::lanes::LaneCodes;
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{Arithmetic, Plain};
 use fearless_simd::Simd;
@@ -64,7 +64,7 @@ impl Affine {
 impl Term {
     /// Applies the function to words. It is large, so it is not inlined.
     #[inline(never)]
-    fn apply<S: Simd>(&self, simd: S, words: &mut [Codes]) {
+    fn apply<S: Simd>(&self, simd: S, words: &mut [LaneCodes]) {
         simd.vectorize(
             #[inline(always)]
             || self.encoded(words),
@@ -72,12 +72,12 @@ impl Term {
     }
 
     #[inline(always)]
-    fn encoded(&self, words: &mut [Codes]) {
+    fn encoded(&self, words: &mut [LaneCodes]) {
         with_encoding!(self.encoding, |known| self.joined(known, words));
     }
 
     #[inline(always)]
-    fn joined(&self, encoding: ChannelEncoding, words: &mut [Codes]) {
+    fn joined(&self, encoding: ChannelEncoding, words: &mut [LaneCodes]) {
         match self.join {
             Join::Sum => self.each(encoding, Join::Sum, words),
             Join::Least => self.each(encoding, Join::Least, words),
@@ -86,7 +86,7 @@ impl Term {
     }
 
     #[inline(always)]
-    fn each(&self, encoding: ChannelEncoding, join: Join, words: &mut [Codes]) {
+    fn each(&self, encoding: ChannelEncoding, join: Join, words: &mut [LaneCodes]) {
         let mut plain = Plain::<1>;
         let read = if self.reads { u32::MAX } else { 0 };
         let Self {

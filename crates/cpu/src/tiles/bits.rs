@@ -3,7 +3,7 @@
 use super::AREA;
 use super::fragments::Fragments;
 use super::lanes::{lanes, select};
-use super::layout::{WordLayout, Words};
+use super::layout::{TexelWords, WordLayout};
 use crate::lanes::LANES;
 use fearless_simd::Simd;
 
@@ -11,15 +11,15 @@ use fearless_simd::Simd;
 /// kept bits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bits {
-    and: Words,
-    xor: Words,
+    and: TexelWords,
+    xor: TexelWords,
     words: usize,
 }
 
 impl Bits {
     /// Returns the function that turns a texel of zeros into `of_zeros` and a texel of ones into `of_ones`.
     /// Each bit must depend only on itself.
-    pub(crate) fn new(layout: &WordLayout, of_zeros: Words, of_ones: Words) -> Self {
+    pub(crate) fn new(layout: &WordLayout, of_zeros: TexelWords, of_ones: TexelWords) -> Self {
         let used = layout.texel(|_| u32::MAX);
         let mut and = [0; 4];
         for (word, and) in and.iter_mut().enumerate() {

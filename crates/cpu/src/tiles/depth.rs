@@ -1,7 +1,7 @@
 //! The depths of a triangle.
 
-use super::triangle::{Triangle, point};
-use crate::lanes::{Codes, LANES};
+use super::triangle::{RasterTriangle, point};
+use crate::lanes::{LANES, LaneCodes};
 use crate::linear::UNITS;
 use crate::steps::{Faithful, Steps};
 use etalon_frame::ChannelEncoding;
@@ -37,7 +37,7 @@ impl Depths {
     #[inline(always)]
     pub(crate) fn new(
         draw: &Draw,
-        triangle: &Triangle,
+        triangle: &RasterTriangle,
         bias: f64,
         encoding: ChannelEncoding,
     ) -> Self {
@@ -102,7 +102,7 @@ impl Depths {
 
     /// Returns the codes at one point of the texels from column `x` on.
     #[inline(always)]
-    pub(crate) fn codes(&self, x: i32, y: i32, sample: [i32; 2]) -> Codes {
+    pub(crate) fn codes(&self, x: i32, y: i32, sample: [i32; 2]) -> LaneCodes {
         let units = UNITS as i32;
         let down = f64::from(y * units + sample[1] - self.origin[1]) * self.down;
         let first = x * units + sample[0] - self.origin[0];

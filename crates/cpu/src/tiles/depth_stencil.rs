@@ -1,7 +1,7 @@
 //! Depth and stencil kernels.
 
 use super::AREA;
-use super::lanes::{Mask, lanes, select_bytes};
+use super::lanes::{LaneBits, lanes, select_bytes};
 use crate::lanes::LANES;
 use etalon_pipeline::stencil_operation;
 use etalon_scene::{CompareFunction, StencilFace, StencilOperation};
@@ -147,7 +147,7 @@ pub(crate) fn operate_groups<S: Simd>(
     face: &StencilFace,
     operation: StencilOperation,
     plane: &mut [u8],
-    groups: impl Iterator<Item = (usize, Mask)>,
+    groups: impl Iterator<Item = (usize, LaneBits)>,
 ) {
     with_operation!(face, operation, |new| {
         for (place, mask) in groups {

@@ -1,7 +1,7 @@
 //! Edge functions, tile by tile and row by row.
 
 use super::lanes::NUMBERS;
-use super::triangle::{Triangle, clockwise};
+use super::triangle::{RasterTriangle, clockwise};
 use crate::linear::UNITS;
 use fearless_simd::prelude::*;
 
@@ -12,7 +12,7 @@ const FAR: i64 = 1 << 30;
 
 /// A triangle's three edge functions over the window: a sample is inside if all three are at least 0.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Edges {
+pub(crate) struct EdgeFunctions {
     /// The first vertex of each edge, in sub-texel units.
     from: [[i32; 2]; 3],
     /// The increments per unit to the right and down.
@@ -31,10 +31,10 @@ pub(crate) enum Touch {
     Whole,
 }
 
-impl Edges {
+impl EdgeFunctions {
     /// Returns the edge functions of a triangle of positive area.
     #[inline(always)]
-    pub(crate) fn new(triangle: &Triangle) -> Self {
+    pub(crate) fn new(triangle: &RasterTriangle) -> Self {
         let from = clockwise(triangle);
         let mut edges = Self {
             from,
@@ -144,8 +144,8 @@ pub(crate) struct EdgeSigns {
 impl EdgeSigns {
     /// Returns the rows of a triangle, beginning at a texel of a tile that the triangle touches.
     #[inline(always)]
-    pub(crate) fn new(triangle: &Triangle, x: i32, y: i32, sample: [i32; 2]) -> Self {
-        let edges = Edges::new(triangle);
+    pub(crate) fn new(triangle: &RasterTriangle, x: i32, y: i32, sample: [i32; 2]) -> Self {
+        let edges = EdgeFunctions::new(triangle);
         if triangle.is_near() {
             edges.near(x, y, sample)
         } else {

@@ -4,8 +4,8 @@
 //! matched once for all of them.
 
 use super::depth_stencil::{answers, passing};
-use super::lanes::{Mask, lanes, select};
-use crate::lanes::{Codes, LANES};
+use super::lanes::{LaneBits, lanes, select};
+use crate::lanes::{LANES, LaneCodes};
 use etalon_scene::{DepthState, StencilFace};
 use fearless_simd::prelude::*;
 use fearless_simd::{mask8x16, mask32x16, u8x16, u32x16};
@@ -14,7 +14,7 @@ use fearless_simd::{mask8x16, mask32x16, u8x16, u32x16};
 pub(crate) const MOST: usize = 32;
 
 /// A mask for each group.
-type Masks = [Mask; MOST];
+type Masks = [LaneBits; MOST];
 
 /// Groups of fragments: their indices in a sample's plane, and the lanes that are drawn.
 #[derive(Debug)]
@@ -36,7 +36,7 @@ impl Fragments {
 
     /// Adds a group if it has lanes. Returns true if the collection is then full.
     #[inline(always)]
-    pub(crate) fn push(&mut self, place: usize, mask: Mask) -> bool {
+    pub(crate) fn push(&mut self, place: usize, mask: LaneBits) -> bool {
         self.places[self.count] = place as u16;
         self.masks[self.count] = mask;
         // Without a branch, since empty groups are unpredictable.
@@ -58,26 +58,26 @@ impl Fragments {
 
     /// Returns the indices and the masks of the groups.
     #[inline(always)]
-    pub(crate) fn parts(&self) -> (&[u16], &[Mask]) {
+    pub(crate) fn parts(&self) -> (&[u16], &[LaneBits]) {
         (&self.places[..self.count], &self.masks[..self.count])
     }
 
     /// Returns the indices of the groups with their masks.
     #[inline(always)]
-    pub(crate) fn groups(&self) -> impl Iterator<Item = (usize, Mask)> {
+    pub(crate) fn groups(&self) -> impl Iterator<Item = (usize, LaneBits)> {
         self.with(&self.masks)
     }
 
     /// Returns the indices of the groups with other masks.
     #[inline(always)]
-    pub(crate) fn with(&self, masks: &Masks) -> impl Iterator<Item = (usize, Mask)> {
+    pub(crate) fn with(&self, masks: &Masks) -> impl Iterator<Item = (usize, LaneBits)> {
         let places = self.places[..self.count].iter().map(|p| usize::from(*p));
         places.zip(masks.iter().copied())
     }
 
     /// Returns the indices of the groups with their masks, which can be changed.
     #[inline(always)]
-    pub(crate) fn groups_mut(&mut self) -> impl Iterator<Item = (usize, &mut Mask)> {
+    pub(crate) fn groups_mut(&mut self) -> impl Iterator<Item = (usize, &mut LaneBits)> {
         let places = self.places[..self.count].iter().map(|p| usize::from(*p));
         places.zip(&mut self.masks)
     }
@@ -108,7 +108,7 @@ impl Fragments {
             let stored = u8x16::from_slice(simd, lanes(plane, place)) & seen;
             let below = reference.simd_lt(stored) & less;
             let same = reference.simd_eq(stored) & equal;
-            *mask &= (greater ^ below ^ same).to_bitmask() as Mask;
+            *mask &= (greater ^ below ^ same).to_bitmask() as LaneBits;
         }
     }
 
@@ -120,7 +120,7 @@ impl Fragments {
         simd: S,
         state: &DepthState,
         plane: &mut [u32],
-        codes: impl Fn(usize) -> Codes,
+        codes: impl Fn(usize) -> LaneCodes,
     ) {
         let answers = answers(passing(state.compare)).map(|answer| mask32x16::splat(simd, answer));
         let [less, equal, greater] = answers;
@@ -132,7 +132,7 @@ impl Fragments {
             let same = codes.simd_eq(old) & equal;
             let covered = mask32x16::from_bitmask(simd, u64::from(*mask));
             let passed = covered & (greater ^ below ^ same);
-            *mask = passed.to_bitmask() as Mask;
+            *mask = passed.to_bitmask() as LaneBits;
             if state.write {
                 passed.select(codes, old).store_slice(stored);
             }
@@ -146,7 +146,7 @@ impl Fragments {
         &self,
         simd: S,
         plane: &mut [u32],
-        function: impl FnOnce(&mut [Codes]),
+        function: impl FnOnce(&mut [LaneCodes]),
     ) {
         let mut new = [[0; LANES]; MOST];
         for (new, (place, _)) in new.iter_mut().zip(self.groups()) {

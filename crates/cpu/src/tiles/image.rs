@@ -7,19 +7,19 @@ use super::{AREA, TILE};
 use crate::steps::{Faithful, Steps};
 use crate::surface::depth_encoding;
 use etalon_frame::Aspect;
-use etalon_scene::{Attachment, Contents};
+use etalon_scene::{Attachment, AttachmentContents};
 use fearless_simd::{Level, dispatch, prelude::*};
 
 /// The codes of a texel's 8-bit colour channels, which are the bytes of a word in memory. Channels that the
 /// format lacks are 0.
-pub(crate) type Texel = [u8; 4];
+pub(crate) type TexelWord = [u8; 4];
 
 /// The smallest number of codes that several threads read.
 const SHARED: usize = 1 << 16;
 
 /// An attachment. Texels beyond its edges have no meaning.
 #[derive(Debug)]
-pub(crate) struct Image {
+pub(crate) struct TiledImage {
     pub(crate) width: usize,
     pub(crate) height: usize,
     /// The number of tiles in a row of tiles.
@@ -32,7 +32,7 @@ pub(crate) struct Image {
     pub(crate) stencil: Tiles<u8>,
 }
 
-impl Image {
+impl TiledImage {
     /// Returns memory for an attachment, without contents.
     pub(crate) fn new(attachment: &Attachment) -> Self {
         let [width, height] = attachment.size.map(|s| s as usize);
@@ -58,17 +58,17 @@ impl Image {
     pub(crate) fn begin(&mut self, attachment: &Attachment) {
         let encodings = attachment.format.color_channels();
         match &attachment.contents {
-            Contents::Color(value) => {
+            AttachmentContents::Color(value) => {
                 let code = |c: usize| Faithful.clear_code(encodings[c], value[c]);
                 self.color.clear(self.layout.texel(code));
             }
-            Contents::DepthStencil { depth, stencil } => {
+            AttachmentContents::DepthStencil { depth, stencil } => {
                 if let Some(encoding) = depth_encoding(attachment.format) {
                     self.depth.clear([Faithful.clear_code(encoding, *depth); 4]);
                 }
                 self.stencil.clear([*stencil; 4]);
             }
-            Contents::Texels(codes) => {
+            AttachmentContents::Texels(codes) => {
                 self.color.overwrite();
                 for (i, codes) in codes.chunks_exact(encodings.len()).enumerate() {
                     let (x, y) = (i % self.width, i / self.width);
@@ -98,7 +98,7 @@ impl Image {
         (self.tile(x, y) * self.samples + sample) * AREA + y % TILE * TILE + x % TILE
     }
 
-    /// Returns the codes of one aspect in the order of [`etalon_frame::Image`]. Several threads write them, with
+    /// Returns the codes of one aspect in the order of [`etalon_frame::TiledImage`]. Several threads write them, with
     /// these vector instructions.
     pub(crate) fn codes(
         &self,
@@ -242,9 +242,9 @@ mod tests {
                 format,
                 size: [130, 150],
                 samples,
-                contents: Contents::Color([0.0; 4]),
+                contents: AttachmentContents::Color([0.0; 4]),
             };
-            let mut image = Image::new(&attachment);
+            let mut image = TiledImage::new(&attachment);
             let (layout, channels) = (image.layout, format.color_channels());
             let mut expected = Vec::new();
             for (y, x) in (0..150).flat_map(|y| (0..130).map(move |x| (y, x))) {

@@ -5,7 +5,7 @@
 use etalon_frame::ChannelEncoding;
 
 /// The words of a texel. Unused words are 0.
-pub(crate) type Words = [u32; 4];
+pub(crate) type TexelWords = [u32; 4];
 
 /// The number of words of a texel, and the position of each channel in them.
 #[derive(Clone, Copy, Debug)]
@@ -61,7 +61,7 @@ impl WordLayout {
     }
 
     /// Returns the texel with the codes that a function gives.
-    pub(crate) fn texel(&self, code: impl Fn(usize) -> u32) -> Words {
+    pub(crate) fn texel(&self, code: impl Fn(usize) -> u32) -> TexelWords {
         let mut texel = [0; 4];
         for (c, field) in self.fields().iter().enumerate() {
             texel[field.word] |= field.word_of(code(c));

@@ -1,6 +1,6 @@
 //! Linear functions of 8-bit codes, in integers.
 
-use super::image::Texel;
+use super::image::TexelWord;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, u8x16, u8x32, u16x16};
 
@@ -14,7 +14,7 @@ pub(crate) const BYTES: usize = 16;
 /// fraction, adds and subtracts with saturation, and keeps the upper byte. The parameters are stored per byte
 /// of neighbouring texels.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Linear {
+pub(crate) struct LinearCodes {
     /// All bits set for channels whose codes are inverted.
     invert: [u8; BYTES],
     /// The upper and the lower byte of the factor.
@@ -33,7 +33,7 @@ struct ChannelFunction {
     minus: u16,
 }
 
-impl Linear {
+impl LinearCodes {
     /// Returns the function that equals the tables for all codes, if a function near their slopes does. A
     /// slope is the difference between the results of the last and the first code.
     #[inline(always)]
@@ -58,7 +58,7 @@ impl Linear {
 
     /// Applies the function to texels, whose number of bytes must be a multiple of twice [`BYTES`].
     #[inline(always)]
-    pub(crate) fn apply<S: Simd>(&self, simd: S, texels: &mut [Texel]) {
+    pub(crate) fn apply<S: Simd>(&self, simd: S, texels: &mut [TexelWord]) {
         // Copied into locals, so that they stay in registers.
         let [upper, lower, plus, minus] = [&self.upper, &self.lower, &self.plus, &self.minus]
             .map(|part| u16x16::from_slice(simd, part));
@@ -156,7 +156,8 @@ mod tests {
             std::array::from_fn(|i| (i + 10).min(255) as u8),
             std::array::from_fn(|i| (i * 3 / 4).saturating_sub(20) as u8),
         ];
-        let function = Linear::fitted(&tables, [0.5, -1.0, 1.0, 0.75]).expect("they are linear");
+        let function =
+            LinearCodes::fitted(&tables, [0.5, -1.0, 1.0, 0.75]).expect("they are linear");
         for code in 0..=255_u8 {
             let mut texels = [[code; 4]; 8];
             dispatch!(Level::new(), simd => function.apply(simd, &mut texels));
@@ -171,6 +172,6 @@ mod tests {
     #[test]
     fn what_is_not_linear_has_no_function() {
         let square = std::array::from_fn(|i| (i * i / 255) as u8);
-        assert!(Linear::fitted(&[square; 4], [1.0; 4]).is_none());
+        assert!(LinearCodes::fitted(&[square; 4], [1.0; 4]).is_none());
     }
 }

@@ -1,8 +1,8 @@
 //! Descriptions of a scene's kernels.
 
 use super::layout::WordLayout;
-use super::paint::{Kernel, Paint};
-use super::plan::{KernelPlan, PassPlan, Shading};
+use super::paint::{Kernel, TexelPaint};
+use super::plan::{KernelPlan, PassKernels, Shading};
 use etalon_scene::{Draw, Scene};
 use fearless_simd::{Level, dispatch};
 
@@ -51,7 +51,7 @@ pub(crate) fn lines(scene: &Scene, least: usize) -> Vec<String> {
 }
 
 /// Returns a description of the kernel of a draw's first colour.
-fn paint(draw: &Draw, shading: Shading, pass: &PassPlan) -> &'static str {
+fn paint(draw: &Draw, shading: Shading, pass: &PassKernels) -> &'static str {
     let color = match shading {
         Shading::Texture { .. } => return "stored unchanged",
         Shading::Vertex | Shading::Expensive(_) | Shading::Kept(_) => {
@@ -60,7 +60,7 @@ fn paint(draw: &Draw, shading: Shading, pass: &PassPlan) -> &'static str {
         Shading::Depth | Shading::Facing | Shading::Uniform => draw.params.color,
         Shading::Nothing | Shading::Texels(..) => [0.0; 4],
     };
-    let paint = dispatch!(Level::new(), simd => Paint::new(
+    let paint = dispatch!(Level::new(), simd => TexelPaint::new(
         simd, draw, shading, color, pass, false
     ));
     match paint.kernel {

@@ -38,7 +38,7 @@ mod work;
 
 pub(crate) use listing::lines;
 pub(crate) use plan::KernelPlan;
-pub use scene::Machine;
+pub use scene::KernelMachine;
 pub(crate) use scene::TiledScene;
 pub(crate) use threads::on_threads;
 

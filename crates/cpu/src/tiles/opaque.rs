@@ -3,11 +3,11 @@
 use super::TILE;
 use super::depth::Depths;
 use super::depth_stencil::{answers, passing};
-use super::edges::{EdgeSigns, Edges};
+use super::edges::{EdgeFunctions, EdgeSigns};
 use super::lanes::NUMBERS;
-use super::paint::{Kernel, Paint};
-use super::plan::{DrawPlan, Shading};
-use super::triangle::Triangle;
+use super::paint::{Kernel, TexelPaint};
+use super::plan::{DrawKernels, Shading};
+use super::triangle::RasterTriangle;
 use crate::lanes::LANES;
 use fearless_simd::prelude::*;
 use fearless_simd::{i32x8, i32x16, u32x8, u32x16};
@@ -34,7 +34,11 @@ pub(crate) struct Store {
 impl Store {
     /// Returns how a triangle changes texels, if it is opaque and its stencil state changes nothing.
     #[inline(always)]
-    pub(crate) fn new(triangle: &Triangle, plan: &DrawPlan, paint: &Paint) -> Option<Self> {
+    pub(crate) fn new(
+        triangle: &RasterTriangle,
+        plan: &DrawKernels,
+        paint: &TexelPaint,
+    ) -> Option<Self> {
         let color = match &paint.kernel {
             Kernel::Keep => None,
             Kernel::Store(word) => Some(*word),
@@ -55,7 +59,7 @@ impl Store {
 
     /// Returns true if a triangle of the same part does the same.
     #[inline(always)]
-    pub(crate) fn is_of(&self, triangle: &Triangle) -> bool {
+    pub(crate) fn is_of(&self, triangle: &RasterTriangle) -> bool {
         self.of == [triangle.draw, triangle.paint]
             && self.front.is_none_or(|front| front == triangle.front)
     }
@@ -77,8 +81,8 @@ impl Store {
     pub(crate) fn small<'t, S: Simd>(
         &self,
         simd: S,
-        triangles: impl Iterator<Item = &'t Triangle>,
-        planes: Planes<'_>,
+        triangles: impl Iterator<Item = &'t RasterTriangle>,
+        planes: SamplePlanes<'_>,
         texels: [i32; 4],
     ) {
         simd.vectorize(
@@ -97,8 +101,8 @@ impl Store {
     fn rows<'t, S: Simd, const DEPTH: bool, const COLOR: bool>(
         &self,
         simd: S,
-        triangles: impl Iterator<Item = &'t Triangle>,
-        planes: Planes<'_>,
+        triangles: impl Iterator<Item = &'t RasterTriangle>,
+        planes: SamplePlanes<'_>,
         [left, top, ..]: [i32; 4],
     ) {
         let answers = self.answers::<S, u32x8<S>>(simd);
@@ -106,7 +110,7 @@ impl Store {
         for triangle in triangles {
             let [start, first, _, last] = triangle.around.map(i32::from);
             let column = start.min(left + TILE as i32 - NARROW);
-            let rows = Edges::new(triangle).near(column, first, planes.position);
+            let rows = EdgeFunctions::new(triangle).near(column, first, planes.position);
             let mut numbers = rows.lanes::<S, i32x8<S>>(simd);
             let code = u32x8::splat(simd, triangle.code);
             let mut place = ((first - top) * TILE as i32 + column - left) as usize;
@@ -172,14 +176,14 @@ where
 /// An opaque triangle in a tile.
 pub(crate) struct Opaque<'a> {
     pub(crate) store: &'a Store,
-    pub(crate) triangle: &'a Triangle,
+    pub(crate) triangle: &'a RasterTriangle,
     pub(crate) depths: Option<Depths>,
     /// The left, top, right and bottom edges of the tile's texels.
     pub(crate) texels: [i32; 4],
 }
 
 /// A sample's planes and position.
-pub(crate) struct Planes<'p> {
+pub(crate) struct SamplePlanes<'p> {
     pub(crate) position: [i32; 2],
     /// The texels whose sample can be written.
     pub(crate) rect: [i32; 4],
@@ -269,7 +273,7 @@ impl CodeSource for Floats<'_> {
 impl Opaque<'_> {
     /// Draws the covered texels of a sample. It is large, so it is not inlined.
     #[inline(never)]
-    pub(crate) fn draw<S: Simd>(&self, simd: S, planes: Planes<'_>) {
+    pub(crate) fn draw<S: Simd>(&self, simd: S, planes: SamplePlanes<'_>) {
         simd.vectorize(
             #[inline(always)]
             || self.lanes(simd, planes),
@@ -277,7 +281,7 @@ impl Opaque<'_> {
     }
 
     #[inline(always)]
-    fn lanes<S: Simd>(&self, simd: S, planes: Planes<'_>) {
+    fn lanes<S: Simd>(&self, simd: S, planes: SamplePlanes<'_>) {
         let [left, top, right, bottom] = self.texels;
         let around = self.triangle.around.map(i32::from);
         let (start, last) = (around[0].max(left), around[2].min(right - 1));
@@ -309,7 +313,7 @@ impl Opaque<'_> {
 
     /// Draws the covered texels of a sample, with lanes of these types.
     #[inline(always)]
-    fn sample<S, I, U>(&self, simd: S, planes: Planes<'_>, area: TileArea)
+    fn sample<S, I, U>(&self, simd: S, planes: SamplePlanes<'_>, area: TileArea)
     where
         S: Simd,
         I: SimdInt<S, Element = i32>,
@@ -348,7 +352,7 @@ impl Opaque<'_> {
     fn scan<S, I, U, D, const DEPTH: bool>(
         &self,
         simd: S,
-        planes: Planes<'_>,
+        planes: SamplePlanes<'_>,
         area: TileArea,
         mut source: D,
     ) where
@@ -358,7 +362,7 @@ impl Opaque<'_> {
         I::Mask: Select<U>,
         D: CodeSource,
     {
-        let Planes {
+        let SamplePlanes {
             position,
             rect,
             colors,

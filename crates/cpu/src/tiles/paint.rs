@@ -10,15 +10,15 @@ use super::AREA;
 use super::affine::{Affine, Join, Term};
 use super::bits::Bits;
 use super::fragments::Fragments;
-use super::image::Texel;
-use super::lanes::{ALL, Mask, lanes, select};
+use super::image::TexelWord;
+use super::lanes::{ALL, LaneBits, lanes, select};
 use super::layout::{WordLayout, are_bytes};
-use super::linear::{CODES, Linear};
-use super::plan::{PassPlan, Shading};
+use super::linear::{CODES, LinearCodes};
+use super::plan::{PassKernels, Shading};
 use super::texels::Sources;
-use super::varying::Varying;
+use super::varying::TileVarying;
 use super::weights::{Constants, Weights};
-use crate::lanes::{Codes, LANES, Real};
+use crate::lanes::{LANES, LaneCodes, Real};
 use crate::steps::{Faithful, Steps};
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::shader::KeepCondition;
@@ -36,7 +36,7 @@ const UNORM: Channels = ([ChannelEncoding::Unorm(8); 4], 4);
 
 /// A function of a texel's codes, and the samples to which it is applied.
 #[derive(Debug)]
-pub(crate) struct Paint {
+pub(crate) struct TexelPaint {
     pub(crate) kernel: Kernel,
     /// The functions of the colour attachments after the first.
     pub(crate) others: Vec<Kernel>,
@@ -54,7 +54,7 @@ pub(crate) enum Kernel {
     /// Keeps some bits and replaces the others, and then inverts some of the kept bits.
     Bits(Bits),
     /// A product and a sum in each channel.
-    Linear(Box<Linear>),
+    Linear(Box<LinearCodes>),
     /// A function of each channel's code alone.
     Table(Box<[[u8; CODES]; 4]>),
     /// A sum of products of a few channels.
@@ -66,7 +66,7 @@ pub(crate) enum Kernel {
     /// Replaces the codes by the words of fetched texels.
     Copy,
     /// Any function of the codes and of fetched texels.
-    Varying(Box<Varying>),
+    Varying(Box<TileVarying>),
 }
 
 /// The source, and the state that blends and stores colours.
@@ -84,7 +84,7 @@ pub(crate) struct Blending {
     second_alpha: bool,
 }
 
-impl Paint {
+impl TexelPaint {
     /// Returns the paint of a source. If `quick` is true, it makes no tables and uses the general function
     /// instead.
     #[inline(never)]
@@ -93,7 +93,7 @@ impl Paint {
         draw: &Draw,
         shading: Shading,
         source: [f32; 4],
-        pass: &PassPlan,
+        pass: &PassKernels,
         quick: bool,
     ) -> Self {
         let state = &draw.multisample;
@@ -206,7 +206,7 @@ impl Blending {
         if replaces && writes_all && same && !self.alpha_to_one {
             Kernel::Copy
         } else {
-            Kernel::Varying(Box::new(Varying {
+            Kernel::Varying(Box::new(TileVarying {
                 target: self.target,
                 constant: self.constant,
                 logic: self.logic,
@@ -244,7 +244,7 @@ impl Blending {
 
     /// Returns the linear function that equals a table, if one was found.
     #[inline(always)]
-    fn linear(&self, table: &[[u8; CODES]; 4]) -> Option<Linear> {
+    fn linear(&self, table: &[[u8; CODES]; 4]) -> Option<LinearCodes> {
         let blended = |code: u32| {
             self.values(self.channels(), &[[code; LANES]; 4])
                 .map(|v| v[0])
@@ -255,7 +255,7 @@ impl Blending {
             Some(_) => high[c] - low[c],
             None => 0.0,
         });
-        Linear::fitted(table, slopes)
+        LinearCodes::fitted(table, slopes)
     }
 
     /// Returns the blend as weights, if weights can express it and each channel has 8 unsigned normalized
@@ -384,7 +384,7 @@ impl Blending {
 
     /// Returns the blended colours before they are stored, from the destination's codes by channel.
     #[inline(always)]
-    fn values(&self, (encodings, count): Channels, codes: &[Codes; 4]) -> [Real; 4] {
+    fn values(&self, (encodings, count): Channels, codes: &[LaneCodes; 4]) -> [Real; 4] {
         let mut input = self.input();
         let Some(state) = &self.target.blend else {
             return input.src;
@@ -407,7 +407,7 @@ impl Blending {
 
     /// Returns the codes after the function, by channel. It is large, so it is not inlined.
     #[inline(never)]
-    fn codes<S: Simd>(&self, simd: S, old: &[Codes; 4]) -> [Codes; 4] {
+    fn codes<S: Simd>(&self, simd: S, old: &[LaneCodes; 4]) -> [LaneCodes; 4] {
         simd.vectorize(
             #[inline(always)]
             || {
@@ -422,7 +422,7 @@ impl Blending {
     }
 
     #[inline(always)]
-    fn codes_of(&self, (encodings, count): Channels, old: &[Codes; 4]) -> [Codes; 4] {
+    fn codes_of(&self, (encodings, count): Channels, old: &[LaneCodes; 4]) -> [LaneCodes; 4] {
         let value = self.values((encodings, count), old);
         let mut result = *old;
         for c in 0..count {
@@ -440,7 +440,7 @@ impl Blending {
 
     /// Applies the function to lanes of a sample's planes, in the lanes of a mask.
     #[inline(always)]
-    fn apply<S: Simd>(&self, simd: S, planes: &mut [u32], start: usize, mask: Mask) {
+    fn apply<S: Simd>(&self, simd: S, planes: &mut [u32], start: usize, mask: LaneBits) {
         let fields = self.layout.fields();
         let mut old = [[0; LANES]; 4];
         for (old, field) in old.iter_mut().zip(fields) {
@@ -487,7 +487,7 @@ impl Kernel {
         fragments: &Fragments,
         sources: &Sources<'_>,
     ) {
-        let texels = bytemuck::cast_slice_mut::<_, Texel>;
+        let texels = bytemuck::cast_slice_mut::<_, TexelWord>;
         match self {
             Self::Keep => {}
             Self::Store(word) => {
@@ -503,7 +503,7 @@ impl Kernel {
             }
             Self::Table(table) => {
                 for (start, mask) in fragments.groups() {
-                    let texels: &mut [Texel; LANES] = bytemuck::cast_mut(lanes(planes, start));
+                    let texels: &mut [TexelWord; LANES] = bytemuck::cast_mut(lanes(planes, start));
                     for (lane, texel) in texels.iter_mut().enumerate() {
                         if mask & (1 << lane) != 0 {
                             *texel = std::array::from_fn(|c| table[c][usize::from(texel[c])]);
@@ -543,7 +543,7 @@ impl Kernel {
 
     #[inline(always)]
     fn whole_of<S: Simd>(&self, simd: S, planes: &mut [u32], count: usize) {
-        let texels = bytemuck::cast_slice_mut::<_, Texel>;
+        let texels = bytemuck::cast_slice_mut::<_, TexelWord>;
         match self {
             Self::Keep | Self::Copy | Self::Varying(_) => {}
             Self::Store(word) => planes[..count].fill(*word),

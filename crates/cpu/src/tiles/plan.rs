@@ -1,6 +1,6 @@
 //! The choice of kernels, made once per draw when a scene is prepared.
 
-use super::resolve::Resolve;
+use super::resolve::ColorResolve;
 use crate::lanes::LANES;
 use crate::linear::UNITS;
 use crate::raster::bounds;
@@ -22,16 +22,16 @@ const FARTHEST: f32 = 16384.0;
 /// The kernels of a scene.
 #[derive(Debug)]
 pub(crate) struct KernelPlan {
-    pub(crate) passes: Vec<PassPlan>,
+    pub(crate) passes: Vec<PassKernels>,
 }
 
 /// The kernels of a pass.
 #[derive(Debug)]
-pub(crate) struct PassPlan {
+pub(crate) struct PassKernels {
     /// The colour attachment.
     pub(crate) color: Option<usize>,
     /// The attachment that the colour attachment is resolved to, and how.
-    pub(crate) resolve: Option<(usize, Resolve)>,
+    pub(crate) resolve: Option<(usize, ColorResolve)>,
     /// The depth-stencil attachment.
     pub(crate) depth_stencil: Option<usize>,
     pub(crate) size: [usize; 2],
@@ -44,7 +44,7 @@ pub(crate) struct PassPlan {
     /// The colour attachments after the first.
     pub(crate) others: Vec<TargetPlan>,
     pub(crate) depth: Option<ChannelEncoding>,
-    pub(crate) draws: Vec<DrawPlan>,
+    pub(crate) draws: Vec<DrawKernels>,
 }
 
 /// A colour attachment of a pass.
@@ -58,7 +58,7 @@ pub(crate) struct TargetPlan {
 
 /// The kernels of a draw.
 #[derive(Debug)]
-pub(crate) struct DrawPlan {
+pub(crate) struct DrawKernels {
     /// The index of the draw in the pass.
     pub(crate) index: usize,
     pub(crate) shading: Shading,
@@ -133,7 +133,7 @@ pub(crate) enum Shading {
     /// No source; the colour is zeros.
     Nothing,
     /// The texels of one or two textures at the position that is drawn.
-    Texels(Fetched, Option<Fetched>),
+    Texels(FetchedTexture, Option<FetchedTexture>),
     /// The nearest texels of a texture that has the attachment's format.
     Texture {
         /// The texture's attachment.
@@ -146,7 +146,7 @@ pub(crate) enum Shading {
 
 /// A texture whose texels are fetched at the position that is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Fetched {
+pub(crate) struct FetchedTexture {
     /// The texture's attachment.
     pub(crate) index: usize,
     pub(crate) channels: &'static [ChannelEncoding],
@@ -166,14 +166,17 @@ impl KernelPlan {
         if (largest.max().unwrap_or(0) as usize) < least {
             return Err("a small picture");
         }
-        let passes = scene.passes.iter().map(|pass| PassPlan::new(scene, pass));
+        let passes = scene
+            .passes
+            .iter()
+            .map(|pass| PassKernels::new(scene, pass));
         Ok(Self {
             passes: passes.collect::<Result<_, _>>()?,
         })
     }
 }
 
-impl PassPlan {
+impl PassKernels {
     fn new(scene: &Scene, pass: &Pass) -> Result<Self, NoKernels> {
         if pass.resolve.iter().skip(1).any(Option::is_some) {
             return Err("a resolve of several colour attachments");
@@ -198,7 +201,7 @@ impl PassPlan {
         let resolve = pass.resolve.first().copied().flatten();
         let mut plan = Self {
             color,
-            resolve: resolve.map(|i| (i, Resolve::new(channels, positions.len()))),
+            resolve: resolve.map(|i| (i, ColorResolve::new(channels, positions.len()))),
             depth_stencil,
             size: size.map(|s| s as usize),
             positions: positions
@@ -214,7 +217,7 @@ impl PassPlan {
         let stencil = depth_stencil.is_some_and(|i| format(i).has_stencil());
         for (index, draw) in pass.draws.iter().enumerate() {
             if !draw.rasterizer_discard {
-                let draw = DrawPlan::new(scene, draw, index, size, &plan, stencil)?;
+                let draw = DrawKernels::new(scene, draw, index, size, &plan, stencil)?;
                 plan.draws.push(draw);
             }
         }
@@ -222,13 +225,13 @@ impl PassPlan {
     }
 }
 
-impl DrawPlan {
+impl DrawKernels {
     fn new(
         scene: &Scene,
         draw: &Draw,
         index: usize,
         size: [u32; 2],
-        pass: &PassPlan,
+        pass: &PassKernels,
         stencil: bool,
     ) -> Result<Self, NoKernels> {
         // Forced early tests also store for fragments that the shader discards, and store a depth that it
@@ -356,7 +359,7 @@ fn texels(scene: &Scene, draw: &Draw, size: [u32; 2]) -> Result<Shading, NoKerne
         Some(index) => {
             let attachment = &scene.attachments[*index];
             let fits = attachment.size == size && attachment.samples == 1;
-            (fits && attachment.format.is_color()).then_some(Fetched {
+            (fits && attachment.format.is_color()).then_some(FetchedTexture {
                 index: *index,
                 channels: attachment.format.color_channels(),
             })
@@ -377,7 +380,7 @@ fn texels(scene: &Scene, draw: &Draw, size: [u32; 2]) -> Result<Shading, NoKerne
 }
 
 /// Returns the shading by a texture whose codes are stored unchanged.
-fn texture(scene: &Scene, draw: &Draw, pass: &PassPlan) -> Result<Shading, NoKernels> {
+fn texture(scene: &Scene, draw: &Draw, pass: &PassKernels) -> Result<Shading, NoKernels> {
     let (Some(index), Some(sampler)) = (draw.textures.first(), draw.sampler) else {
         return Err("a shader without its texture");
     };

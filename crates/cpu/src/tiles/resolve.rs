@@ -2,7 +2,7 @@
 
 use super::AREA;
 use super::layout::WordLayout;
-use crate::lanes::{Codes, LANES};
+use crate::lanes::{LANES, LaneCodes};
 use etalon_frame::ChannelEncoding::{self, Srgb8, Unorm};
 use etalon_pipeline::{Arithmetic, Plain};
 use fearless_simd::Simd;
@@ -23,7 +23,11 @@ fn averages_are_codes(channels: &[ChannelEncoding], samples: usize) -> bool {
 
 /// Returns the average of the samples of one channel. `codes` gives the codes of a sample.
 #[inline(always)]
-fn average(encoding: ChannelEncoding, samples: usize, codes: impl Fn(usize) -> Codes) -> Codes {
+fn average(
+    encoding: ChannelEncoding,
+    samples: usize,
+    codes: impl Fn(usize) -> LaneCodes,
+) -> LaneCodes {
     // Integers resolve to one sample.
     if let ChannelEncoding::Uint(_) = encoding {
         return codes(0);
@@ -40,7 +44,7 @@ fn average(encoding: ChannelEncoding, samples: usize, codes: impl Fn(usize) -> C
 
 /// The resolve of a pass's colours.
 #[derive(Debug)]
-pub(crate) struct Resolve {
+pub(crate) struct ColorResolve {
     channels: &'static [ChannelEncoding],
     layout: WordLayout,
     samples: usize,
@@ -48,7 +52,7 @@ pub(crate) struct Resolve {
     known: bool,
 }
 
-impl Resolve {
+impl ColorResolve {
     /// Returns the resolve of this many samples of these channels.
     pub(crate) fn new(channels: &'static [ChannelEncoding], samples: usize) -> Self {
         Self {

@@ -1,10 +1,10 @@
 //! A scene that is drawn in tiles.
 
 use super::TILE;
-use super::image::Image;
+use super::image::TiledImage;
 use super::layer::{Layer, Tiles};
-use super::plan::{KernelPlan, PassPlan};
-use super::setup::{Input, RangeTriangles, place};
+use super::plan::{KernelPlan, PassKernels};
+use super::setup::{DrawGeometry, RangeTriangles, place};
 use super::threads::{available, on_threads};
 use super::tile::{self, Tile};
 use super::triangle::Placed;
@@ -30,14 +30,14 @@ const CLEARED: usize = 1 << 22;
 
 /// The vector instructions and the threads that kernels use.
 #[derive(Clone, Copy, Debug)]
-pub struct Machine {
+pub struct KernelMachine {
     /// The vector instructions.
     pub level: Level,
     /// The number of threads, at least 1.
     pub threads: usize,
 }
 
-impl Machine {
+impl KernelMachine {
     /// Returns all vector instructions and threads of this machine.
     pub fn whole() -> Self {
         Self {
@@ -52,8 +52,8 @@ impl Machine {
 pub(crate) struct TiledScene {
     scene: Scene,
     plan: KernelPlan,
-    machine: Machine,
-    images: Vec<Image>,
+    machine: KernelMachine,
+    images: Vec<TiledImage>,
     placed: Vec<Placed>,
     parts: Vec<RangeTriangles>,
     submitted: bool,
@@ -61,9 +61,9 @@ pub(crate) struct TiledScene {
 
 impl TiledScene {
     /// Returns a scene with its kernels.
-    pub(crate) fn new(scene: Scene, plan: KernelPlan, machine: Machine) -> Self {
+    pub(crate) fn new(scene: Scene, plan: KernelPlan, machine: KernelMachine) -> Self {
         Self {
-            images: scene.attachments.iter().map(Image::new).collect(),
+            images: scene.attachments.iter().map(TiledImage::new).collect(),
             parts: (0..machine.threads)
                 .map(|_| RangeTriangles::default())
                 .collect(),
@@ -196,7 +196,7 @@ fn layers<T: Copy + Default>(tiles: Option<&mut Tiles<T>>) -> impl Iterator<Item
 }
 
 /// Writes the clear values of layers that are not in memory.
-fn write_clears<T: Copy + Send>(machine: Machine, mut layers: Vec<Layer<'_, T>>) {
+fn write_clears<T: Copy + Send>(machine: KernelMachine, mut layers: Vec<Layer<'_, T>>) {
     layers.retain(|layer| layer.cleared().is_some());
     let bytes: usize = layers.iter().map(|layer| size_of_val(layer.planes)).sum();
     let threads = if bytes < CLEARED { 1 } else { machine.threads };
@@ -210,12 +210,16 @@ fn write_clears<T: Copy + Send>(machine: Machine, mut layers: Vec<Layer<'_, T>>)
 }
 
 /// Returns the vertices and primitives of the pass's draws.
-fn inputs<'a>(pass: &'a Pass, plan: &'a PassPlan, images: &'a [Image]) -> Vec<Input<'a>> {
+fn inputs<'a>(
+    pass: &'a Pass,
+    plan: &'a PassKernels,
+    images: &'a [TiledImage],
+) -> Vec<DrawGeometry<'a>> {
     let (mut base, mut first) = (0, 0);
     let mut inputs = Vec::with_capacity(plan.draws.len());
     for draw_plan in &plan.draws {
         let draw = &pass.draws[draw_plan.index];
-        let input = Input::new(draw, draw_plan, images, base, first);
+        let input = DrawGeometry::new(draw, draw_plan, images, base, first);
         base += draw.mesh.vertices.len();
         first += input.count;
         inputs.push(input);
@@ -224,7 +228,7 @@ fn inputs<'a>(pass: &'a Pass, plan: &'a PassPlan, images: &'a [Image]) -> Vec<In
 }
 
 /// Transforms the vertices of a pass.
-fn transform(machine: Machine, inputs: &[Input<'_>], placed: &mut Vec<Placed>) {
+fn transform(machine: KernelMachine, inputs: &[DrawGeometry<'_>], placed: &mut Vec<Placed>) {
     let end = inputs
         .last()
         .map_or(0, |i| i.base + i.draw.mesh.vertices.len());
@@ -249,9 +253,9 @@ fn transform(machine: Machine, inputs: &[Input<'_>], placed: &mut Vec<Placed>) {
 
 /// Sets up the triangles of a pass. Returns the parts that are used, in drawing order.
 fn set_up<'p>(
-    machine: Machine,
-    pass: &PassPlan,
-    inputs: &[Input<'_>],
+    machine: KernelMachine,
+    pass: &PassKernels,
+    inputs: &[DrawGeometry<'_>],
     placed: &[Placed],
     parts: &'p mut [RangeTriangles],
 ) -> &'p [RangeTriangles] {
@@ -272,9 +276,9 @@ fn set_up<'p>(
 
 /// Draws tiles. Each thread takes the next tile when it is free.
 fn draw_tiles(
-    machine: Machine,
-    pass: &PassPlan,
-    inputs: &[Input<'_>],
+    machine: KernelMachine,
+    pass: &PassKernels,
+    inputs: &[DrawGeometry<'_>],
     parts: &[RangeTriangles],
     tiles: Vec<Tile<'_>>,
 ) {
@@ -311,7 +315,7 @@ impl Prepared for TiledScene {
 
     fn read_back(&mut self) -> Result<Frame, BackendError> {
         let codes = |index: usize, aspect, channels| {
-            let Machine { level, threads } = self.machine;
+            let KernelMachine { level, threads } = self.machine;
             self.images[index].codes(aspect, channels, level, threads)
         };
         let mut frame = frame(&self.scene, self.submitted, codes)?;

@@ -1,14 +1,14 @@
 //! Vertices to triangles, and triangles to the tiles that they touch.
 
 use super::TILE;
-use super::edges::{Edges, Touch};
-use super::image::Image;
+use super::edges::{EdgeFunctions, Touch};
+use super::image::TiledImage;
 use super::opaque::NARROW;
-use super::paint::Paint;
-use super::plan::{Behind, DrawPlan, PassPlan, PrimitiveRun, Shading};
-use super::texels::Texels;
-use super::texture::Texture;
-use super::triangle::{Placed, Rare, Triangle, TriangleKind, point};
+use super::paint::TexelPaint;
+use super::plan::{Behind, DrawKernels, PassKernels, PrimitiveRun, Shading};
+use super::texels::FetchTextures;
+use super::texture::TexelRows;
+use super::triangle::{Placed, Rare, RasterTriangle, TriangleKind, point};
 use crate::lanes::LANES;
 use crate::linear::UNITS;
 use crate::planes::depth_bias;
@@ -30,8 +30,8 @@ const KNOWN: usize = 64;
 #[derive(Debug, Default)]
 #[repr(align(128))]
 pub(crate) struct RangeTriangles {
-    pub(crate) triangles: Vec<Triangle>,
-    pub(crate) paints: Vec<Paint>,
+    pub(crate) triangles: Vec<RasterTriangle>,
+    pub(crate) paints: Vec<TexelPaint>,
     /// The first paints of draws, with everything that they depend on.
     known: Vec<(Ingredients, u32)>,
     /// The properties that few triangles have.
@@ -62,9 +62,9 @@ impl TiledTriangle {
 
 /// The vertices and primitives of a draw.
 #[derive(Debug)]
-pub(crate) struct Input<'a> {
+pub(crate) struct DrawGeometry<'a> {
     pub(crate) draw: &'a Draw,
-    pub(crate) plan: &'a DrawPlan,
+    pub(crate) plan: &'a DrawKernels,
     /// The index of the first vertex among the pass's vertices.
     pub(crate) base: usize,
     /// The number of the first primitive in the pass.
@@ -73,17 +73,17 @@ pub(crate) struct Input<'a> {
     /// The vertices and the provoking vertex of each primitive; empty if the plan has runs.
     pub(crate) primitives: Vec<([usize; 3], usize)>,
     /// The texture that the draw's shader samples.
-    pub(crate) texture: Option<Texture>,
+    pub(crate) texture: Option<TexelRows>,
     /// The textures that the draw's shader fetches from.
-    pub(crate) texels: Option<Texels<'a>>,
+    pub(crate) texels: Option<FetchTextures<'a>>,
 }
 
-impl<'a> Input<'a> {
+impl<'a> DrawGeometry<'a> {
     /// Returns the input of a draw. `base` and `first` are the numbers of vertices and primitives before it.
     pub(crate) fn new(
         draw: &'a Draw,
-        plan: &'a DrawPlan,
-        images: &'a [Image],
+        plan: &'a DrawKernels,
+        images: &'a [TiledImage],
         base: usize,
         first: usize,
     ) -> Self {
@@ -111,11 +111,11 @@ impl<'a> Input<'a> {
             count,
             primitives,
             texture: match plan.shading {
-                Shading::Texture { index, .. } => Some(Texture::new(&images[index])),
+                Shading::Texture { index, .. } => Some(TexelRows::new(&images[index])),
                 _ => None,
             },
             texels: match plan.shading {
-                Shading::Texels(first, second) => Some(Texels::new(first, second, images)),
+                Shading::Texels(first, second) => Some(FetchTextures::new(first, second, images)),
                 _ => None,
             },
         }
@@ -166,7 +166,7 @@ impl RangeTriangles {
 
     /// Returns a triangle's properties that few triangles have.
     #[inline(always)]
-    pub(crate) fn rare(&self, triangle: &Triangle) -> Rare {
+    pub(crate) fn rare(&self, triangle: &RasterTriangle) -> Rare {
         self.rare
             .get(triangle.rare as usize)
             .copied()
@@ -178,8 +178,8 @@ impl RangeTriangles {
     pub(crate) fn set_up<S: Simd>(
         &mut self,
         simd: S,
-        pass: &PassPlan,
-        inputs: &[Input<'_>],
+        pass: &PassKernels,
+        inputs: &[DrawGeometry<'_>],
         placed: &[Placed],
         range: Range<usize>,
     ) {
@@ -243,9 +243,9 @@ impl Ingredients {
 /// The setup of a draw's triangles.
 struct SetUp<'a, S> {
     simd: S,
-    pass: &'a PassPlan,
+    pass: &'a PassKernels,
     draw: &'a Draw,
-    plan: &'a DrawPlan,
+    plan: &'a DrawKernels,
     number: usize,
     part: &'a mut RangeTriangles,
     /// The index of the draw's first paint.
@@ -262,8 +262,8 @@ struct SetUp<'a, S> {
 impl<'a, S: Simd> SetUp<'a, S> {
     fn new(
         simd: S,
-        pass: &'a PassPlan,
-        input: &'a Input<'_>,
+        pass: &'a PassKernels,
+        input: &'a DrawGeometry<'_>,
         number: usize,
         part: &'a mut RangeTriangles,
     ) -> Self {
@@ -365,7 +365,7 @@ impl<'a, S: Simd> SetUp<'a, S> {
             (false, true) => TriangleKind::SlopedNear,
             (false, false) => TriangleKind::Sloped,
         };
-        let triangle = Triangle {
+        let triangle = RasterTriangle {
             corners,
             rare,
             code: match (flat, self.pass.depth) {
@@ -466,7 +466,7 @@ impl<'a, S: Simd> SetUp<'a, S> {
             }
         }
         let quick = self.part.paints.len() - self.first > FUNCTIONS;
-        let paint = Paint::new(
+        let paint = TexelPaint::new(
             self.simd,
             self.draw,
             self.plan.shading,
@@ -485,13 +485,13 @@ impl<'a, S: Simd> SetUp<'a, S> {
 
     /// Adds a triangle to the tiles that it touches. `covers` is true if it might cover whole tiles.
     #[inline(always)]
-    fn sort(&mut self, index: usize, triangle: &Triangle, covers: bool) {
+    fn sort(&mut self, index: usize, triangle: &RasterTriangle, covers: bool) {
         let [left, top, right, bottom] = triangle.around.map(|v| v as usize / TILE);
         if left == right && top == bottom && !covers {
             self.part.bins[top * self.across + left].push(TiledTriangle::new(index, false));
             return;
         }
-        let edges = Edges::new(triangle);
+        let edges = EdgeFunctions::new(triangle);
         for y in top..=bottom {
             for x in left..=right {
                 let texels = tile_texels(self.pass, [x, y]);
@@ -512,7 +512,7 @@ impl<'a, S: Simd> SetUp<'a, S> {
 
 /// Returns the left, top, right and bottom edges of a tile's texels in the attachment. Right and bottom are
 /// exclusive.
-pub(crate) fn tile_texels(pass: &PassPlan, [x, y]: [usize; 2]) -> [i32; 4] {
+pub(crate) fn tile_texels(pass: &PassKernels, [x, y]: [usize; 2]) -> [i32; 4] {
     let [width, height] = pass.size;
     let (left, top) = (x * TILE, y * TILE);
     let bounds = [

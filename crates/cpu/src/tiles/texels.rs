@@ -1,31 +1,31 @@
 //! Textures whose texels a shader fetches at the position that it draws.
 
 use super::AREA;
-use super::image::Image;
-use super::plan::Fetched;
+use super::image::TiledImage;
+use super::plan::FetchedTexture;
 use super::planes::{CodePlane, Plane, decode};
-use crate::lanes::{Codes, LANES};
+use crate::lanes::{LANES, LaneCodes};
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{Arithmetic, Plain};
 
 /// The textures that a shader fetches from, at a tile.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sources<'a> {
-    texels: Option<&'a Texels<'a>>,
+    texels: Option<&'a FetchTextures<'a>>,
     tile: usize,
 }
 
 impl<'a> Sources<'a> {
     /// Returns the sources at a tile.
     #[inline(always)]
-    pub(crate) fn new(texels: Option<&'a Texels<'a>>, tile: usize) -> Self {
+    pub(crate) fn new(texels: Option<&'a FetchTextures<'a>>, tile: usize) -> Self {
         Self { texels, tile }
     }
 
     /// Returns the words of the first texture's texels at an index of the tile's plane, which must be one
     /// word each.
     #[inline(always)]
-    pub(crate) fn words(&self, offset: usize) -> Codes {
+    pub(crate) fn words(&self, offset: usize) -> LaneCodes {
         match self.texels {
             Some(texels) => texels.first.plane(self.tile, offset, 0),
             None => [0; LANES],
@@ -61,7 +61,7 @@ impl<'a> Sources<'a> {
 
 /// The textures that a draw fetches from.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Texels<'a> {
+pub(crate) struct FetchTextures<'a> {
     first: SourceTexture<'a>,
     second: Option<SourceTexture<'a>>,
 }
@@ -69,13 +69,17 @@ pub(crate) struct Texels<'a> {
 /// A texture of the attachments' size.
 #[derive(Clone, Copy, Debug)]
 struct SourceTexture<'a> {
-    image: &'a Image,
+    image: &'a TiledImage,
     channels: &'static [ChannelEncoding],
 }
 
-impl<'a> Texels<'a> {
-    pub(crate) fn new(first: Fetched, second: Option<Fetched>, images: &'a [Image]) -> Self {
-        let texture = |fetched: Fetched| SourceTexture {
+impl<'a> FetchTextures<'a> {
+    pub(crate) fn new(
+        first: FetchedTexture,
+        second: Option<FetchedTexture>,
+        images: &'a [TiledImage],
+    ) -> Self {
+        let texture = |fetched: FetchedTexture| SourceTexture {
             image: &images[fetched.index],
             channels: fetched.channels,
         };
@@ -96,7 +100,7 @@ impl SourceTexture<'_> {
 
     /// Returns a word of the texels at an index of a tile's plane.
     #[inline(always)]
-    fn plane(&self, tile: usize, offset: usize, word: usize) -> Codes {
+    fn plane(&self, tile: usize, offset: usize, word: usize) -> LaneCodes {
         if let Some(clear) = self.image.color.cleared(tile) {
             return [clear[word]; LANES];
         }

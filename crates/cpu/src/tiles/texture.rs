@@ -1,8 +1,8 @@
 //! Textures whose nearest texels are stored unchanged.
 
-use super::image::Image;
-use super::triangle::{Triangle, point};
-use crate::lanes::{Codes, LANES, Real};
+use super::image::TiledImage;
+use super::triangle::{RasterTriangle, point};
+use crate::lanes::{LANES, LaneCodes, Real};
 use crate::linear::{CENTER, UNITS};
 use etalon_pipeline::{DepthPlane, texel_position};
 use etalon_scene::{AddressMode, Draw};
@@ -12,15 +12,15 @@ const WHOLE: f32 = 4_194_304.0;
 
 /// A texture's texels, row by row.
 #[derive(Debug)]
-pub(crate) struct Texture {
+pub(crate) struct TexelRows {
     width: usize,
     height: usize,
     texels: Vec<u32>,
 }
 
-impl Texture {
+impl TexelRows {
     /// Returns the texels of an image that has one sample and one word per texel.
-    pub(crate) fn new(image: &Image) -> Self {
+    pub(crate) fn new(image: &TiledImage) -> Self {
         let (width, height) = (image.width, image.height);
         let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
         let texel = |(x, y)| match image.color.cleared(image.tile(x, y)) {
@@ -36,7 +36,7 @@ impl Texture {
 
     /// Returns the texels at one coordinate per lane.
     #[inline(always)]
-    pub(crate) fn nearest(&self, address: [AddressMode; 2], [u, v]: [Real; 2]) -> Codes {
+    pub(crate) fn nearest(&self, address: [AddressMode; 2], [u, v]: [Real; 2]) -> LaneCodes {
         let columns = positions(address[0], u, self.width);
         let rows = positions(address[1], v, self.height);
         let mut result = [0; LANES];
@@ -57,7 +57,7 @@ impl Texture {
 
 /// Returns the texel positions along an axis, at one coordinate per lane.
 #[inline(always)]
-fn positions(mode: AddressMode, coordinate: Real, size: usize) -> Codes {
+fn positions(mode: AddressMode, coordinate: Real, size: usize) -> LaneCodes {
     let mut scaled = [0.0; LANES];
     for (scaled, c) in scaled.iter_mut().zip(coordinate) {
         *scaled = (c * size as f32).floor();
@@ -89,7 +89,7 @@ pub(crate) struct Coordinates {
 
 impl Coordinates {
     #[inline(always)]
-    pub(crate) fn new(draw: &Draw, triangle: &Triangle, vertices: &[u32; 3]) -> Self {
+    pub(crate) fn new(draw: &Draw, triangle: &RasterTriangle, vertices: &[u32; 3]) -> Self {
         let points = triangle.corners.map(|v| point(v.at));
         let uv = vertices.map(|i| draw.mesh.vertices[i as usize].uv);
         let axis = |axis: usize| {

@@ -9,16 +9,16 @@ use super::depth_stencil::{
 };
 use super::edges::EdgeSigns;
 use super::fragments::{Fragments, MOST};
-use super::lanes::{ALL, Mask, alphas_from, columns, lanes, select};
+use super::lanes::{ALL, LaneBits, alphas_from, columns, lanes, select};
 use super::layer::Layer;
-use super::opaque::{Opaque, Planes, Store};
-use super::paint::{Kernel, Paint};
-use super::plan::{DrawPlan, PassPlan, Shading};
-use super::setup::{Input, RangeTriangles, TiledTriangle, tile_texels};
+use super::opaque::{Opaque, SamplePlanes, Store};
+use super::paint::{Kernel, TexelPaint};
+use super::plan::{DrawKernels, PassKernels, Shading};
+use super::setup::{DrawGeometry, RangeTriangles, TiledTriangle, tile_texels};
 use super::texels::Sources;
 use super::texture::Coordinates;
-use super::triangle::{Triangle, TriangleKind};
-use super::work::Work;
+use super::triangle::{RasterTriangle, TriangleKind};
+use super::work::TriangleWork;
 use crate::lanes::LANES;
 use etalon_pipeline::shader::cost;
 use etalon_scene::{StencilFace, StencilOperation};
@@ -46,7 +46,7 @@ impl<'a> Tile<'a> {
     #[inline(always)]
     fn drawn<'t, 'p>(
         &'t mut self,
-        paint: &'p Paint,
+        paint: &'p TexelPaint,
     ) -> impl Iterator<Item = (&'t mut Layer<'a, u32>, &'p Kernel)> {
         let first = iter::once((&mut self.color, &paint.kernel));
         let layers = first.chain(self.others.iter_mut().zip(&paint.others));
@@ -56,7 +56,7 @@ impl<'a> Tile<'a> {
 
 /// A tile being drawn.
 struct TileDrawing<'t, 'a> {
-    pass: &'t PassPlan,
+    pass: &'t PassKernels,
     tile: Tile<'a>,
     /// The index of the tile in the attachments.
     index: usize,
@@ -104,8 +104,8 @@ impl TestResult {
 pub(crate) fn draw<S: Simd>(
     simd: S,
     tile: Tile<'_>,
-    pass: &PassPlan,
-    inputs: &[Input<'_>],
+    pass: &PassKernels,
+    inputs: &[DrawGeometry<'_>],
     parts: &[RangeTriangles],
 ) {
     let samples = pass.positions.len();
@@ -158,8 +158,8 @@ impl TileDrawing<'_, '_> {
     fn triangle<S: Simd>(
         &mut self,
         simd: S,
-        triangle: &Triangle,
-        input: &Input<'_>,
+        triangle: &RasterTriangle,
+        input: &DrawGeometry<'_>,
         part: &RangeTriangles,
         whole: bool,
     ) -> Option<Store> {
@@ -212,7 +212,7 @@ impl TileDrawing<'_, '_> {
                 return store;
             }
         }
-        let work = Work {
+        let work = TriangleWork {
             triangle,
             plan,
             face,
@@ -243,7 +243,7 @@ impl TileDrawing<'_, '_> {
 
     /// Returns the result of the depth test, if it is the same for all texels.
     #[inline(always)]
-    fn answer(&self, triangle: &Triangle, plan: &DrawPlan) -> Option<Decided> {
+    fn answer(&self, triangle: &RasterTriangle, plan: &DrawKernels) -> Option<Decided> {
         match plan.depth {
             None => Some(Decided::Pass),
             Some(depth) if triangle.is_flat() => decided(depth.compare, triangle.code, self.range),
@@ -255,8 +255,8 @@ impl TileDrawing<'_, '_> {
     #[inline(always)]
     fn depths(
         &self,
-        triangle: &Triangle,
-        input: &Input<'_>,
+        triangle: &RasterTriangle,
+        input: &DrawGeometry<'_>,
         part: &RangeTriangles,
     ) -> Option<Depths> {
         match (input.plan.depth, self.pass.depth) {
@@ -271,7 +271,7 @@ impl TileDrawing<'_, '_> {
     /// Widens the range of depths to include every depth that a triangle might have written, to all texels or
     /// to some.
     #[inline(always)]
-    fn widen(&mut self, triangle: &Triangle, plan: &DrawPlan, replaces_all: bool) {
+    fn widen(&mut self, triangle: &RasterTriangle, plan: &DrawKernels, replaces_all: bool) {
         if !plan.depth.is_some_and(|d| d.write) {
             return;
         }
@@ -326,7 +326,7 @@ impl TileDrawing<'_, '_> {
     fn samples<S: Simd>(
         &mut self,
         simd: S,
-        work: &Work<'_>,
+        work: &TriangleWork<'_>,
         whole: bool,
         outcome: Option<TestResult>,
     ) {
@@ -350,7 +350,13 @@ impl TileDrawing<'_, '_> {
 
     /// Draws all texels of a sample, for which the tests have the same result.
     #[inline(always)]
-    fn decided<S: Simd>(&mut self, simd: S, work: &Work<'_>, sample: usize, outcome: TestResult) {
+    fn decided<S: Simd>(
+        &mut self,
+        simd: S,
+        work: &TriangleWork<'_>,
+        sample: usize,
+        outcome: TestResult,
+    ) {
         let [left, top, right, bottom] = self.texels;
         let start = sample * AREA;
         let range = start..start + (bottom - top) as usize * TILE;
@@ -382,8 +388,8 @@ impl TileDrawing<'_, '_> {
         &mut self,
         simd: S,
         store: &Store,
-        triangle: &Triangle,
-        input: &Input<'_>,
+        triangle: &RasterTriangle,
+        input: &DrawGeometry<'_>,
         part: &RangeTriangles,
     ) {
         let plan = input.plan;
@@ -409,8 +415,8 @@ impl TileDrawing<'_, '_> {
 
     /// Returns the planes of a sample that opaque triangles of a draw change.
     #[inline(always)]
-    fn planes(&mut self, store: &Store, plan: &DrawPlan, sample: usize) -> Planes<'_> {
-        Planes {
+    fn planes(&mut self, store: &Store, plan: &DrawKernels, sample: usize) -> SamplePlanes<'_> {
+        SamplePlanes {
             position: self.pass.positions[sample],
             rect: plan.rects[sample],
             colors: if store.colors() {
@@ -434,7 +440,7 @@ impl TileDrawing<'_, '_> {
         simd: S,
         store: &Store,
         entries: &'e [TiledTriangle],
-        input: &Input<'_>,
+        input: &DrawGeometry<'_>,
         part: &RangeTriangles,
     ) -> &'e [TiledTriangle] {
         let is_alike = |entry: &&TiledTriangle| {
@@ -465,7 +471,7 @@ impl TileDrawing<'_, '_> {
     /// Draws the texels of one sample that a triangle covers, which are all of them if `whole` is true. It is
     /// large, so it is not inlined.
     #[inline(never)]
-    fn scan<S: Simd>(&mut self, simd: S, work: &Work<'_>, sample: usize, whole: bool) {
+    fn scan<S: Simd>(&mut self, simd: S, work: &TriangleWork<'_>, sample: usize, whole: bool) {
         simd.vectorize(
             #[inline(always)]
             || self.scan_of(simd, work, sample, whole),
@@ -473,7 +479,7 @@ impl TileDrawing<'_, '_> {
     }
 
     #[inline(always)]
-    fn scan_of<S: Simd>(&mut self, simd: S, work: &Work<'_>, sample: usize, whole: bool) {
+    fn scan_of<S: Simd>(&mut self, simd: S, work: &TriangleWork<'_>, sample: usize, whole: bool) {
         let mut fragments = Fragments::new();
         let triangle = work.triangle;
         let [left, top, right, bottom] = self.texels;
@@ -501,7 +507,7 @@ impl TileDrawing<'_, '_> {
                 let mut mask = if whole {
                     ALL
                 } else {
-                    here.covered().to_bitmask() as Mask
+                    here.covered().to_bitmask() as LaneBits
                 };
                 here.grow(rows.across, wide);
                 if cut {
@@ -524,7 +530,7 @@ impl TileDrawing<'_, '_> {
     fn fragments<S: Simd>(
         &mut self,
         simd: S,
-        work: &Work<'_>,
+        work: &TriangleWork<'_>,
         sample: usize,
         fragments: &mut Fragments,
     ) {
@@ -538,7 +544,7 @@ impl TileDrawing<'_, '_> {
     fn fragments_of<S: Simd>(
         &mut self,
         simd: S,
-        work: &Work<'_>,
+        work: &TriangleWork<'_>,
         sample: usize,
         fragments: &mut Fragments,
     ) {

@@ -13,7 +13,7 @@ pub(crate) struct Placed {
 /// A triangle that might cover samples. It fills one cache line.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
-pub(crate) struct Triangle {
+pub(crate) struct RasterTriangle {
     /// The vertices in the order of the primitive, on which the depth plane depends.
     pub(crate) corners: [Placed; 3],
     /// The index of the triangle's rare properties in its part; `u32::MAX` if it has none.
@@ -34,7 +34,7 @@ pub(crate) struct Triangle {
     pub(crate) cut: bool,
 }
 
-const _: () = assert!(size_of::<Triangle>() == 64);
+const _: () = assert!(size_of::<RasterTriangle>() == 64);
 
 /// The properties that few triangles have.
 #[derive(Clone, Copy, Debug, Default)]
@@ -60,7 +60,7 @@ pub(crate) enum TriangleKind {
     Small,
 }
 
-impl Triangle {
+impl RasterTriangle {
     /// Returns true if the triangle has a constant depth.
     #[inline(always)]
     pub(crate) fn is_flat(&self) -> bool {
@@ -87,7 +87,7 @@ pub(crate) fn point([x, y]: [i32; 2]) -> Point {
 
 /// Returns the corners in clockwise order on the screen.
 #[inline(always)]
-pub(crate) fn clockwise(triangle: &Triangle) -> [[i32; 2]; 3] {
+pub(crate) fn clockwise(triangle: &RasterTriangle) -> [[i32; 2]; 3] {
     let [a, b, c] = [0, 1, 2].map(|i: usize| triangle.corners[i].at);
     if triangle.counter {
         [a, c, b]

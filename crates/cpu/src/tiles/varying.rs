@@ -6,7 +6,7 @@
 
 use super::AREA;
 use super::fragments::Fragments;
-use super::lanes::{Mask, lanes, select};
+use super::lanes::{LaneBits, lanes, select};
 use super::layout::WordLayout;
 use super::planes::{CodePlane, GROUPS, Plane, TEXELS, decode, encode};
 use super::texels::Sources;
@@ -19,7 +19,7 @@ use fearless_simd::Simd;
 
 /// A function of a texel's codes and of fetched texels.
 #[derive(Debug)]
-pub(crate) struct Varying {
+pub(crate) struct TileVarying {
     pub(crate) target: ColorTarget,
     pub(crate) constant: [f32; 4],
     /// The logic operation that replaces blending.
@@ -58,7 +58,7 @@ enum PendingFactor<'a> {
     Complement(&'a [f32]),
 }
 
-impl Varying {
+impl TileVarying {
     /// Applies the function to fragments of a sample's planes.
     #[inline(never)]
     pub(crate) fn apply<S: Simd>(
@@ -97,7 +97,7 @@ impl Varying {
         &self,
         simd: S,
         planes: &mut [u32],
-        (places, masks): (&[u16], &[Mask]),
+        (places, masks): (&[u16], &[LaneBits]),
         sources: &Sources<'_>,
         inputs: &mut BlendInputs,
         buffers: &mut Buffers,

@@ -4,8 +4,8 @@
 //! -1, clamped to a limit. All numbers are between 0 and 1, so that products with 0 and sums with 0 change
 //! nothing.
 
-use super::image::Texel;
-use crate::lanes::{Codes, LANES, Real};
+use super::image::TexelWord;
+use crate::lanes::{LANES, LaneCodes, Real};
 use crate::steps::{Faithful, Steps};
 use etalon_frame::ChannelEncoding;
 use etalon_scene::{BlendComponent, BlendFactor, BlendOperation};
@@ -110,7 +110,7 @@ impl Weights {
 
     /// Applies the function to texels. It is large, so it is not inlined.
     #[inline(never)]
-    pub(crate) fn apply<S: Simd>(&self, simd: S, texels: &mut [[Texel; LANES]]) {
+    pub(crate) fn apply<S: Simd>(&self, simd: S, texels: &mut [[TexelWord; LANES]]) {
         simd.vectorize(
             #[inline(always)]
             || {
@@ -122,8 +122,8 @@ impl Weights {
     }
 
     #[inline(always)]
-    fn applied(&self, texels: &[Texel; LANES]) -> [Texel; LANES] {
-        let words = bytemuck::cast::<_, Codes>(*texels).map(u32::from_le);
+    fn applied(&self, texels: &[TexelWord; LANES]) -> [TexelWord; LANES] {
+        let words = bytemuck::cast::<_, LaneCodes>(*texels).map(u32::from_le);
         let [r, g, b, a] = &self.channels;
         let last = stored(&words, 24);
         let mut alpha = last;
@@ -147,13 +147,13 @@ impl Weights {
 
 /// Returns the values of the bytes at a bit position.
 #[inline(always)]
-fn stored(words: &Codes, bit: u32) -> Real {
+fn stored(words: &LaneCodes, bit: u32) -> Real {
     Faithful.color_value(UNORM, words.map(|word| word >> bit & 0xff))
 }
 
 /// Inserts bytes into words at a bit position.
 #[inline(always)]
-fn join(words: &mut Codes, codes: &Codes, bit: u32) {
+fn join(words: &mut LaneCodes, codes: &LaneCodes, bit: u32) {
     for (word, code) in words.iter_mut().zip(codes) {
         *word |= code << bit;
     }
@@ -162,7 +162,7 @@ fn join(words: &mut Codes, codes: &Codes, bit: u32) {
 impl ChannelWeights {
     /// Returns the codes of one channel, from the stored values of the channel and of alpha.
     #[inline(always)]
-    fn codes(&self, stored: &Real, alpha: &Real) -> Codes {
+    fn codes(&self, stored: &Real, alpha: &Real) -> LaneCodes {
         let mut result = *stored;
         for (result, alpha) in result.iter_mut().zip(alpha) {
             let value = *result;

@@ -3,9 +3,9 @@
 use etalon_backend::Prepared;
 use etalon_case::{CaseFile, CaseRef, Library, Profile};
 use etalon_cpu::steps::Faithful;
-use etalon_cpu::{Machine, PreparedScene, in_tiles};
+use etalon_cpu::{CpuScene, KernelMachine, in_tiles};
 use etalon_frame::Frame;
-use etalon_scene::{Contents, Scene, Shader};
+use etalon_scene::{AttachmentContents, Scene, Shader};
 use fearless_simd::{Level, Simd};
 use std::collections::BTreeMap;
 use std::sync::Mutex;
@@ -42,7 +42,7 @@ fn drawn(mut prepared: impl Prepared) -> Frame {
 /// scene has kernels, or else the reason why it has none.
 fn compare(
     scene: &Scene,
-    machines: &[(&'static str, Machine)],
+    machines: &[(&'static str, KernelMachine)],
 ) -> Result<Option<String>, &'static str> {
     let mut scene = scene.clone();
     scene.read = (0..scene.attachments.len()).collect();
@@ -50,7 +50,7 @@ fn compare(
     for (name, machine) in machines {
         let frame = drawn(in_tiles(&scene, *machine)?);
         let expected =
-            expected.get_or_insert_with(|| drawn(PreparedScene::new(scene.clone(), Faithful)));
+            expected.get_or_insert_with(|| drawn(CpuScene::new(scene.clone(), Faithful)));
         if frame != *expected {
             return Ok(Some(format!(
                 "{name}, {}: {}",
@@ -90,22 +90,22 @@ fn difference(frame: &Frame, expected: &Frame) -> String {
 }
 
 /// Returns every level, each with one of three numbers of threads.
-fn machines(turn: usize) -> Vec<(&'static str, Machine)> {
+fn machines(turn: usize) -> Vec<(&'static str, KernelMachine)> {
     let levels = levels().into_iter().enumerate();
     levels
         .map(|(i, (name, level))| {
             let threads = 1 + (turn + i) % 3;
-            (name, Machine { level, threads })
+            (name, KernelMachine { level, threads })
         })
         .collect()
 }
 
 /// Returns one level with one number of threads. Consecutive turns go through all pairs.
-fn machine(turn: usize) -> Vec<(&'static str, Machine)> {
+fn machine(turn: usize) -> Vec<(&'static str, KernelMachine)> {
     let levels = levels();
     let (name, level) = levels[turn % levels.len()];
     let threads = 1 + turn / levels.len() % 3;
-    vec![(name, Machine { level, threads })]
+    vec![(name, KernelMachine { level, threads })]
 }
 
 /// The scenes whose pictures a test compares.
@@ -115,7 +115,7 @@ type Scenes = Vec<(String, Scene)>;
 fn compare_all(
     count: usize,
     scenes: impl Fn(usize) -> Scenes + Sync,
-    machines: impl Fn(usize) -> Vec<(&'static str, Machine)> + Sync,
+    machines: impl Fn(usize) -> Vec<(&'static str, KernelMachine)> + Sync,
 ) -> usize {
     let names: Vec<_> = levels().into_iter().map(|(name, _)| name).collect();
     println!("levels: {}", names.join(", "));
@@ -168,7 +168,7 @@ struct Found {
 /// Returns a scene with all sizes multiplied, or `None` if it has uploaded texels.
 fn enlarged(mut scene: Scene, by: u32) -> Option<Scene> {
     for attachment in &mut scene.attachments {
-        if matches!(attachment.contents, Contents::Texels(_)) {
+        if matches!(attachment.contents, AttachmentContents::Texels(_)) {
             return None;
         }
         attachment.size = attachment.size.map(|s| s * by);
@@ -209,7 +209,7 @@ fn adapted(mut scene: Scene, turn: usize) -> Scene {
             attachment.format = formats[turn % formats.len()];
         }
         if unused.contains(&i) {
-            attachment.contents = Contents::Color([0.25; 4]);
+            attachment.contents = AttachmentContents::Color([0.25; 4]);
         }
     }
     for (i, draw) in scene

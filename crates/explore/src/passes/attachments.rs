@@ -22,7 +22,7 @@ pub(crate) fn bound(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
     edits
 }
 
-fn without_depth_stencil(pass: &Value, pointer: &[crate::edit::Step]) -> Edit {
+fn without_depth_stencil(pass: &Value, pointer: &[crate::edit::EditStep]) -> Edit {
     let mut edit = Edit::default();
     let keys = [
         "depth_stencil",
@@ -55,7 +55,7 @@ fn without_depth_stencil(pass: &Value, pointer: &[crate::edit::Step]) -> Edit {
     edit
 }
 
-fn without_color(pass: &Value, pointer: &[crate::edit::Step], location: usize) -> Edit {
+fn without_color(pass: &Value, pointer: &[crate::edit::EditStep], location: usize) -> Edit {
     let mut edit = Edit::removal(below(&below(pointer, "color"), location));
     for (part, members) in [
         (below(pointer, "resolve"), list(pass, "resolve")),

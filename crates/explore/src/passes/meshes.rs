@@ -73,7 +73,7 @@ fn wholes(mesh: &Map<String, Value>, kind: &str, texel: Option<[u32; 2]>) -> Vec
 
 /// Returns edits that shorten a list of the mesh: by a primitive for vertices, and by an item for other
 /// lists.
-fn shorter(mesh: &Map<String, Value>, pointer: &[crate::edit::Step]) -> Vec<Edit> {
+fn shorter(mesh: &Map<String, Value>, pointer: &[crate::edit::EditStep]) -> Vec<Edit> {
     let mut edits = Vec::new();
     for key in ["values", "z", "windings", "uv", "indices"] {
         let length = mesh.get(key).and_then(Value::as_array).map_or(0, Vec::len);

@@ -1,7 +1,7 @@
 //! Simplifies numbers: to 0, 1, a half, or fewer digits.
 
 use super::words::walk;
-use crate::edit::{Edit, Pointer, Step, pointer, value_at};
+use crate::edit::{Edit, EditStep, Pointer, pointer, value_at};
 use serde_json::{Value, json};
 
 /// The keys of numbers that have their own pass, or are not values.
@@ -17,13 +17,12 @@ pub(crate) fn numbers(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
         &document["scene"],
         pointer!["scene"],
         &mut |pointer, value| {
-            let named =
-                |step: &Step| matches!(step, Step::Key(key) if NOT_VALUES.contains(&key.as_str()));
+            let named = |step: &EditStep| matches!(step, EditStep::Key(key) if NOT_VALUES.contains(&key.as_str()));
             let Some(number) = value.as_f64().filter(|_| !pointer.iter().any(named)) else {
                 return;
             };
             singles.push((pointer.clone(), number));
-            if let Some((Step::Item(_), list)) = pointer.split_last()
+            if let Some((EditStep::Item(_), list)) = pointer.split_last()
                 && lists.last().is_none_or(|last| last != list)
             {
                 lists.push(list.to_vec());

@@ -65,7 +65,7 @@ impl Window {
     fn crop_texels(
         self,
         attachment: &Value,
-        attachment_pointer: &[crate::edit::Step],
+        attachment_pointer: &[crate::edit::EditStep],
         edit: &mut Edit,
     ) {
         let texels = &attachment["texels"];

@@ -101,8 +101,8 @@ mod tests {
         let edits = members(&document, None);
         let pointer = |edit: &Edit| {
             let keys = edit.remove[0].iter().map(|step| match step {
-                crate::edit::Step::Key(key) => key.clone(),
-                crate::edit::Step::Item(i) => i.to_string(),
+                crate::edit::EditStep::Key(key) => key.clone(),
+                crate::edit::EditStep::Item(i) => i.to_string(),
             });
             keys.collect::<Vec<_>>().join("/")
         };

@@ -46,7 +46,7 @@ pub(crate) fn shaders(document: &Value, texel: Option<[u32; 2]>) -> Vec<Edit> {
 }
 
 /// Returns an edit that removes the keys that only shaders with textures have.
-fn without_inputs(draw: &Value, pointer: &[crate::edit::Step]) -> Edit {
+fn without_inputs(draw: &Value, pointer: &[crate::edit::EditStep]) -> Edit {
     let keys = ["textures", "sampler", "early_tests", "clip_distances"];
     let given = keys.into_iter().filter(|key| draw.get(key).is_some());
     Edit {

@@ -1,6 +1,6 @@
 //! Replaces formats, functions and factors by common ones.
 
-use crate::edit::{Edit, Pointer, Step, below, pointer};
+use crate::edit::{Edit, EditStep, Pointer, below, pointer};
 use serde_json::{Value, json};
 
 /// The simple values under a key, the simplest first. Values that are not listed are the least simple.
@@ -32,8 +32,8 @@ pub(crate) fn words(document: &Value, _: Option<[u32; 2]>) -> Vec<Edit> {
         pointer!["scene", "passes"],
         &mut |pointer, value| {
             let key = pointer.iter().rev().find_map(|step| match step {
-                Step::Key(key) => Some(key.as_str()),
-                Step::Item(_) => None,
+                EditStep::Key(key) => Some(key.as_str()),
+                EditStep::Item(_) => None,
             });
             if *value == json!(true) {
                 edits.push(Edit::replacement(pointer.clone(), false));

@@ -1,7 +1,7 @@
 //! Draws of random scenes: shaders, states, and changes from one draw to the next.
 
 use super::meshes::VertexDepth;
-use super::{Maker, Pass};
+use super::{Maker, PassDraft};
 use etalon_frame::Feature;
 use etalon_scene::Shader;
 use serde_json::{Value, json};
@@ -25,7 +25,7 @@ const ALONE: [&str; 13] = [
 
 impl Maker<'_> {
     /// Makes a draw of a pass. One in four is the previous draw with another value of one state.
-    pub(super) fn draw(&mut self, pass: &Pass, previous: Option<&Value>) -> Value {
+    pub(super) fn draw(&mut self, pass: &PassDraft, previous: Option<&Value>) -> Value {
         self.choices.begin_draw();
         if let Some(previous) = previous
             && self.choices.once_in(4)
@@ -105,7 +105,7 @@ impl Maker<'_> {
     }
 
     /// Returns the previous draw with another value of one state.
-    fn changed(&mut self, pass: &Pass, previous: &Value) -> Value {
+    fn changed(&mut self, pass: &PassDraft, previous: &Value) -> Value {
         let mut draw = previous.clone();
         let shader = Shader::ALL.iter().find(|s| draw["shader"] == s.name());
         let state = self.choices.word("changed", &ALONE);
@@ -123,7 +123,7 @@ impl Maker<'_> {
     }
 
     /// Sets one state of a draw, or leaves it at its default.
-    fn set(&mut self, state: &str, pass: &Pass, shader: Shader, draw: &mut Value) {
+    fn set(&mut self, state: &str, pass: &PassDraft, shader: Shader, draw: &mut Value) {
         match state {
             "cull" => {
                 let both = self.extra_with("cull both", Feature::FrontAndBackCulling);
@@ -276,7 +276,7 @@ impl Maker<'_> {
     }
 
     /// Returns a shader that writes what the pass's attachments need.
-    fn shader(&mut self, pass: &Pass) -> Shader {
+    fn shader(&mut self, pass: &PassDraft) -> Shader {
         use Shader as Is;
         if pass.is_integer() {
             return Is::UintColor;
@@ -369,7 +369,7 @@ impl Maker<'_> {
     }
 
     /// Names the textures of a shader.
-    fn textures_of(&mut self, pass: &Pass, shader: Shader, draw: &mut Value) {
+    fn textures_of(&mut self, pass: &PassDraft, shader: Shader, draw: &mut Value) {
         if shader.samples_texture() {
             let drawn = pass.drawn.first().filter(|_| self.choices.once_in(2));
             let texture = match drawn {

@@ -1,6 +1,6 @@
 //! Meshes of random draws, with topology, indices and instances.
 
-use super::{Maker, Pass};
+use super::{Maker, PassDraft};
 use etalon_frame::Feature;
 use etalon_scene::Shader;
 use serde_json::{Value, json};
@@ -32,7 +32,7 @@ impl Maker<'_> {
     /// Adds the mesh of a draw whose viewport has this size in texels.
     pub(super) fn mesh(
         &mut self,
-        pass: &Pass,
+        pass: &PassDraft,
         shader: Shader,
         written: VertexDepth,
         [w, h]: [u32; 2],
@@ -254,7 +254,7 @@ impl Maker<'_> {
     /// that planes are between samples.
     fn with_coordinates(
         &mut self,
-        pass: &Pass,
+        pass: &PassDraft,
         shader: Shader,
         [w, h]: [u32; 2],
         draw: &mut Value,

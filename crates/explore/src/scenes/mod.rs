@@ -15,7 +15,7 @@ mod states;
 mod textures;
 mod values;
 
-use crate::choices::{Choices, State};
+use crate::choices::{Choices, StateHash};
 use crate::space::Space;
 use etalon_frame::{Feature, PathValue, TextureFormat};
 use palette::Palette;
@@ -29,7 +29,7 @@ pub(crate) struct Made {
     /// Further submissions that are read back; empty if there is only one.
     pub(crate) submissions: Vec<u32>,
     /// The states of the scene, then those of each draw.
-    pub(crate) scopes: Vec<Vec<State>>,
+    pub(crate) scopes: Vec<Vec<StateHash>>,
 }
 
 /// Makes the scene that the choices give.
@@ -50,7 +50,7 @@ pub(crate) fn scene(choices: Choices, space: &Space) -> Made {
 
 /// A pass whose draws are being made.
 #[derive(Clone, Debug)]
-struct Pass {
+struct PassDraft {
     /// The names of its colour attachments, and their formats.
     color: Vec<(String, TextureFormat)>,
     depth_stencil: Option<TextureFormat>,
@@ -62,7 +62,7 @@ struct Pass {
     provoking: Option<&'static str>,
 }
 
-impl Pass {
+impl PassDraft {
     /// Returns true if alpha to coverage requires no unusual format of the first colour attachment.
     fn has_alpha(&self) -> bool {
         let first = self.color.first();

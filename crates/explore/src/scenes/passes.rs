@@ -1,6 +1,6 @@
 //! Passes of random scenes: attachments, load and store operations, clears and resolves.
 
-use super::{Maker, Pass};
+use super::{Maker, PassDraft};
 use etalon_frame::{Feature, TextureFormat};
 use serde_json::{Value, json};
 
@@ -61,7 +61,7 @@ impl Maker<'_> {
             } else if framebuffers && index > 0 {
                 drawn.push("other".to_owned());
             }
-            let pass = Pass {
+            let pass = PassDraft {
                 color: colors,
                 depth_stencil,
                 samples,
@@ -112,7 +112,7 @@ impl Maker<'_> {
         }
     }
 
-    fn pass(&mut self, pass: &Pass, index: usize, read: &mut Vec<String>) -> Value {
+    fn pass(&mut self, pass: &PassDraft, index: usize, read: &mut Vec<String>) -> Value {
         let names: Vec<&String> = pass.color.iter().map(|(name, _)| name).collect();
         let mut value = json!({ "color": names });
         if pass.depth_stencil.is_some() {
@@ -143,7 +143,7 @@ impl Maker<'_> {
         value
     }
 
-    fn operations(&mut self, pass: &Pass) -> Value {
+    fn operations(&mut self, pass: &PassDraft) -> Value {
         let mut value = json!({});
         let each: Vec<Value> = pass
             .color
@@ -180,7 +180,7 @@ impl Maker<'_> {
     }
 
     /// Returns clear commands between the draws.
-    fn clears(&mut self, pass: &Pass, draws: u32) -> Vec<Value> {
+    fn clears(&mut self, pass: &PassDraft, draws: u32) -> Vec<Value> {
         let count = self.choices.range(1, 2);
         let mut before = 0;
         let mut clears = Vec::new();
@@ -227,7 +227,13 @@ impl Maker<'_> {
     }
 
     /// Adds resolves to a pass with several samples.
-    fn resolves(&mut self, pass: &Pass, index: usize, value: &mut Value, read: &mut Vec<String>) {
+    fn resolves(
+        &mut self,
+        pass: &PassDraft,
+        index: usize,
+        value: &mut Value,
+        read: &mut Vec<String>,
+    ) {
         if !pass.color.is_empty() && self.extra("resolve") {
             let mut resolves = Vec::new();
             for (i, (_, format)) in pass.color.iter().enumerate() {

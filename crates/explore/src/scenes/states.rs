@@ -1,6 +1,6 @@
 //! States of random draws: tests, blending, masks.
 
-use super::{Maker, Pass};
+use super::{Maker, PassDraft};
 use etalon_frame::{Feature, TextureFormat};
 use etalon_scene::{
     AdvancedBlend, BlendFactor, BlendOperation, CompareFunction, LogicOperation, Shader,
@@ -29,7 +29,7 @@ impl Maker<'_> {
         self.choices.word(state, &functions.map(Is::name))
     }
 
-    pub(super) fn depth_test(&mut self, pass: &Pass) -> Option<Value> {
+    pub(super) fn depth_test(&mut self, pass: &PassDraft) -> Option<Value> {
         if !pass.has_depth() || self.choices.flag("no depth test", 5) {
             return None;
         }
@@ -38,7 +38,7 @@ impl Maker<'_> {
         Some(json!({ "compare": compare, "write": write }))
     }
 
-    pub(super) fn stencil_test(&mut self, pass: &Pass) -> Option<Value> {
+    pub(super) fn stencil_test(&mut self, pass: &PassDraft) -> Option<Value> {
         const STATES: [[&str; 4]; 2] = [
             [
                 "front compare",
@@ -101,7 +101,7 @@ impl Maker<'_> {
     }
 
     /// Adds blending or a replacement for it, and write masks.
-    pub(super) fn output(&mut self, pass: &Pass, second: bool, draw: &mut Value) {
+    pub(super) fn output(&mut self, pass: &PassDraft, second: bool, draw: &mut Value) {
         let space = self.space;
         let blendable = |f: &TextureFormat| space.blendable.contains(f) && !f.is_integer();
         let can_blend = pass.color.iter().all(|(_, f)| blendable(f));
@@ -198,7 +198,7 @@ impl Maker<'_> {
     }
 
     /// Adds states of multisampling, some of them also without several samples.
-    pub(super) fn multisample(&mut self, pass: &Pass, shader: Shader, draw: &mut Value) {
+    pub(super) fn multisample(&mut self, pass: &PassDraft, shader: Shader, draw: &mut Value) {
         let mut value = json!({});
         if pass.samples > 1 {
             if self.choices.flag("sample mask", 3) {

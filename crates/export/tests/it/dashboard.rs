@@ -1,7 +1,7 @@
 //! The queries of `ci/history` name what an export has: metrics and labels of the dashboard, good verdicts everywhere.
 
 use crate::made::{adapter, exported, run, wall};
-use etalon_export::{Format, Selection};
+use etalon_export::{ExportFormat, RunChoice};
 use etalon_history::Outcome;
 use etalon_record::Verdict;
 use serde_json::Value;
@@ -29,7 +29,7 @@ fn samples() -> String {
     // [`words`] reads no escapes.
     run.machine.os = "an os".to_owned();
     run.ruler = Some("a ruler".to_owned());
-    let (out, _dir) = exported(&[run], Format::OpenMetrics, &Selection::default());
+    let (out, _dir) = exported(&[run], ExportFormat::OpenMetrics, &RunChoice::default());
     fs::read_to_string(out.join("history.om")).unwrap()
 }
 

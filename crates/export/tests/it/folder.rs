@@ -1,7 +1,7 @@
 //! The folder of an export: which folders are accepted, and that no name leads out of it.
 
 use crate::made::{FORMATS, daily, files, history};
-use etalon_export::{ExportError, Selection, export};
+use etalon_export::{ExportError, RunChoice, export};
 use std::fs;
 
 #[test]
@@ -10,7 +10,7 @@ fn every_format_is_the_same_each_time_and_stays_in_its_folder() {
     let history = history(dir.path(), &daily(&["2026-01-01", "2026-01-02"]));
     for format in FORMATS {
         let (first, second) = (dir.path().join("x/one"), dir.path().join("x/two"));
-        let everything = Selection::default();
+        let everything = RunChoice::default();
         let written = export(&history, format, &everything, &first).unwrap();
         export(&history, format, &everything, &second).unwrap();
         let (a, b) = (files(&first), files(&second));
@@ -29,7 +29,7 @@ fn a_folder_that_holds_something_stays_as_it_is() {
     fs::create_dir(&out).unwrap();
     fs::write(out.join("mine"), "mine").unwrap();
     for format in FORMATS {
-        let refused = export(&history, format, &Selection::default(), &out);
+        let refused = export(&history, format, &RunChoice::default(), &out);
         assert!(
             matches!(refused, Err(ExportError::NotEmpty { .. })),
             "{format:?}"
@@ -46,7 +46,7 @@ fn a_place_that_cannot_be_a_folder_is_named() {
     fs::write(&file, "").unwrap();
     for format in FORMATS {
         for out in [file.clone(), file.join("below")] {
-            let error = export(&history, format, &Selection::default(), &out).unwrap_err();
+            let error = export(&history, format, &RunChoice::default(), &out).unwrap_err();
             assert!(matches!(error, ExportError::Folder(_)), "{error:?}");
             let line = error.to_string();
             assert!(line.contains(&file.display().to_string()), "{line}");

@@ -1,7 +1,7 @@
 //! The files for Bencher and github-action-benchmark: the latest times of each series.
 
 use crate::made::{adapter, exported, run, wall};
-use etalon_export::{Format, Selection};
+use etalon_export::{ExportFormat, RunChoice};
 use etalon_history::{FrameTimes, NewRun, parse_time};
 use serde_json::{Value, json};
 use std::fs;
@@ -40,7 +40,7 @@ fn read(out: &Path, name: &str) -> Value {
 
 #[test]
 fn bencher_has_every_time_with_its_interval() {
-    let (out, _dir) = exported(&nights(), Format::Bencher, &Selection::default());
+    let (out, _dir) = exported(&nights(), ExportFormat::Bencher, &RunChoice::default());
     let measures = read(&out, "bencher.json");
     assert_eq!(measures.as_object().unwrap().len(), 2);
     assert_eq!(
@@ -58,7 +58,11 @@ fn bencher_has_every_time_with_its_interval() {
 
 #[test]
 fn the_action_has_wall_times_with_their_reach() {
-    let (out, _dir) = exported(&nights(), Format::ActionBenchmark, &Selection::default());
+    let (out, _dir) = exported(
+        &nights(),
+        ExportFormat::ActionBenchmark,
+        &RunChoice::default(),
+    );
     let document = read(&out, "benchmark-action.json");
     let of_case = |name: &str| {
         let entries = document.as_array().unwrap();
@@ -83,11 +87,11 @@ fn the_action_has_wall_times_with_their_reach() {
 
 #[test]
 fn the_latest_run_is_the_latest_of_those_selected() {
-    let selection = Selection {
+    let selection = RunChoice {
         since: parse_time("2026-01-03"),
         last: None,
     };
-    let (out, _dir) = exported(&nights(), Format::Bencher, &selection);
+    let (out, _dir) = exported(&nights(), ExportFormat::Bencher, &selection);
     let measures = read(&out, "bencher.json");
     assert_eq!(measures.as_object().unwrap().len(), 1);
     assert_eq!(measures.get(BENCHMARK), None);

@@ -1,6 +1,6 @@
 //! Runs made by hand, the history that holds them, and the files of a folder.
 
-use etalon_export::{Format, Selection, export};
+use etalon_export::{ExportFormat, RunChoice, export};
 use etalon_frame::{AdapterInfo, Aspect};
 use etalon_history::{
     Adapter, Asserted, FrameTimes, History, Kind, Labels, MethodMeasures, NewAdapter, NewRun,
@@ -15,11 +15,11 @@ use std::path::{Path, PathBuf};
 pub(crate) const HOSTILE: &str = "../a\"b\\c\n/é";
 
 /// Every format.
-pub(crate) const FORMATS: [Format; 4] = [
-    Format::Parquet,
-    Format::OpenMetrics,
-    Format::Bencher,
-    Format::ActionBenchmark,
+pub(crate) const FORMATS: [ExportFormat; 4] = [
+    ExportFormat::Parquet,
+    ExportFormat::OpenMetrics,
+    ExportFormat::Bencher,
+    ExportFormat::ActionBenchmark,
 ];
 
 /// An adapter of this name and version, without records.
@@ -116,8 +116,8 @@ pub(crate) fn history(dir: &Path, runs: &[NewRun]) -> History {
 /// Exports the selected ones of these runs. Returns the folder, and the guard that removes it.
 pub(crate) fn exported(
     runs: &[NewRun],
-    format: Format,
-    selection: &Selection,
+    format: ExportFormat,
+    selection: &RunChoice,
 ) -> (PathBuf, tempfile::TempDir) {
     let dir = tempfile::tempdir().unwrap();
     let out = dir.path().join("out");
@@ -134,7 +134,7 @@ pub(crate) fn time(run: &NewRun) -> i64 {
 
 /// The selected runs in the order of their times. Of runs with the same header only the last added one
 /// counts.
-pub(crate) fn selected<'r>(runs: &'r [NewRun], selection: &Selection) -> Vec<&'r NewRun> {
+pub(crate) fn selected<'r>(runs: &'r [NewRun], selection: &RunChoice) -> Vec<&'r NewRun> {
     let last: HashMap<[u8; 32], usize> = runs.iter().map(|r| r.header).zip(0..).collect();
     let mut kept: Vec<&NewRun> = runs
         .iter()

@@ -2,7 +2,7 @@
 
 use crate::made::{HOSTILE, daily, exported, machine, middle, selected, time};
 use crate::random::{runs, selections};
-use etalon_export::{Format, Selection};
+use etalon_export::{ExportFormat, RunChoice};
 use etalon_history::{FrameTimes, Kind, NewRun};
 use proptest::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -190,8 +190,12 @@ fn expected_samples(runs: &[&NewRun]) -> Samples {
 
 #[test]
 fn known_samples_have_these_values() {
-    let everything = Selection::default();
-    let (out, _dir) = exported(&daily(&["2026-01-01"]), Format::OpenMetrics, &everything);
+    let everything = RunChoice::default();
+    let (out, _dir) = exported(
+        &daily(&["2026-01-01"]),
+        ExportFormat::OpenMetrics,
+        &everything,
+    );
     let text = fs::read_to_string(out.join("history.om")).unwrap();
     assert!(text.contains(r#"adapter="../a\"b\\c\n/é""#), "{text}");
     let samples = read(&text);
@@ -215,7 +219,7 @@ proptest! {
     fn samples_are_what_was_added(runs in runs(), selection in selections()) {
         let chosen = selected(&runs, &selection);
         prop_assume!(!chosen.is_empty());
-        let (out, _dir) = exported(&runs, Format::OpenMetrics, &selection);
+        let (out, _dir) = exported(&runs, ExportFormat::OpenMetrics, &selection);
         let text = fs::read_to_string(out.join("history.om")).unwrap();
         prop_assert_eq!(read(&text), expected_samples(&chosen));
     }

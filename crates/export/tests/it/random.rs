@@ -1,7 +1,7 @@
 //! Random runs: few names, times and outcomes, so that runs share series, and any of them can be hostile.
 
 use crate::made::{HOSTILE, adapter, run};
-use etalon_export::Selection;
+use etalon_export::RunChoice;
 use etalon_frame::Aspect;
 use etalon_history::{
     Asserted, FrameTimes, Kind, Labels, Measures, MethodMeasures, NewAdapter, NewRun, Outcome,
@@ -147,10 +147,10 @@ pub(crate) fn runs() -> impl Strategy<Value = Vec<NewRun>> {
 }
 
 /// Any selection of them.
-pub(crate) fn selections() -> impl Strategy<Value = Selection> {
+pub(crate) fn selections() -> impl Strategy<Value = RunChoice> {
     let since = prop::option::weighted(0.3, 1u8..5);
     let last = prop::option::weighted(0.3, 1usize..4);
-    (since, last).prop_map(|(day, last)| Selection {
+    (since, last).prop_map(|(day, last)| RunChoice {
         since: day.and_then(|day| parse_time(&format!("2026-01-0{day}"))),
         last,
     })

@@ -1,20 +1,20 @@
 //! Selected runs, and empty selections.
 
 use crate::made::{FORMATS, daily, history, selected};
-use etalon_export::{ExportError, Selection, export};
+use etalon_export::{ExportError, RunChoice, export};
 use etalon_history::parse_time;
 
 const DAYS: [&str; 3] = ["2026-01-01", "2026-01-02", "2026-01-03"];
 
-fn since(day: &str) -> Selection {
-    Selection {
+fn since(day: &str) -> RunChoice {
+    RunChoice {
         since: parse_time(day),
         last: None,
     }
 }
 
-fn last(n: usize) -> Selection {
-    Selection {
+fn last(n: usize) -> RunChoice {
+    RunChoice {
         since: None,
         last: Some(n),
     }
@@ -29,7 +29,7 @@ fn where_no_run_is_selected_nothing_is_written() {
     let out = dir.path().join("out");
     for format in FORMATS {
         for (history, selection) in [
-            (&empty, Selection::default()),
+            (&empty, RunChoice::default()),
             (&full, since("2026-01-04")),
             (&full, last(0)),
         ] {
@@ -54,7 +54,7 @@ fn a_run_of_the_day_itself_is_late_enough() {
         (last(2), 2),
         (last(9), 3),
         (
-            Selection {
+            RunChoice {
                 last: Some(1),
                 ..since("2026-01-01")
             },

@@ -2,7 +2,7 @@
 
 use crate::made::{HOSTILE, daily, exported, files, machine, middle, selected, time};
 use crate::random::{runs, selections};
-use etalon_export::{Format, Selection};
+use etalon_export::{ExportFormat, RunChoice};
 use etalon_history::{NewAdapter, NewRun, format_time};
 use parquet::file::reader::{FileReader as _, SerializedFileReader};
 use parquet::record::Field;
@@ -155,8 +155,8 @@ fn sorted(mut rows: Vec<(String, Row)>) -> Vec<(String, Row)> {
 fn a_known_record_has_these_values() {
     let (out, _dir) = exported(
         &daily(&["2026-01-01"]),
-        Format::Parquet,
-        &Selection::default(),
+        ExportFormat::Parquet,
+        &RunChoice::default(),
     );
     let rows = read(&out, "records");
     let value = |verdict: &str, name: &str| {
@@ -197,7 +197,7 @@ proptest! {
     fn tables_hold_what_was_added(runs in runs(), selection in selections()) {
         let chosen = selected(&runs, &selection);
         prop_assume!(!chosen.is_empty());
-        let (out, _dir) = exported(&runs, Format::Parquet, &selection);
+        let (out, _dir) = exported(&runs, ExportFormat::Parquet, &selection);
         prop_assert_eq!(sorted(read(&out, "records")), sorted(records(&chosen)));
         prop_assert_eq!(sorted(read(&out, "frame_times")), sorted(frame_times(&chosen)));
     }

@@ -1,7 +1,7 @@
 //! The functions that are recorded, and the functions that need not be.
 
 use super::kinds::*;
-use super::recorder::{Pointer, announced, driver, keep, keeps, new_output};
+use super::recorder::{CallPointer, announced, driver, keep, keeps, new_output};
 use etalon_backend::Argument;
 use std::ffi::{CStr, c_char, c_void};
 
@@ -45,10 +45,10 @@ macro_rules! functions {
         }
 
         /// Returns the function that records the driver's function of this name, with its name.
-        pub(super) fn shim(name: &str) -> Option<(&'static str, Pointer)> {
+        pub(super) fn shim(name: &str) -> Option<(&'static str, CallPointer)> {
             match name {
-                $(stringify!($name) => Some((stringify!($name), plain::$name as Pointer)),)+
-                $(stringify!($other) => Some((stringify!($other), special::$other as Pointer)),)+
+                $(stringify!($name) => Some((stringify!($name), plain::$name as CallPointer)),)+
+                $(stringify!($other) => Some((stringify!($other), special::$other as CallPointer)),)+
                 _ => None,
             }
         }
@@ -353,10 +353,10 @@ mod special {
     pub(super) unsafe extern "system" fn glBufferData(
         target: u32,
         size: isize,
-        data: Pointer,
+        data: CallPointer,
         usage: u32,
     ) {
-        own!(glBufferData(target: u32, size: isize, data: Pointer, usage: u32));
+        own!(glBufferData(target: u32, size: isize, data: CallPointer, usage: u32));
         if keeps() {
             // SAFETY: the caller's data has this size.
             let data = unsafe { bytes(data, size.max(0) as usize) };
@@ -374,9 +374,9 @@ mod special {
         target: u32,
         offset: isize,
         size: isize,
-        data: Pointer,
+        data: CallPointer,
     ) {
-        own!(glBufferSubData(target: u32, offset: isize, size: isize, data: Pointer));
+        own!(glBufferSubData(target: u32, offset: isize, size: isize, data: CallPointer));
         if keeps() {
             // SAFETY: the caller's data has this size.
             let data = unsafe { bytes(data, size.max(0) as usize) };
@@ -607,10 +607,10 @@ mod special {
         ($($name:ident($($arg:ident: $kind:ident),*; $size:expr);)+) => {
             $(
                 pub(super) unsafe extern "system" fn $name(
-                    $($arg: <$kind as ArgumentKind>::Raw,)* format: u32, kind: u32, pixels: Pointer,
+                    $($arg: <$kind as ArgumentKind>::Raw,)* format: u32, kind: u32, pixels: CallPointer,
                 ) {
                     own!($name(
-                        $($arg: <$kind as ArgumentKind>::Raw,)* format: u32, kind: u32, pixels: Pointer
+                        $($arg: <$kind as ArgumentKind>::Raw,)* format: u32, kind: u32, pixels: CallPointer
                     ));
                     if keeps() {
                         // SAFETY: the backend uploads whole images, tightly packed.

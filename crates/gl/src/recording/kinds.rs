@@ -3,7 +3,7 @@
 use super::names::{
     barrier_bits, buffer_bits, constant, factor, map_bits, or_none, parameter, primitive,
 };
-use super::recorder::Pointer;
+use super::recorder::CallPointer;
 use etalon_backend::Argument;
 
 /// A kind of argument.
@@ -66,7 +66,7 @@ kinds! {
     /// A 64-bit float.
     Double(f64): |v| Argument::Double(v.to_bits());
     /// An offset in the bound buffer.
-    Offset(Pointer): |v| Argument::Offset(v as u64);
+    Offset(CallPointer): |v| Argument::Offset(v as u64);
     /// A buffer.
     Buffer(u32): |v| object("buffer", v);
     /// A texture.

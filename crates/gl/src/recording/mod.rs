@@ -12,7 +12,7 @@ mod names;
 mod recorder;
 
 pub(crate) use recorder::{
-    Pointer, WHOLE, begin, counter_part, counters, end, images, install, is_installed, memory,
+    CallPointer, WHOLE, begin, counter_part, counters, end, images, install, is_installed, memory,
     plane, recorded,
 };
 
@@ -20,7 +20,7 @@ use recorder::stands_before;
 use std::ffi::CStr;
 
 /// Returns the address that the backend finds for an entry point.
-pub(crate) fn address(name: &CStr, address: Pointer) -> Pointer {
+pub(crate) fn address(name: &CStr, address: CallPointer) -> CallPointer {
     if address.is_null() || !is_installed() {
         return address;
     }

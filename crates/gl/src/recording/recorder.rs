@@ -1,15 +1,15 @@
 //! The recorder of the calls of a thread.
 
 use etalon_backend::{
-    Argument, Call, CounterPart, Form, Phase, Plane, RecordedContext, RecordedCounter,
-    RecordedImage, Recording,
+    Argument, CounterPart, NumberForm, Phase, RecordedCall, RecordedContext, RecordedCounter,
+    RecordedImage, RecordedPlane, Recording,
 };
 use etalon_frame::{Aspect, Image};
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::ffi::c_void;
 
-pub(crate) type Pointer = *const c_void;
+pub(crate) type CallPointer = *const c_void;
 
 thread_local! {
     static RECORDER: RefCell<Option<Recorder>> = const { RefCell::new(None) };
@@ -25,7 +25,7 @@ struct Recorder {
     driver: HashMap<&'static str, usize>,
     /// The phase of the calls; `None` while they are not recorded.
     phase: Option<Phase>,
-    calls: Vec<Call>,
+    calls: Vec<RecordedCall>,
     /// The number of memories that calls have written.
     outputs: u32,
     /// The size of the last memory in bytes.
@@ -33,7 +33,7 @@ struct Recorder {
     /// The memory that the next reads write: its address, number and size.
     open: Option<(usize, u32, u64)>,
     /// The planes that no image has yet.
-    planes: Vec<(Aspect, Plane)>,
+    planes: Vec<(Aspect, RecordedPlane)>,
     images: Vec<RecordedImage>,
     counters: Vec<RecordedCounter>,
 }
@@ -67,10 +67,10 @@ pub(crate) fn memory(bytes: &[u8]) {
 }
 
 /// Adds a plane of texels in the memory that was announced last.
-pub(crate) fn plane(aspect: Aspect, texel: u32, channels: Vec<[u32; 2]>, form: Form) {
+pub(crate) fn plane(aspect: Aspect, texel: u32, channels: Vec<[u32; 2]>, form: NumberForm) {
     with(|r| {
         if let Some((_, output, _)) = r.open {
-            let plane = Plane {
+            let plane = RecordedPlane {
                 output,
                 texel,
                 channels,
@@ -167,7 +167,7 @@ pub(super) fn keeps() -> bool {
 pub(super) fn keep(function: &str, arguments: Vec<Argument>, result: Option<Argument>) {
     with(|r| {
         if let Some(phase) = r.phase {
-            r.calls.push(Call {
+            r.calls.push(RecordedCall {
                 phase,
                 function: function.to_owned(),
                 arguments,
@@ -192,6 +192,6 @@ pub(super) fn announced(address: usize) -> Argument {
 }
 
 /// Keeps the address of the driver's function that a function of this module replaces.
-pub(super) fn stands_before(name: &'static str, address: Pointer) {
+pub(super) fn stands_before(name: &'static str, address: CallPointer) {
     with(|r| r.driver.insert(name, address as usize));
 }

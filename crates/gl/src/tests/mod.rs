@@ -1,17 +1,17 @@
 //! Checks of internals: the choices that a context makes, and drivers with capabilities disabled.
 
-use crate::{GlBackend, Options, Platform, Profile, Tuning, open_with};
+use crate::{GlBackend, GlOptions, Platform, Profile, Tuning, open_with};
 use etalon_backend::{Backend, BackendError};
 use etalon_conformance::{
-    Defect, Driver, GALLIUM_INSTALL, Known, LLVMPIPE, SOFTPIPE, SOFTPIPE_CLEARS, SOFTPIPE_WRONG,
-    ZINK, in_child, json, known, run_all, scene, variables,
+    Defect, GALLIUM_INSTALL, KnownFaults, LLVMPIPE, SOFTPIPE, SOFTPIPE_CLEARS, SOFTPIPE_WRONG,
+    TestedDriver, ZINK, in_child, json, known, run_all, scene, variables,
 };
 use etalon_frame::Feature;
 
 /// Returns the contexts of a driver, core profile first.
 fn contexts(driver: &str, clip_control: bool) -> [GlBackend; 2] {
     [Profile::Core, Profile::Es].map(|profile| {
-        let options = Options {
+        let options = GlOptions {
             profile,
             platform: Platform::Surfaceless,
             library: None,
@@ -36,8 +36,8 @@ fn without_clip_control(driver: &str, defects: &'static [&'static [Defect]]) {
         } else {
             "gl"
         };
-        let described = Driver {
-            known: Known {
+        let described = TestedDriver {
+            known: KnownFaults {
                 defects,
                 ..known(&format!("{prefix}:{driver}"))
             },

@@ -4,7 +4,7 @@ use crate::drivers::{self, context, is};
 use etalon_backend::Backend;
 use etalon_conformance::{LLVMPIPE, in_child, json, run_all, variables};
 use etalon_frame::{Api, ReadPath, TextureFormat};
-use etalon_gl::{Options, Platform, Profile, enumerate, open};
+use etalon_gl::{GlOptions, Platform, Profile, enumerate, open};
 
 /// Depths of OpenGL ES are read by a shader, all else by a copy.
 pub(crate) fn offers(backend: &dyn Backend) {
@@ -33,7 +33,7 @@ fn devices_are_enumerated_and_open() {
         println!("{devices:?}");
         let software = devices.iter().find(|d| d.software);
         let software = software.expect("Mesa's software device");
-        let options = Options {
+        let options = GlOptions {
             profile: Profile::Core,
             platform: Platform::Device(software.index),
             library: None,
@@ -43,7 +43,7 @@ fn devices_are_enumerated_and_open() {
         };
         let backend = open("gl:device", &options).expect("the software device opens");
         run_all(&backend, &drivers::llvmpipe());
-        let none = Options {
+        let none = GlOptions {
             platform: Platform::Device(devices.len()),
             ..options
         };

@@ -2,10 +2,10 @@
 
 use etalon_backend::Backend;
 use etalon_conformance::{
-    Driver, GALLIUM_INSTALL, LLVMPIPE, SOFTPIPE, VIRGL, Value, ZINK, known, variables,
+    GALLIUM_INSTALL, LLVMPIPE, SOFTPIPE, TestedDriver, VIRGL, Value, ZINK, known, variables,
 };
 use etalon_frame::Api;
-use etalon_gl::{GlBackend, Options, Platform, Profile, open};
+use etalon_gl::{GlBackend, GlOptions, Platform, Profile, open};
 use etalon_keeper::{Served, Server, keep};
 use std::io::{BufReader, stdin};
 use std::process::Command;
@@ -43,7 +43,7 @@ fn virgl_context(profile: Profile) -> Box<dyn Backend> {
 
 /// Opens a context, and asserts that it has the requested driver.
 pub(crate) fn context(profile: Profile, driver: &str) -> GlBackend {
-    let options = Options {
+    let options = GlOptions {
         profile,
         platform: Platform::Surfaceless,
         library: None,
@@ -78,8 +78,8 @@ fn driver(
     name: &str,
     environment: &'static [(&'static str, &'static str)],
     open: fn(bool) -> Box<dyn Backend>,
-) -> Driver<'static> {
-    Driver {
+) -> TestedDriver<'static> {
+    TestedDriver {
         known: known(name),
         environment: variables(environment),
         open,
@@ -87,40 +87,40 @@ fn driver(
     }
 }
 
-pub(crate) fn llvmpipe() -> Driver<'static> {
+pub(crate) fn llvmpipe() -> TestedDriver<'static> {
     let open = |_| Box::new(context(Profile::Core, "llvmpipe")) as Box<dyn Backend>;
     driver("gl:llvmpipe", LLVMPIPE, open)
 }
 
-pub(crate) fn llvmpipe_es() -> Driver<'static> {
+pub(crate) fn llvmpipe_es() -> TestedDriver<'static> {
     let open = |_| Box::new(context(Profile::Es, "llvmpipe")) as Box<dyn Backend>;
     driver("gl:es:llvmpipe", LLVMPIPE, open)
 }
 
-pub(crate) fn softpipe() -> Driver<'static> {
+pub(crate) fn softpipe() -> TestedDriver<'static> {
     let open = |_| Box::new(context(Profile::Core, "softpipe")) as Box<dyn Backend>;
     driver("gl:softpipe", SOFTPIPE, open)
 }
 
-pub(crate) fn softpipe_es() -> Driver<'static> {
+pub(crate) fn softpipe_es() -> TestedDriver<'static> {
     let open = |_| Box::new(context(Profile::Es, "softpipe")) as Box<dyn Backend>;
     driver("gl:es:softpipe", SOFTPIPE, open)
 }
 
-pub(crate) fn zink() -> Driver<'static> {
+pub(crate) fn zink() -> TestedDriver<'static> {
     let open = |_| Box::new(context(Profile::Core, "zink")) as Box<dyn Backend>;
     driver("gl:zink", ZINK, open)
 }
 
-pub(crate) fn zink_es() -> Driver<'static> {
+pub(crate) fn zink_es() -> TestedDriver<'static> {
     let open = |_| Box::new(context(Profile::Es, "zink")) as Box<dyn Backend>;
     driver("gl:es:zink", ZINK, open)
 }
 
-pub(crate) fn virgl() -> Driver<'static> {
+pub(crate) fn virgl() -> TestedDriver<'static> {
     driver("gl:virgl", VIRGL, |_| virgl_context(Profile::Core))
 }
 
-pub(crate) fn virgl_es() -> Driver<'static> {
+pub(crate) fn virgl_es() -> TestedDriver<'static> {
     driver("gl:es:virgl", VIRGL, |_| virgl_context(Profile::Es))
 }

@@ -3,7 +3,7 @@
 use crate::drivers::is;
 use etalon_backend::Backend;
 use etalon_case::Profile;
-use etalon_conformance::{Share, Subject, draw_library};
+use etalon_conformance::{CheckedBackend, Share, draw_library};
 
 /// Full axes if states cost nothing to compile, otherwise the quick profile.
 pub(crate) fn sample(backend: &dyn Backend) {
@@ -13,7 +13,7 @@ pub(crate) fn sample(backend: &dyn Backend) {
         (Profile::Quick, 2)
     };
     draw_library(
-        &Subject::new(backend, &[]),
+        &CheckedBackend::new(backend, &[]),
         profile,
         Share::sample(per_file),
     );

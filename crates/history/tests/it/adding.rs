@@ -2,8 +2,8 @@
 
 use crate::made::{adapter, case, run, times, with};
 use etalon_history::{
-    Added, History, Kind, Outcome, RunId, SeriesKey, Step, Subject, TriageEntry, TriageState,
-    Writer, parse_labels,
+    Added, History, Kind, Outcome, RunId, SeriesKey, TimeStep, TriageEntry, TriageState,
+    TriageSubject, Writer, parse_labels,
 };
 use etalon_record::{Machine, Time, Verdict};
 
@@ -196,20 +196,20 @@ fn the_last_entry_about_a_subject_counts() {
     let made = run(1, "2026-01-01", vec![with("cpu", "1", "p")]);
     writer.add(&made).unwrap();
     let history = History::open_read(&path).unwrap();
-    let verdict = Subject {
+    let verdict = TriageSubject {
         case: case(0),
         timeline: "cpu".to_owned(),
         step: None,
     };
-    let step = Subject {
-        step: Some(Step {
+    let step = TriageSubject {
+        step: Some(TimeStep {
             machine: history.runs()[0].machine,
             time: Time::Wall,
             run: history.runs()[0].id,
         }),
         ..verdict.clone()
     };
-    let entry = |subject: &Subject, state, reason: &str| TriageEntry {
+    let entry = |subject: &TriageSubject, state, reason: &str| TriageEntry {
         at: 7,
         author: "a person".to_owned(),
         subject: subject.clone(),

@@ -1,6 +1,6 @@
 //! Claims about accumulated rounding.
 
-use crate::claim::{Claim, Condition, Quantity, Test, one};
+use crate::claim::{Claim, FigureCondition, Quantity, Test, one};
 
 const QUESTION: &str = "accumulation";
 
@@ -11,7 +11,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
         "Closed form: half a code per layer, reduced by 1 - alpha in each later layer; a conversion within 0.6 codes",
         Test::HalfCodes {
             of: "ordered-8-bit",
-            holds: Condition::AtMost(1.2),
+            holds: FigureCondition::AtMost(1.2),
         },
     )
     .of(&["columns-alpha"]),
@@ -22,7 +22,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
         Test::Trend {
             quantity: Quantity::Largest,
             of: "ordered-8-bit",
-            holds: Condition::Above(1.0),
+            holds: FigureCondition::Above(1.0),
         },
     )
     .of(&["columns"]),
@@ -34,7 +34,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Rmse,
             of: one!("ordered-10-bit"),
             over: one!("ordered-8-bit"),
-            holds: Condition::Between(0.15, 0.4),
+            holds: FigureCondition::Between(0.15, 0.4),
         },
     )
     .of(&["columns"])

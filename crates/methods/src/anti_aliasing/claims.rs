@@ -1,6 +1,6 @@
 //! Claims about anti-aliasing.
 
-use crate::claim::{Claim, Condition, Quantity, Test, one};
+use crate::claim::{Claim, FigureCondition, Quantity, Test, one};
 
 const QUESTION: &str = "anti-aliasing";
 
@@ -13,7 +13,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Rmse,
             of: one!("msaa-8"),
             over: one!("msaa-2"),
-            holds: Condition::Below(1.0),
+            holds: FigureCondition::Below(1.0),
         },
     ),
     Claim::new(
@@ -24,7 +24,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Rmse,
             of: one!("coverage-to-alpha"),
             over: one!("msaa-4"),
-            holds: Condition::Below(1.0),
+            holds: FigureCondition::Below(1.0),
         },
     )
     .of(&["half-planes"]),
@@ -36,7 +36,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Rmse,
             of: one!("coverage-to-alpha-overlap"),
             over: one!("coverage-to-alpha"),
-            holds: Condition::Above(1.5),
+            holds: FigureCondition::Above(1.5),
         },
     )
     .of(&["checker-fan", "half-planes"]),
@@ -48,7 +48,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Fragments,
             of: one!("supersampling-2x2"),
             over: one!("none"),
-            holds: Condition::Between(3.5, 6.0),
+            holds: FigureCondition::Between(3.5, 6.0),
         },
     )
     .of(&["checker-fan", "half-planes", "thin-wedge"])
@@ -61,7 +61,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Fragments,
             of: one!("msaa-4"),
             over: one!("supersampling-2x2"),
-            holds: Condition::Below(1.0),
+            holds: FigureCondition::Below(1.0),
         },
     ),
     Claim::new(
@@ -72,7 +72,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Time,
             of: one!("msaa-4"),
             over: one!("supersampling-2x2"),
-            holds: Condition::Below(1.0),
+            holds: FigureCondition::Below(1.0),
         },
     ),
     Claim::new(
@@ -83,7 +83,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Rmse,
             of: one!("fxaa"),
             over: one!("none"),
-            holds: Condition::Below(1.0),
+            holds: FigureCondition::Below(1.0),
         },
     )
     .of(&["checker-fan", "half-planes", "thin-wedge"]),
@@ -95,7 +95,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Rmse,
             of: one!("fxaa"),
             over: one!("msaa-4"),
-            holds: Condition::Above(1.0),
+            holds: FigureCondition::Above(1.0),
         },
     )
     .of(&["thin-wedge", "wire-torus"]),

@@ -13,34 +13,34 @@ mod wire;
 
 pub(crate) use claims::CLAIMS;
 pub(crate) use lessons::LESSONS;
-pub(crate) use wire::Wire;
+pub(crate) use wire::AntiAliasingWire;
 
 use crate::error::ParameterError;
 use crate::method_scene::MethodScene;
 use crate::polygon::{Polygon, cover, mesh};
 use crate::stage::{SIZE, Stage, draw, over};
 use etalon_frame::TextureFormat;
-use etalon_scene::{AddressMode, Contents, FilterMode, Sampler, Scene, Shader};
-use scenes::Edges;
-use wire::MethodName;
+use etalon_scene::{AddressMode, AttachmentContents, FilterMode, Sampler, Scene, Shader};
+use scenes::EdgeScene;
+use wire::AntiAliasingMethod;
 
 /// Draws the scene by the method.
 ///
 /// # Errors
 /// If a parameter is out of its range.
-pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
-    let edges = Edges::new(wire)?;
+pub(crate) fn make(wire: &AntiAliasingWire) -> Result<MethodScene, ParameterError> {
+    let edges = EdgeScene::new(wire)?;
     let scene = match wire.method {
-        MethodName::None => plain(&edges),
-        MethodName::Msaa2 => multisampled(&edges, 2),
-        MethodName::Msaa4 => multisampled(&edges, 4),
-        MethodName::Msaa8 => multisampled(&edges, 8),
-        MethodName::Msaa16 => multisampled(&edges, 16),
-        MethodName::Supersampling2x2 => supersampled(&edges, 1),
-        MethodName::Supersampling4x4 => supersampled(&edges, 2),
-        MethodName::Fxaa => fxaa(&edges),
-        MethodName::CoverageToAlpha => coverage_to_alpha(&edges),
-        MethodName::CoverageToAlphaOverlap => coverage_to_alpha_overlap(&edges),
+        AntiAliasingMethod::None => plain(&edges),
+        AntiAliasingMethod::Msaa2 => multisampled(&edges, 2),
+        AntiAliasingMethod::Msaa4 => multisampled(&edges, 4),
+        AntiAliasingMethod::Msaa8 => multisampled(&edges, 8),
+        AntiAliasingMethod::Msaa16 => multisampled(&edges, 16),
+        AntiAliasingMethod::Supersampling2x2 => supersampled(&edges, 1),
+        AntiAliasingMethod::Supersampling4x4 => supersampled(&edges, 2),
+        AntiAliasingMethod::Fxaa => fxaa(&edges),
+        AntiAliasingMethod::CoverageToAlpha => coverage_to_alpha(&edges),
+        AntiAliasingMethod::CoverageToAlphaOverlap => coverage_to_alpha_overlap(&edges),
     };
     Ok(MethodScene {
         scene,
@@ -51,12 +51,12 @@ pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
 /// The format of pictures.
 const PICTURE: TextureFormat = TextureFormat::Rgba8Unorm;
 
-fn clear(edges: &Edges) -> [f64; 4] {
+fn clear(edges: &EdgeScene) -> [f64; 4] {
     let [r, g, b] = edges.background;
     [r, g, b, 1.0]
 }
 
-fn plain(edges: &Edges) -> Scene {
+fn plain(edges: &EdgeScene) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(edges));
     let drawn = draw(Shader::FlatColor, mesh(SIZE, &edges.polygons()));
@@ -64,17 +64,17 @@ fn plain(edges: &Edges) -> Scene {
     stage.read(&[picture])
 }
 
-fn multisampled(edges: &Edges, count: u32) -> Scene {
+fn multisampled(edges: &EdgeScene, count: u32) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(edges));
-    let contents = Contents::Color(clear(edges).map(|c| c as f32));
+    let contents = AttachmentContents::Color(clear(edges).map(|c| c as f32));
     let samples = stage.attachment("samples", PICTURE, SIZE, count, contents);
     let drawn = draw(Shader::FlatColor, mesh(SIZE, &edges.polygons()));
     stage.resolving_pass(&[samples], vec![Some(picture)], None, vec![drawn]);
     stage.read(&[picture])
 }
 
-fn supersampled(edges: &Edges, doublings: u32) -> Scene {
+fn supersampled(edges: &EdgeScene, doublings: u32) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(edges));
     let drawn = draw(Shader::FlatColor, mesh(SIZE, &edges.polygons()));
@@ -88,7 +88,7 @@ const CONTRAST: [f32; 2] = [1.0 / 6.0, 1.0 / 12.0];
 const SINGLE: f32 = 0.75;
 
 /// Draws with one sample, then blends along the picture's edges in a second pass.
-fn fxaa(edges: &Edges) -> Scene {
+fn fxaa(edges: &EdgeScene) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(edges));
     let jagged = stage.color("jagged", PICTURE, SIZE, clear(edges));
@@ -107,7 +107,7 @@ fn fxaa(edges: &Edges) -> Scene {
     stage.read(&[picture])
 }
 
-fn coverage_to_alpha(edges: &Edges) -> Scene {
+fn coverage_to_alpha(edges: &EdgeScene) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(edges));
     let mut draws = Vec::new();
@@ -120,7 +120,7 @@ fn coverage_to_alpha(edges: &Edges) -> Scene {
     stage.read(&[picture])
 }
 
-fn coverage_to_alpha_overlap(edges: &Edges) -> Scene {
+fn coverage_to_alpha_overlap(edges: &EdgeScene) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(edges));
     let pieces = edges.back.iter().chain(&edges.front);

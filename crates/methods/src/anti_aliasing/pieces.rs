@@ -4,7 +4,7 @@ use crate::polygon::Polygon;
 
 /// A directed line: the distance of a point from it is positive inside.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Line {
+pub(super) struct DirectedLine {
     /// The unit vector that points inside, in texels.
     normal: [f64; 2],
     /// The distance of the picture's corner from the line.
@@ -13,7 +13,7 @@ pub(super) struct Line {
     end: bool,
 }
 
-impl Line {
+impl DirectedLine {
     /// Creates the line through a point, with the inside in the normal's direction.
     pub(super) fn new(point: [f64; 2], [x, y]: [f64; 2]) -> Self {
         let length = x.hypot(y);
@@ -51,7 +51,7 @@ pub(super) struct Piece {
     /// Left, top, right and bottom of the rectangle that clips the piece, on texel borders.
     pub(super) within: [f64; 4],
     /// The lines that bound the piece.
-    pub(super) lines: Vec<Line>,
+    pub(super) lines: Vec<DirectedLine>,
     /// The piece's colour.
     pub(super) color: [f64; 4],
 }
@@ -73,9 +73,9 @@ impl Piece {
     /// smoothed edges, up to a texel beyond the edge. Texture coordinates hold the distance from the edge.
     /// Ends of wire segments are smoothed only if `overlap` is set.
     pub(super) fn smooth(&self, overlap: bool) -> Vec<Polygon> {
-        let (smooth, hard): (Vec<Line>, Vec<Line>) =
+        let (smooth, hard): (Vec<DirectedLine>, Vec<DirectedLine>) =
             self.lines.iter().partition(|l| overlap || !l.end);
-        let part = |edge: &Line| {
+        let part = |edge: &DirectedLine| {
             let corners = self.clipped(|point| {
                 let edge_distance = edge.distance(point);
                 let distances = smooth.iter().map(|l| l.distance(point));

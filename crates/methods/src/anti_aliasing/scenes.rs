@@ -1,16 +1,16 @@
 //! Scenes of edges.
 
-use super::pieces::{DEPTH, Line, Piece};
-use super::wire::{SceneName, Wire};
+use super::pieces::{DEPTH, DirectedLine, Piece};
+use super::wire::{AntiAliasingScene, AntiAliasingWire};
 use crate::error::{ParameterError, within};
 use crate::polygon::Polygon;
 use crate::stage::SIZE;
-use crate::truth::{Coverage, Truth};
+use crate::truth::{TexelCoverage, Truth};
 use std::f64::consts::TAU;
 
 /// A ground on texel borders, and pieces on it.
 #[derive(Clone, Debug)]
-pub(super) struct Edges {
+pub(super) struct EdgeScene {
     /// Red, green and blue behind everything. If the ground covers the picture, it can only show in seams.
     pub(super) background: [f64; 3],
     /// The polygons below the pieces.
@@ -27,21 +27,21 @@ const BEHIND: [f64; 3] = [0.0, 0.0, 0.0];
 
 const ALL: [f64; 4] = [0.0, 0.0, SIZE[0] as f64, SIZE[1] as f64];
 
-impl Edges {
+impl EdgeScene {
     /// Returns the scene of a case.
     ///
     /// # Errors
     /// If a parameter is out of its range.
-    pub(super) fn new(wire: &Wire) -> Result<Self, ParameterError> {
+    pub(super) fn new(wire: &AntiAliasingWire) -> Result<Self, ParameterError> {
         Ok(match wire.scene {
-            SceneName::HalfPlanes => {
+            AntiAliasingScene::HalfPlanes => {
                 half_planes(within("angle", wire.angle.unwrap_or(20.0), 0.0..=90.0)?)
             }
-            SceneName::ThinWedge => {
+            AntiAliasingScene::ThinWedge => {
                 thin_wedge(within("opening", wire.opening.unwrap_or(4.0), 0.25..=60.0)?)
             }
-            SceneName::CheckerFan => checker_fan(),
-            SceneName::WireTorus => wire_torus(),
+            AntiAliasingScene::CheckerFan => checker_fan(),
+            AntiAliasingScene::WireTorus => wire_torus(),
         })
     }
 
@@ -56,7 +56,7 @@ impl Edges {
         Truth {
             size: SIZE,
             background: self.background,
-            coverage: Coverage::Area,
+            coverage: TexelCoverage::Area,
             surfaces: self.polygons().iter().map(Polygon::surface).collect(),
         }
     }
@@ -71,7 +71,7 @@ impl Edges {
     }
 }
 
-fn piece(within: [f64; 4], lines: &[Line], color: [f64; 4]) -> Piece {
+fn piece(within: [f64; 4], lines: &[DirectedLine], color: [f64; 4]) -> Piece {
     Piece {
         within,
         lines: lines.to_vec(),
@@ -79,7 +79,7 @@ fn piece(within: [f64; 4], lines: &[Line], color: [f64; 4]) -> Piece {
     }
 }
 
-fn half_planes(angle: f64) -> Edges {
+fn half_planes(angle: f64) -> EdgeScene {
     let (sin, cos) = angle.to_radians().sin_cos();
     let (mut front, mut back) = (Vec::new(), Vec::new());
     for i in 0..16_u32 {
@@ -87,15 +87,15 @@ fn half_planes(angle: f64) -> Edges {
         // Halfway between the sixteenths of a texel at which samples are.
         let offset = (f64::from(i) + 0.5) / 16.0;
         let middle = [left + 16.0 - sin * offset, top + 16.0 + cos * offset];
-        let edge = Line::new(middle, [-sin, cos]);
+        let edge = DirectedLine::new(middle, [-sin, cos]);
         let cell = [left, top, left + 32.0, top + 32.0];
         front.push(piece(cell, &[edge], INK));
         back.push(piece(cell, &[edge.reversed()], PAPER));
     }
-    Edges::on_paper(front, back)
+    EdgeScene::on_paper(front, back)
 }
 
-fn thin_wedge(opening: f64) -> Edges {
+fn thin_wedge(opening: f64) -> EdgeScene {
     let (mut front, mut back) = (Vec::new(), Vec::new());
     for (i, direction) in [3.0, -1.5, 5.0, 0.5].into_iter().enumerate() {
         let top = i as f64 * 32.0;
@@ -103,32 +103,32 @@ fn thin_wedge(opening: f64) -> Edges {
         let tip = [6.3, top + 15.7];
         let [above, below] = [-opening / 2.0, opening / 2.0]
             .map(|turn: f64| (direction + turn).to_radians().sin_cos());
-        let upper = Line::new(tip, [-above.0, above.1]);
-        let lower = Line::new(tip, [below.0, -below.1]);
+        let upper = DirectedLine::new(tip, [-above.0, above.1]);
+        let lower = DirectedLine::new(tip, [below.0, -below.1]);
         front.push(piece(cell, &[upper, lower], INK));
         back.push(piece(cell, &[upper.reversed()], PAPER));
         back.push(piece(cell, &[upper, lower.reversed()], PAPER));
     }
-    Edges::on_paper(front, back)
+    EdgeScene::on_paper(front, back)
 }
 
 /// Sectors of the fan; an even number, so that neighbours differ.
 const SECTORS: u32 = 24;
 
-fn checker_fan() -> Edges {
+fn checker_fan() -> EdgeScene {
     let center = [64.3, 63.8];
     let ray = |i: u32| (TAU * f64::from(i) / f64::from(SECTORS) + 0.1).sin_cos();
     let (mut front, mut back) = (Vec::new(), Vec::new());
     for i in 0..SECTORS {
         let (from, to) = (ray(i), ray(i + 1));
         let sides = [
-            Line::new(center, [-from.0, from.1]),
-            Line::new(center, [to.0, -to.1]),
+            DirectedLine::new(center, [-from.0, from.1]),
+            DirectedLine::new(center, [to.0, -to.1]),
         ];
         let middle = [from.1 + to.1, from.0 + to.0];
         let chord = |radius: f64| {
             let end = [center[0] + radius * from.1, center[1] + radius * from.0];
-            Line::new(end, middle)
+            DirectedLine::new(end, middle)
         };
         let rings = [
             vec![chord(16.0).reversed()],
@@ -144,7 +144,7 @@ fn checker_fan() -> Edges {
             }
         }
     }
-    Edges::on_paper(front, back)
+    EdgeScene::on_paper(front, back)
 }
 
 /// Steps around the torus and around its tube.
@@ -153,7 +153,7 @@ const STEPS: [u32; 2] = [18, 8];
 /// The width of wires, in texels.
 const WIRE: f64 = 1.25;
 
-fn wire_torus() -> Edges {
+fn wire_torus() -> EdgeScene {
     let point = |i: u32, j: u32| {
         let [around, tube] = [(i, STEPS[0]), (j, STEPS[1])];
         let (s, c) = (TAU * f64::from(around.0) / f64::from(around.1) + 0.05).sin_cos();
@@ -172,7 +172,7 @@ fn wire_torus() -> Edges {
         front.push(wire(from, point(i + 1, j)));
         front.push(wire(from, point(i, j + 1)));
     }
-    Edges {
+    EdgeScene {
         background: [PAPER[0], PAPER[1], PAPER[2]],
         ground: Vec::new(),
         front,
@@ -187,13 +187,13 @@ fn wire(from: [f64; 2], to: [f64; 2]) -> Piece {
     let beside = |sign: f64| {
         let shift = across.map(|v| v * WIRE / 2.0 * sign);
         let point = [from[0] + shift[0], from[1] + shift[1]];
-        Line::new(point, across.map(|v| -v * sign))
+        DirectedLine::new(point, across.map(|v| -v * sign))
     };
     let lines = [
         beside(1.0),
         beside(-1.0),
-        Line::new(from, along).ending(),
-        Line::new(to, along.map(|v| -v)).ending(),
+        DirectedLine::new(from, along).ending(),
+        DirectedLine::new(to, along.map(|v| -v)).ending(),
     ];
     piece(ALL, &lines, INK)
 }

@@ -1,34 +1,34 @@
 //! Tests of the methods' scenes. Other tests draw and measure the pictures.
 
 use super::make;
-use super::scenes::Edges;
-use super::wire::{MethodName, SceneName, Wire};
+use super::scenes::EdgeScene;
+use super::wire::{AntiAliasingMethod, AntiAliasingScene, AntiAliasingWire};
 use crate::polygon::Polygon;
 use crate::stage::SIZE;
 use crate::validity::assert_valid;
 
-const SCENES: [SceneName; 4] = [
-    SceneName::HalfPlanes,
-    SceneName::ThinWedge,
-    SceneName::CheckerFan,
-    SceneName::WireTorus,
+const SCENES: [AntiAliasingScene; 4] = [
+    AntiAliasingScene::HalfPlanes,
+    AntiAliasingScene::ThinWedge,
+    AntiAliasingScene::CheckerFan,
+    AntiAliasingScene::WireTorus,
 ];
 
-const METHODS: [MethodName; 10] = [
-    MethodName::None,
-    MethodName::Msaa2,
-    MethodName::Msaa4,
-    MethodName::Msaa8,
-    MethodName::Msaa16,
-    MethodName::Supersampling2x2,
-    MethodName::Supersampling4x4,
-    MethodName::Fxaa,
-    MethodName::CoverageToAlpha,
-    MethodName::CoverageToAlphaOverlap,
+const METHODS: [AntiAliasingMethod; 10] = [
+    AntiAliasingMethod::None,
+    AntiAliasingMethod::Msaa2,
+    AntiAliasingMethod::Msaa4,
+    AntiAliasingMethod::Msaa8,
+    AntiAliasingMethod::Msaa16,
+    AntiAliasingMethod::Supersampling2x2,
+    AntiAliasingMethod::Supersampling4x4,
+    AntiAliasingMethod::Fxaa,
+    AntiAliasingMethod::CoverageToAlpha,
+    AntiAliasingMethod::CoverageToAlphaOverlap,
 ];
 
-fn wire(scene: SceneName, method: MethodName) -> Wire {
-    Wire {
+fn wire(scene: AntiAliasingScene, method: AntiAliasingMethod) -> AntiAliasingWire {
+    AntiAliasingWire {
         scene,
         method,
         angle: None,
@@ -36,14 +36,14 @@ fn wire(scene: SceneName, method: MethodName) -> Wire {
     }
 }
 
-fn edges(wire: &Wire) -> Edges {
-    Edges::new(wire).expect("the parameters are in range")
+fn edges(wire: &AntiAliasingWire) -> EdgeScene {
+    EdgeScene::new(wire).expect("the parameters are in range")
 }
 
 #[test]
 fn every_method_draws_every_scene_over_the_same_truth() {
     for name in SCENES {
-        let truth = edges(&wire(name, MethodName::None)).truth();
+        let truth = edges(&wire(name, AntiAliasingMethod::None)).truth();
         for method in METHODS {
             let made = make(&wire(name, method)).expect("the parameters are in range");
             assert_valid(&made.scene);
@@ -56,33 +56,33 @@ fn every_method_draws_every_scene_over_the_same_truth() {
 
 #[test]
 fn parameters_out_of_range_are_refused_by_name() {
-    let half = wire(SceneName::HalfPlanes, MethodName::None);
-    let wedge = wire(SceneName::ThinWedge, MethodName::None);
+    let half = wire(AntiAliasingScene::HalfPlanes, AntiAliasingMethod::None);
+    let wedge = wire(AntiAliasingScene::ThinWedge, AntiAliasingMethod::None);
     let bad = [
         (
             "angle",
-            Wire {
+            AntiAliasingWire {
                 angle: Some(91.0),
                 ..half.clone()
             },
         ),
         (
             "angle",
-            Wire {
+            AntiAliasingWire {
                 angle: Some(f64::NAN),
                 ..half
             },
         ),
         (
             "opening",
-            Wire {
+            AntiAliasingWire {
                 opening: Some(0.0),
                 ..wedge.clone()
             },
         ),
         (
             "opening",
-            Wire {
+            AntiAliasingWire {
                 opening: Some(61.0),
                 ..wedge
             },
@@ -110,14 +110,14 @@ fn area(polygon: &Polygon) -> f64 {
 #[test]
 fn pieces_in_front_and_behind_fill_the_picture_without_overlap() {
     for name in [
-        SceneName::HalfPlanes,
-        SceneName::ThinWedge,
-        SceneName::CheckerFan,
+        AntiAliasingScene::HalfPlanes,
+        AntiAliasingScene::ThinWedge,
+        AntiAliasingScene::CheckerFan,
     ] {
         for angle in [0.0, 20.0, 45.0, 90.0] {
-            let edges = edges(&Wire {
+            let edges = edges(&AntiAliasingWire {
                 angle: Some(angle),
-                ..wire(name, MethodName::None)
+                ..wire(name, AntiAliasingMethod::None)
             });
             let pieces = edges.front.iter().chain(&edges.back);
             let sum: f64 = pieces.filter_map(|p| p.polygon()).map(|p| area(&p)).sum();
@@ -130,7 +130,10 @@ fn pieces_in_front_and_behind_fill_the_picture_without_overlap() {
 
 #[test]
 fn a_smoothed_piece_knows_its_distance_from_the_nearest_edge() {
-    let edges = edges(&wire(SceneName::CheckerFan, MethodName::None));
+    let edges = edges(&wire(
+        AntiAliasingScene::CheckerFan,
+        AntiAliasingMethod::None,
+    ));
     for piece in &edges.front {
         for part in piece.smooth(true) {
             let nearest = |[x, y, _]: [f64; 3]| {
@@ -148,7 +151,7 @@ fn a_smoothed_piece_knows_its_distance_from_the_nearest_edge() {
 #[test]
 fn parts_of_a_smoothed_piece_hold_all_of_it() {
     for name in SCENES {
-        let edges = edges(&wire(name, MethodName::None));
+        let edges = edges(&wire(name, AntiAliasingMethod::None));
         for piece in edges.front.iter().chain(&edges.back) {
             let Some(polygon) = piece.polygon() else {
                 continue;
@@ -163,7 +166,10 @@ fn parts_of_a_smoothed_piece_hold_all_of_it() {
 
 #[test]
 fn ends_of_wires_are_smoothed_only_where_they_overlap() {
-    let edges = edges(&wire(SceneName::WireTorus, MethodName::None));
+    let edges = edges(&wire(
+        AntiAliasingScene::WireTorus,
+        AntiAliasingMethod::None,
+    ));
     for wire in &edges.front {
         assert_eq!(wire.smooth(false).len(), 2);
         assert!(wire.smooth(true).len() > 2);
@@ -172,9 +178,9 @@ fn ends_of_wires_are_smoothed_only_where_they_overlap() {
 
 #[test]
 fn a_half_plane_at_no_angle_covers_known_shares() {
-    let edges = edges(&Wire {
+    let edges = edges(&AntiAliasingWire {
         angle: Some(0.0),
-        ..wire(SceneName::HalfPlanes, MethodName::None)
+        ..wire(AntiAliasingScene::HalfPlanes, AntiAliasingMethod::None)
     });
     for (i, piece) in edges.front.iter().enumerate() {
         let polygon = piece.polygon().expect("half of the cell is covered");

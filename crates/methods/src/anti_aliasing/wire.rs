@@ -6,11 +6,11 @@ use serde::Deserialize;
 /// Edges and how they are drawn.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Wire {
+pub struct AntiAliasingWire {
     /// The scene.
-    pub(crate) scene: SceneName,
+    pub(crate) scene: AntiAliasingScene,
     /// The method.
-    pub(crate) method: MethodName,
+    pub(crate) method: AntiAliasingMethod,
     /// The angle between the edges of half planes and the rows of texels in degrees, 0 to 90.
     pub(crate) angle: Option<f64>,
     /// The opening angle of wedges in degrees, 0.25 to 60.
@@ -20,7 +20,7 @@ pub struct Wire {
 /// The method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum MethodName {
+pub(crate) enum AntiAliasingMethod {
     /// One sample per texel.
     None,
     /// The mean of two samples.
@@ -53,7 +53,7 @@ pub(crate) enum MethodName {
 /// The scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum SceneName {
+pub(crate) enum AntiAliasingScene {
     /// Sixteen half planes whose edges have the angle `angle` and cross texels at different offsets.
     HalfPlanes,
     /// Four wedges that open by `opening`, in different directions.

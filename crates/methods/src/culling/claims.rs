@@ -1,6 +1,6 @@
 //! Claims about culling.
 
-use crate::claim::{Claim, Condition, Quantity, Test, one};
+use crate::claim::{Claim, FigureCondition, Quantity, Test, one};
 
 const QUESTION: &str = "culling";
 
@@ -13,7 +13,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Fragments,
             of: one!("back"),
             over: one!("none"),
-            holds: Condition::Between(0.4, 0.6),
+            holds: FigureCondition::Between(0.4, 0.6),
         },
     )
     .of(&["closed-mesh"]),
@@ -34,7 +34,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Draws,
             of: one!("frustum"),
             over: one!("none"),
-            holds: Condition::Below(0.5),
+            holds: FigureCondition::Below(0.5),
         },
     )
     .of(&["field"]),

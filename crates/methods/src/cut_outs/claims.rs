@@ -1,6 +1,6 @@
 //! Claims about cut-outs.
 
-use crate::claim::{Claim, Condition, Quantity, Test, one};
+use crate::claim::{Claim, FigureCondition, Quantity, Test, one};
 
 pub(crate) const CLAIMS: &[Claim] = &[Claim::new(
     "cut-outs",
@@ -10,7 +10,7 @@ pub(crate) const CLAIMS: &[Claim] = &[Claim::new(
         quantity: Quantity::Rmse,
         of: one!("alpha-to-coverage"),
         over: one!("discard"),
-        holds: Condition::Below(1.0),
+        holds: FigureCondition::Below(1.0),
     },
 )
 .of(&["grass"])];

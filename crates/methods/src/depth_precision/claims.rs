@@ -1,6 +1,6 @@
 //! Claims about depth precision.
 
-use crate::claim::{Claim, Condition, Test};
+use crate::claim::{Claim, FigureCondition, Test};
 
 const QUESTION: &str = "depth-precision";
 const GAPS: &[&str] = &["planes", "slanted"];
@@ -31,7 +31,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
         Test::Narrowest {
             of: "reversed-depth",
             over: "depth24",
-            holds: Condition::Below(1.0),
+            holds: FigureCondition::Below(1.0),
         },
     )
     .of(GAPS),
@@ -42,7 +42,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
         Test::Narrowest {
             of: "depth32float",
             over: "depth24",
-            holds: Condition::Above(0.7),
+            holds: FigureCondition::Above(0.7),
         },
     )
     .of(GAPS),
@@ -56,7 +56,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
         Test::Narrowest {
             of: "larger-near",
             over: "depth24",
-            holds: Condition::Below(1.0),
+            holds: FigureCondition::Below(1.0),
         },
     )
     .of(GAPS),
@@ -67,7 +67,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
         Test::Narrowest {
             of: "depth16",
             over: "depth24",
-            holds: Condition::Above(1.0),
+            holds: FigureCondition::Above(1.0),
         },
     )
     .of(GAPS),

@@ -1,10 +1,10 @@
 //! A mirror: the scene is drawn a second time, upside down, in the stencil area of the mirror.
 
-use super::shown::{Shown, mark, only, opaque};
+use super::shown::{ShownEffect, mark, only, opaque};
 use crate::grid::settle;
 use crate::polygon::Polygon;
 use crate::stage::{self, SIZE};
-use crate::truth::Surface;
+use crate::truth::FlatSurface;
 use crate::view::{Face, View, clip, cuboid};
 use etalon_scene::CompareFunction;
 use glam::{DMat4, DVec3};
@@ -13,7 +13,7 @@ use serde::Deserialize;
 
 /// The method for the reflection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-pub enum MethodName {
+pub enum MirrorMethod {
     /// Draws the reflection only inside the stencil area of the mirror.
     #[serde(rename = "mirror")]
     Masked,
@@ -63,7 +63,7 @@ fn boxes(shift: f64) -> Vec<Face> {
 }
 
 /// Returns the parts of a triangle that are inside the `inside` triangles, which do not overlap.
-fn parts(triangle: &Polygon, inside: &[Polygon]) -> Vec<Surface> {
+fn parts(triangle: &Polygon, inside: &[Polygon]) -> Vec<FlatSurface> {
     let part = |area: &Polygon| {
         let [a, b, c] = [0, 1, 2].map(|i| DVec3::from(area.corners[i]));
         let side = |from: DVec3, to: DVec3, p: DVec3| {
@@ -80,7 +80,7 @@ fn parts(triangle: &Polygon, inside: &[Polygon]) -> Vec<Surface> {
     inside.iter().filter_map(part).collect()
 }
 
-pub(super) fn show(method: MethodName, shift: f64) -> Shown {
+pub(super) fn show(method: MirrorMethod, shift: f64) -> ShownEffect {
     let eye = DVec3::new(0.0, 4.0, 4.5);
     let target = DVec3::new(0.5, -0.1, 0.0);
     let view = View::perspective(SIZE, [eye, target], 44.0, [1.0, 20.0]);
@@ -93,7 +93,7 @@ pub(super) fn show(method: MethodName, shift: f64) -> Shown {
     let reflected: Vec<Face> = boxes(shift).iter().map(|f| f.moved(&turned)).collect();
     let reflected = seen(&reflected);
 
-    let masked = method == MethodName::Masked;
+    let masked = method == MirrorMethod::Masked;
     let mut area = opaque(&mirror);
     area.depth = None;
     area.targets[0].write_mask = 0;
@@ -110,10 +110,10 @@ pub(super) fn show(method: MethodName, shift: f64) -> Shown {
     }
     draws.extend([image, glass, opaque(&real)]);
 
-    let mut surfaces: Vec<Surface> = reflected.iter().flat_map(|t| parts(t, &mirror)).collect();
+    let mut surfaces: Vec<FlatSurface> = reflected.iter().flat_map(|t| parts(t, &mirror)).collect();
     let others = [frame, mirror, real].concat();
     surfaces.extend(others.iter().map(Polygon::surface));
-    Shown {
+    ShownEffect {
         background: [0.3, 0.4, 0.45],
         draws,
         surfaces,

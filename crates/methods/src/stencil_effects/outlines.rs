@@ -1,6 +1,6 @@
 //! Outlines: each object is drawn into the stencil, then drawn again, larger, outside its stencil area.
 
-use super::shown::{Shown, except, mark, opaque};
+use super::shown::{ShownEffect, except, mark, opaque};
 use crate::grid::settle;
 use crate::polygon::Polygon;
 use crate::stage::{self, SIZE};
@@ -11,7 +11,7 @@ use serde::Deserialize;
 
 /// Which objects have an outline of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-pub enum MethodName {
+pub enum OutlineMethod {
     /// One outline around all objects, which share a stencil value.
     #[serde(rename = "outline-merged")]
     Merged,
@@ -63,13 +63,13 @@ fn polygon(corners: &[DVec2], depth: f64, color: [f64; 4]) -> Vec<Polygon> {
     settle(SIZE, &[Polygon::new(corners.collect(), color)])
 }
 
-pub(super) fn show(method: MethodName, width: f64) -> Shown {
+pub(super) fn show(method: OutlineMethod, width: f64) -> ShownEffect {
     let outline = [1.0, 0.95, 0.8, 1.0];
     let mut draws = Vec::new();
     let mut outlines = Vec::new();
     let mut surfaces = Vec::new();
     for (i, (corners, depth, color)) in objects().into_iter().enumerate() {
-        let separate = method == MethodName::Separate;
+        let separate = method == OutlineMethod::Separate;
         let reference = if separate { i as u8 + 1 } else { 1 };
         let object = polygon(&corners, depth, color);
         let mut draw = opaque(&object);
@@ -90,7 +90,7 @@ pub(super) fn show(method: MethodName, width: f64) -> Shown {
         surfaces.extend(around.iter().chain(&object).map(Polygon::surface));
     }
     draws.extend(outlines);
-    Shown {
+    ShownEffect {
         background: [0.16, 0.18, 0.24],
         draws,
         surfaces,

@@ -5,11 +5,11 @@
 //! the card moved. Cards are on whole texels and light moves them by whole texels, so the edges of all
 //! shadows are half a texel away from all centres.
 
-use super::shown::{Shown, except, opaque, test};
+use super::shown::{ShownEffect, except, opaque, test};
 use crate::grid::settle;
 use crate::polygon::{self, Polygon};
 use crate::stage::{self, SIZE};
-use crate::truth::Surface;
+use crate::truth::FlatSurface;
 use crate::view::clip;
 use etalon_scene::{CompareFunction, Draw, Shader, StencilOperation, StencilState};
 use glam::DVec3;
@@ -18,7 +18,7 @@ use serde::Deserialize;
 
 /// The sides of volumes that are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-pub enum MethodName {
+pub enum ShadowMethod {
     /// Sides in front of the visible surface, from the near plane on, which should be outside all volumes
     /// (Heidmann 1991).
     #[serde(rename = "shadow-volume-depth-pass")]
@@ -121,7 +121,7 @@ fn seen(faces: &[Vec<DVec3>], eye: f64, color: [f64; 4]) -> Vec<Polygon> {
 }
 
 /// Returns a draw that counts the sides of a volume in the stencil.
-fn count(method: MethodName, volume: &[Polygon]) -> Draw {
+fn count(method: ShadowMethod, volume: &[Polygon]) -> Draw {
     let mut draw = stage::draw(Shader::FlatColor, polygon::mesh(SIZE, volume));
     draw.depth = stage::depth(CompareFunction::Less, false);
     draw.targets[0].write_mask = 0;
@@ -131,11 +131,11 @@ fn count(method: MethodName, volume: &[Polygon]) -> Draw {
         StencilOperation::DecrementWrap,
     ];
     match method {
-        MethodName::DepthPass => {
+        ShadowMethod::DepthPass => {
             front.pass_op = more;
             back.pass_op = less;
         }
-        MethodName::DepthFail => {
+        ShadowMethod::DepthFail => {
             front.depth_fail_op = less;
             back.depth_fail_op = more;
         }
@@ -154,7 +154,7 @@ fn darken() -> Draw {
 }
 
 /// Returns the cards behind the near plane, each followed by the shadows on it.
-fn surfaces(eye: f64) -> Vec<Surface> {
+fn surfaces(eye: f64) -> Vec<FlatSurface> {
     let mut surfaces = Vec::new();
     for on in CARDS.iter().filter(|card| card.z > eye) {
         let depth = window_depth(on.z, eye);
@@ -177,7 +177,7 @@ fn surfaces(eye: f64) -> Vec<Surface> {
     surfaces
 }
 
-pub(super) fn show(method: MethodName, eye: f64) -> Shown {
+pub(super) fn show(method: ShadowMethod, eye: f64) -> ShownEffect {
     let visible = CARDS.iter().filter(|card| card.z > eye);
     let rect = |card: &Card| Polygon::rect(card.area, window_depth(card.z, eye), card.color);
     let cards: Vec<Polygon> = visible.map(rect).collect();
@@ -186,7 +186,7 @@ pub(super) fn show(method: MethodName, eye: f64) -> Shown {
         seen(&faces, eye, [0.0; 4])
     });
     let volumes: Vec<Polygon> = volumes.collect();
-    Shown {
+    ShownEffect {
         background: [0.0; 3],
         draws: vec![opaque(&cards), count(method, &volumes), darken()],
         surfaces: surfaces(eye),

@@ -2,14 +2,14 @@
 
 use crate::polygon::{self, Polygon};
 use crate::stage::{self, SIZE};
-use crate::truth::Surface;
+use crate::truth::FlatSurface;
 use etalon_scene::{CompareFunction, Draw, Shader, StencilFace, StencilOperation, StencilState};
 
 /// The draws of an effect and the surfaces that should be seen.
-pub(super) struct Shown {
+pub(super) struct ShownEffect {
     pub(super) background: [f64; 3],
     pub(super) draws: Vec<Draw>,
-    pub(super) surfaces: Vec<Surface>,
+    pub(super) surfaces: Vec<FlatSurface>,
 }
 
 /// Returns a draw of opaque triangles with a depth test.

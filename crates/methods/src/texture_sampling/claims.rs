@@ -1,6 +1,6 @@
 //! Claims about texture sampling.
 
-use crate::claim::{Claim, Condition, Quantity, Test, one};
+use crate::claim::{Claim, FigureCondition, Quantity, Test, one};
 
 const QUESTION: &str = "texture-sampling";
 
@@ -13,7 +13,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Rmse,
             of: one!("affine"),
             over: one!("nearest"),
-            holds: Condition::Above(1.0),
+            holds: FigureCondition::Above(1.0),
         },
     ),
     Claim::new(
@@ -24,7 +24,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Rmse,
             of: one!("supersampling-2x2"),
             over: one!("nearest"),
-            holds: Condition::Below(1.0),
+            holds: FigureCondition::Below(1.0),
         },
     ),
     Claim::new(
@@ -35,7 +35,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Rmse,
             of: one!("supersampling-4x4"),
             over: one!("supersampling-2x2"),
-            holds: Condition::Below(1.0),
+            holds: FigureCondition::Below(1.0),
         },
     ),
 ];

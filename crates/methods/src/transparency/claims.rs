@@ -1,6 +1,6 @@
 //! Claims about transparency.
 
-use crate::claim::{Claim, Condition, Quantity, Test, one};
+use crate::claim::{Claim, FigureCondition, Quantity, Test, one};
 
 const QUESTION: &str = "transparency";
 
@@ -13,7 +13,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Rmse,
             of: one!("front-to-back"),
             over: one!("sorted"),
-            holds: Condition::Between(0.4, 2.5),
+            holds: FigureCondition::Between(0.4, 2.5),
         },
     )
     .of(&["windows", "smoke"]),
@@ -24,7 +24,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
         Test::Value {
             quantity: Quantity::Rmse,
             of: "depth-peeling",
-            holds: Condition::AtMost(0.01),
+            holds: FigureCondition::AtMost(0.01),
         },
     )
     .of(&["windows", "intersecting-panes", "nested-glass"]),
@@ -35,7 +35,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
         Test::Value {
             quantity: Quantity::Rmse,
             of: "sorted",
-            holds: Condition::Above(0.01),
+            holds: FigureCondition::Above(0.01),
         },
     )
     .of(&["intersecting-panes"])
@@ -48,7 +48,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Fragments,
             of: one!("depth-peeling"),
             over: one!("sorted"),
-            holds: Condition::Above(4.0),
+            holds: FigureCondition::Above(4.0),
         },
     )
     .noting("Eight layers are peeled; each peel adds one fragment per texel of the picture to compose it.")
@@ -70,7 +70,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
         Test::Value {
             quantity: Quantity::Passes,
             of: "weighted-blended",
-            holds: Condition::Between(2.0, 2.0),
+            holds: FigureCondition::Between(2.0, 2.0),
         },
     ),
     Claim::new(
@@ -81,7 +81,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Rmse,
             of: one!("weighted-blended"),
             over: one!("unsorted"),
-            holds: Condition::Below(1.0),
+            holds: FigureCondition::Below(1.0),
         },
     ),
     Claim::new(
@@ -91,7 +91,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
         Test::Trend {
             quantity: Quantity::Rmse,
             of: "weighted-blended",
-            holds: Condition::Above(1.5),
+            holds: FigureCondition::Above(1.5),
         },
     )
     .of(&["windows", "smoke"]),
@@ -102,7 +102,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
         Test::Value {
             quantity: Quantity::Passes,
             of: "moment-based",
-            holds: Condition::Between(3.0, 3.0),
+            holds: FigureCondition::Between(3.0, 3.0),
         },
     ),
     Claim::new(
@@ -113,7 +113,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Rmse,
             of: one!("moment-based"),
             over: one!("weighted-blended"),
-            holds: Condition::Below(1.0),
+            holds: FigureCondition::Below(1.0),
         },
     ),
     Claim::new(
@@ -123,7 +123,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
         Test::Trend {
             quantity: Quantity::Rmse,
             of: "moment-based",
-            holds: Condition::Above(1.5),
+            holds: FigureCondition::Above(1.5),
         },
     )
     .of(&["thin-layers"]),
@@ -134,7 +134,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
         Test::Value {
             quantity: Quantity::Rmse,
             of: "linked-lists",
-            holds: Condition::AtMost(0.004),
+            holds: FigureCondition::AtMost(0.004),
         },
     )
     .noting("In these scenes no picture has more fragments than the pool has nodes, which is eight per texel.")
@@ -147,7 +147,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Fragments,
             of: one!("depth-peeling"),
             over: one!("linked-lists"),
-            holds: Condition::Above(2.0),
+            holds: FigureCondition::Above(2.0),
         },
     )
     .of(&["windows", "thin-layers", "smoke"]),
@@ -159,7 +159,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Rmse,
             of: one!("linked-lists"),
             over: one!("depth-peeling"),
-            holds: Condition::Above(1.0),
+            holds: FigureCondition::Above(1.0),
         },
     )
     .of(&["peeling"])
@@ -172,7 +172,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Rmse,
             of: one!("stochastic"),
             over: one!("alpha-to-coverage"),
-            holds: Condition::Below(1.0),
+            holds: FigureCondition::Below(1.0),
         },
     )
     .of(&["thin-layers", "smoke"]),

@@ -6,7 +6,7 @@ use crate::noise::Noise;
 use crate::polygon::{Polygon, mesh};
 use crate::stage::{SIZE, Stage, depth, draw};
 use etalon_frame::TextureFormat;
-use etalon_scene::{CompareFunction, Contents, Draw, Scene, Shader};
+use etalon_scene::{AttachmentContents, CompareFunction, Draw, Scene, Shader};
 
 /// Samples per texel, which the shader `stochastic` assumes.
 const SAMPLES: u32 = 4;
@@ -26,7 +26,7 @@ pub(super) fn stochastic(glass: &Glass, polygons: &[Polygon]) -> Scene {
     let mut stage = Stage::new();
     let mut draws = Vec::new();
     for (i, layer) in layers(polygons).iter().enumerate() {
-        let contents = Contents::Texels(thresholds(i as u64, &alphas));
+        let contents = AttachmentContents::Texels(thresholds(i as u64, &alphas));
         let format = TextureFormat::Rgba8Unorm;
         let texture = stage.attachment(format!("thresholds_{i}"), format, SIZE, 1, contents);
         let mut glassy = draw(Shader::Stochastic, mesh(SIZE, layer));
@@ -39,7 +39,7 @@ pub(super) fn stochastic(glass: &Glass, polygons: &[Polygon]) -> Scene {
 /// Draws the glass with depth over the opaque polygons, then takes the mean of the samples.
 fn resolved(glass: &Glass, mut stage: Stage, mut glassy: Vec<Draw>) -> Scene {
     let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
-    let contents = Contents::Color(clear(glass).map(|c| c as f32));
+    let contents = AttachmentContents::Color(clear(glass).map(|c| c as f32));
     let samples = stage.attachment("samples", PICTURE, SIZE, SAMPLES, contents);
     let depth_stencil = depths(&mut stage, SAMPLES);
     for draw in &mut glassy {

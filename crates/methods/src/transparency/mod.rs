@@ -19,12 +19,12 @@ mod wire;
 
 pub(crate) use claims::CLAIMS;
 pub(crate) use lessons::LESSONS;
-pub(crate) use wire::Wire;
+pub(crate) use wire::TransparencyWire;
 
 use crate::error::{ParameterError, within};
 use crate::method_scene::MethodScene;
 use scenes::Glass;
-use wire::MethodName;
+use wire::TransparencyMethod;
 
 /// The number of layers that are peeled, or of nodes per texel, if no `k` is given.
 const PEELED_LAYERS: u32 = 8;
@@ -35,36 +35,36 @@ const MOST_NODES: f64 = 32.0;
 ///
 /// # Errors
 /// If a parameter is out of its range.
-pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
+pub(crate) fn make(wire: &TransparencyWire) -> Result<MethodScene, ParameterError> {
     let glass = Glass::new(wire)?;
     if let Some(k) = wire.k {
         within("k", f64::from(k), 1.0..=64.0)?;
     }
     let list = || glass.polygons().cloned().collect::<Vec<_>>();
     let scene = match wire.method {
-        MethodName::Unsorted => ordered::blended(&glass, &list(), true),
-        MethodName::DepthWriteOff => ordered::blended(&glass, &list(), false),
-        MethodName::Sorted => ordered::blended(&glass, &ordered::by_object(&glass), false),
-        MethodName::SortedTriangles => {
+        TransparencyMethod::Unsorted => ordered::blended(&glass, &list(), true),
+        TransparencyMethod::DepthWriteOff => ordered::blended(&glass, &list(), false),
+        TransparencyMethod::Sorted => ordered::blended(&glass, &ordered::by_object(&glass), false),
+        TransparencyMethod::SortedTriangles => {
             ordered::blended(&glass, &ordered::by_triangle(&glass), false)
         }
-        MethodName::AlphaTest => ordered::alpha_test(&glass, &list()),
-        MethodName::FrontToBack => ordered::front_to_back(&glass),
-        MethodName::AlphaToCoverage => many_samples::alpha_to_coverage(&glass, &list()),
-        MethodName::Stochastic => many_samples::stochastic(&glass, &list()),
-        MethodName::DepthPeeling => {
+        TransparencyMethod::AlphaTest => ordered::alpha_test(&glass, &list()),
+        TransparencyMethod::FrontToBack => ordered::front_to_back(&glass),
+        TransparencyMethod::AlphaToCoverage => many_samples::alpha_to_coverage(&glass, &list()),
+        TransparencyMethod::Stochastic => many_samples::stochastic(&glass, &list()),
+        TransparencyMethod::DepthPeeling => {
             peeling::depth_peeling(&glass, &list(), wire.k.unwrap_or(PEELED_LAYERS))
         }
-        MethodName::DualDepthPeeling => {
+        TransparencyMethod::DualDepthPeeling => {
             peeling::dual_depth_peeling(&glass, &list(), wire.k.unwrap_or(PEELED_LAYERS / 2))
         }
-        MethodName::LinkedLists => {
+        TransparencyMethod::LinkedLists => {
             let nodes = wire.k.unwrap_or(PEELED_LAYERS);
             within("k", f64::from(nodes), 1.0..=MOST_NODES)?;
             lists::linked_lists(&glass, &list(), nodes)
         }
-        MethodName::MomentBased => moments::moment_based(&glass, &list()),
-        MethodName::WeightedBlended => weighted::weighted_blended(&glass, &list()),
+        TransparencyMethod::MomentBased => moments::moment_based(&glass, &list()),
+        TransparencyMethod::WeightedBlended => weighted::weighted_blended(&glass, &list()),
     };
     Ok(MethodScene {
         scene,

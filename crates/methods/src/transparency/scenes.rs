@@ -1,11 +1,11 @@
 //! Transparent scenes.
 
-use super::wire::{SceneName, Wire};
+use super::wire::{TransparencyScene, TransparencyWire};
 use crate::error::{ParameterError, within};
 use crate::noise::Noise;
 use crate::polygon::Polygon;
 use crate::stage::SIZE;
-use crate::truth::{Coverage, Truth};
+use crate::truth::{TexelCoverage, Truth};
 
 /// Polygons that are sorted as a whole.
 #[derive(Clone, Debug)]
@@ -32,7 +32,7 @@ pub(super) struct Glass {
     /// Transparent objects, unsorted.
     pub(super) objects: Vec<Object>,
     /// The part of a texel that counts: its whole area if edges are part of the question.
-    pub(super) coverage: Coverage,
+    pub(super) coverage: TexelCoverage,
 }
 
 impl Glass {
@@ -40,22 +40,22 @@ impl Glass {
     ///
     /// # Errors
     /// If a parameter is out of its range.
-    pub(super) fn new(wire: &Wire) -> Result<Self, ParameterError> {
+    pub(super) fn new(wire: &TransparencyWire) -> Result<Self, ParameterError> {
         let alpha = |default: f64| within("alpha", wire.alpha.unwrap_or(default), 0.01..=0.99);
         let scene = match wire.scene {
-            SceneName::Windows => windows(alpha(0.5)?),
-            SceneName::IntersectingPanes => {
+            TransparencyScene::Windows => windows(alpha(0.5)?),
+            TransparencyScene::IntersectingPanes => {
                 let angle = within("angle", wire.angle.unwrap_or(45.0), 0.0..=65.0)?;
                 intersecting_panes(angle, alpha(0.5)?)
             }
-            SceneName::NestedGlass => nested_glass(alpha(0.4)?),
-            SceneName::ThinLayers => {
+            TransparencyScene::NestedGlass => nested_glass(alpha(0.4)?),
+            TransparencyScene::ThinLayers => {
                 let layers = wire.layers.unwrap_or(16);
                 within("layers", f64::from(layers), 1.0..=64.0)?;
                 thin_layers(layers, alpha(0.1)?)
             }
-            SceneName::Hair => hair(alpha(0.6)?),
-            SceneName::Smoke => smoke(alpha(0.2)?),
+            TransparencyScene::Hair => hair(alpha(0.6)?),
+            TransparencyScene::Smoke => smoke(alpha(0.2)?),
         };
         Ok(scene)
     }
@@ -127,7 +127,7 @@ fn windows(alpha: f64) -> Glass {
         background: [0.9, 0.9, 0.85],
         opaque: vec![Polygon::rect([32.0, 56.0, 96.0, 80.0], 0.65, OPAQUE)],
         objects: order.map(pane_at).to_vec(),
-        coverage: Coverage::Center,
+        coverage: TexelCoverage::Center,
     }
 }
 
@@ -151,7 +151,7 @@ fn intersecting_panes(angle: f64, alpha: f64) -> Glass {
             turned([8.0, 8.0, 104.0, 104.0], 0.4, slope, HUES[0]),
             turned([24.0, 24.0, 120.0, 120.0], 0.6, -slope, HUES[2]),
         ],
-        coverage: Coverage::Center,
+        coverage: TexelCoverage::Center,
     }
 }
 
@@ -207,7 +207,7 @@ fn nested_glass(alpha: f64) -> Glass {
         background: [0.9, 0.9, 0.85],
         opaque: vec![Polygon::rect([58.0, 54.0, 70.0, 66.0], 0.5, OPAQUE)],
         objects: vec![outer, inner, middle],
-        coverage: Coverage::Center,
+        coverage: TexelCoverage::Center,
     }
 }
 
@@ -239,7 +239,7 @@ fn thin_layers(layers: u32, alpha: f64) -> Glass {
         background: [0.95, 0.95, 0.9],
         opaque: Vec::new(),
         objects: mixed(layers).map(layer).collect(),
-        coverage: Coverage::Center,
+        coverage: TexelCoverage::Center,
     }
 }
 
@@ -271,7 +271,7 @@ fn hair(alpha: f64) -> Glass {
         background: [0.75, 0.85, 0.95],
         opaque: Vec::new(),
         objects: (0..STRIPS).map(|_| strip()).collect(),
-        coverage: Coverage::Area,
+        coverage: TexelCoverage::Area,
     }
 }
 
@@ -300,6 +300,6 @@ fn smoke(alpha: f64) -> Glass {
         background: [0.25, 0.35, 0.55],
         opaque: vec![Polygon::rect([44.0, 36.0, 84.0, 92.0], 0.525, OPAQUE)],
         objects: mixed(PUFFS).map(|i| puffs[i as usize].clone()).collect(),
-        coverage: Coverage::Center,
+        coverage: TexelCoverage::Center,
     }
 }

@@ -2,41 +2,41 @@
 
 use super::ordered::{behind, by_object, by_triangle};
 use super::scenes::Glass;
-use super::wire::{MethodName, SceneName, Wire};
+use super::wire::{TransparencyMethod, TransparencyScene, TransparencyWire};
 use super::{make, many_samples};
 use crate::polygon::Polygon;
 use crate::stage::SIZE;
-use crate::truth::Coverage;
+use crate::truth::TexelCoverage;
 use crate::validity::assert_valid;
-use etalon_scene::{Contents, Scene, Shader};
+use etalon_scene::{AttachmentContents, Scene, Shader};
 
-const SCENES: [SceneName; 6] = [
-    SceneName::Windows,
-    SceneName::IntersectingPanes,
-    SceneName::NestedGlass,
-    SceneName::ThinLayers,
-    SceneName::Hair,
-    SceneName::Smoke,
+const SCENES: [TransparencyScene; 6] = [
+    TransparencyScene::Windows,
+    TransparencyScene::IntersectingPanes,
+    TransparencyScene::NestedGlass,
+    TransparencyScene::ThinLayers,
+    TransparencyScene::Hair,
+    TransparencyScene::Smoke,
 ];
 
-const METHODS: [MethodName; 13] = [
-    MethodName::Unsorted,
-    MethodName::Sorted,
-    MethodName::SortedTriangles,
-    MethodName::DepthWriteOff,
-    MethodName::AlphaTest,
-    MethodName::AlphaToCoverage,
-    MethodName::Stochastic,
-    MethodName::DepthPeeling,
-    MethodName::DualDepthPeeling,
-    MethodName::WeightedBlended,
-    MethodName::MomentBased,
-    MethodName::LinkedLists,
-    MethodName::FrontToBack,
+const METHODS: [TransparencyMethod; 13] = [
+    TransparencyMethod::Unsorted,
+    TransparencyMethod::Sorted,
+    TransparencyMethod::SortedTriangles,
+    TransparencyMethod::DepthWriteOff,
+    TransparencyMethod::AlphaTest,
+    TransparencyMethod::AlphaToCoverage,
+    TransparencyMethod::Stochastic,
+    TransparencyMethod::DepthPeeling,
+    TransparencyMethod::DualDepthPeeling,
+    TransparencyMethod::WeightedBlended,
+    TransparencyMethod::MomentBased,
+    TransparencyMethod::LinkedLists,
+    TransparencyMethod::FrontToBack,
 ];
 
-fn wire(scene: SceneName, method: MethodName) -> Wire {
-    Wire {
+fn wire(scene: TransparencyScene, method: TransparencyMethod) -> TransparencyWire {
+    TransparencyWire {
         scene,
         method,
         alpha: None,
@@ -46,12 +46,12 @@ fn wire(scene: SceneName, method: MethodName) -> Wire {
     }
 }
 
-fn scene(wire: &Wire) -> Scene {
+fn scene(wire: &TransparencyWire) -> Scene {
     make(wire).expect("the parameters are in range").scene
 }
 
-fn glass(name: SceneName) -> Glass {
-    Glass::new(&wire(name, MethodName::Sorted)).expect("the parameters are in range")
+fn glass(name: TransparencyScene) -> Glass {
+    Glass::new(&wire(name, TransparencyMethod::Sorted)).expect("the parameters are in range")
 }
 
 #[test]
@@ -71,92 +71,101 @@ fn every_method_draws_every_scene_over_the_same_truth() {
 
 #[test]
 fn parameters_at_their_ends_are_drawn_and_those_beyond_are_refused_by_name() {
-    let near = Wire {
+    let near = TransparencyWire {
         angle: Some(65.0),
-        ..wire(SceneName::IntersectingPanes, MethodName::Sorted)
+        ..wire(
+            TransparencyScene::IntersectingPanes,
+            TransparencyMethod::Sorted,
+        )
     };
-    let single_layer = Wire {
+    let single_layer = TransparencyWire {
         layers: Some(1),
-        ..wire(SceneName::ThinLayers, MethodName::Stochastic)
+        ..wire(
+            TransparencyScene::ThinLayers,
+            TransparencyMethod::Stochastic,
+        )
     };
-    let most = Wire {
+    let most = TransparencyWire {
         layers: Some(64),
         ..single_layer.clone()
     };
-    let once = Wire {
+    let once = TransparencyWire {
         k: Some(1),
-        ..wire(SceneName::Windows, MethodName::DepthPeeling)
+        ..wire(TransparencyScene::Windows, TransparencyMethod::DepthPeeling)
     };
-    let dual = Wire {
-        method: MethodName::DualDepthPeeling,
+    let dual = TransparencyWire {
+        method: TransparencyMethod::DualDepthPeeling,
         ..once.clone()
     };
     for wire in [near, single_layer, most, once, dual] {
         assert_valid(&scene(&wire));
     }
-    let panes = wire(SceneName::IntersectingPanes, MethodName::Sorted);
-    let thin = wire(SceneName::ThinLayers, MethodName::Sorted);
+    let panes = wire(
+        TransparencyScene::IntersectingPanes,
+        TransparencyMethod::Sorted,
+    );
+    let thin = wire(TransparencyScene::ThinLayers, TransparencyMethod::Sorted);
     let bad = [
         (
             "angle",
-            Wire {
+            TransparencyWire {
                 angle: Some(66.0),
                 ..panes.clone()
             },
         ),
         (
             "angle",
-            Wire {
+            TransparencyWire {
                 angle: Some(-1.0),
                 ..panes
             },
         ),
         (
             "layers",
-            Wire {
+            TransparencyWire {
                 layers: Some(0),
                 ..thin.clone()
             },
         ),
         (
             "layers",
-            Wire {
+            TransparencyWire {
                 layers: Some(65),
                 ..thin.clone()
             },
         ),
         (
             "alpha",
-            Wire {
+            TransparencyWire {
                 alpha: Some(1.0),
                 ..thin.clone()
             },
         ),
         (
             "alpha",
-            Wire {
+            TransparencyWire {
                 alpha: Some(f64::NAN),
                 ..thin.clone()
             },
         ),
         (
             "k",
-            Wire {
-                method: MethodName::LinkedLists,
+            TransparencyWire {
+                method: TransparencyMethod::LinkedLists,
                 k: Some(33),
                 ..thin.clone()
             },
         ),
         (
             "k",
-            Wire {
+            TransparencyWire {
                 k: Some(0),
                 ..thin.clone()
             },
         ),
         (
             "k",
-            Wire {
+            TransparencyWire {
                 k: Some(65),
                 ..thin
             },
@@ -212,23 +221,32 @@ fn orders_are_what_they_say_and_the_list_has_another_one() {
 #[test]
 fn passes_grow_with_what_is_peeled_and_with_nothing_else() {
     let passes = |method, layers, k| {
-        let wire = Wire {
+        let wire = TransparencyWire {
             layers: Some(layers),
             k,
-            ..wire(SceneName::ThinLayers, method)
+            ..wire(TransparencyScene::ThinLayers, method)
         };
         scene(&wire).passes.len()
     };
     for layers in [2, 16, 64] {
-        assert_eq!(passes(MethodName::WeightedBlended, layers, None), 2);
-        assert_eq!(passes(MethodName::MomentBased, layers, None), 3);
-        assert_eq!(passes(MethodName::LinkedLists, layers, None), 2);
-        assert_eq!(passes(MethodName::Sorted, layers, None), 1);
+        assert_eq!(passes(TransparencyMethod::WeightedBlended, layers, None), 2);
+        assert_eq!(passes(TransparencyMethod::MomentBased, layers, None), 3);
+        assert_eq!(passes(TransparencyMethod::LinkedLists, layers, None), 2);
+        assert_eq!(passes(TransparencyMethod::Sorted, layers, None), 1);
         // The same number of layers takes a pass and a blending pass per layer, or per two layers.
-        assert_eq!(passes(MethodName::DepthPeeling, layers, Some(8)), 16);
-        assert_eq!(passes(MethodName::DualDepthPeeling, layers, Some(4)), 9);
-        assert_eq!(passes(MethodName::DepthPeeling, layers, None), 16);
-        assert_eq!(passes(MethodName::DualDepthPeeling, layers, None), 9);
+        assert_eq!(
+            passes(TransparencyMethod::DepthPeeling, layers, Some(8)),
+            16
+        );
+        assert_eq!(
+            passes(TransparencyMethod::DualDepthPeeling, layers, Some(4)),
+            9
+        );
+        assert_eq!(passes(TransparencyMethod::DepthPeeling, layers, None), 16);
+        assert_eq!(
+            passes(TransparencyMethod::DualDepthPeeling, layers, None),
+            9
+        );
     }
 }
 
@@ -252,19 +270,22 @@ fn thresholds_keep_a_share_that_is_alpha_and_none_is_close_to_it() {
 
 #[test]
 fn layers_that_overlap_have_thresholds_of_their_own() {
-    let wire = wire(SceneName::ThinLayers, MethodName::Stochastic);
+    let wire = wire(
+        TransparencyScene::ThinLayers,
+        TransparencyMethod::Stochastic,
+    );
     let scene = scene(&wire);
-    let textures: Vec<&Contents> = scene
+    let textures: Vec<&AttachmentContents> = scene
         .attachments
         .iter()
         .map(|a| &a.contents)
-        .filter(|c| matches!(c, Contents::Texels(_)))
+        .filter(|c| matches!(c, AttachmentContents::Texels(_)))
         .collect();
     assert_eq!(textures.len(), 16);
     for (i, texture) in textures.iter().enumerate() {
         assert!(!textures[..i].contains(texture));
     }
-    let hair = glass(SceneName::Hair);
+    let hair = glass(TransparencyScene::Hair);
     let strips: Vec<Polygon> = hair.polygons().cloned().collect();
     let layers = many_samples::layers(&strips);
     assert_eq!(layers.concat().len(), strips.len());
@@ -292,7 +313,7 @@ fn where_edges_are_no_question_none_comes_near_a_centre() {
     let off = |value: f64| (value.fract() - 0.5).abs();
     for name in SCENES {
         let glass = glass(name);
-        if glass.coverage == Coverage::Area {
+        if glass.coverage == TexelCoverage::Area {
             continue;
         }
         for polygon in glass.polygons().chain(&glass.opaque) {
@@ -317,9 +338,12 @@ fn where_edges_are_no_question_none_comes_near_a_centre() {
 #[test]
 fn panes_pass_through_each_other_from_a_third_of_a_right_angle_on() {
     let nearest = |angle: f64, x: f64| {
-        let glass = Glass::new(&Wire {
+        let glass = Glass::new(&TransparencyWire {
             angle: Some(angle),
-            ..wire(SceneName::IntersectingPanes, MethodName::Sorted)
+            ..wire(
+                TransparencyScene::IntersectingPanes,
+                TransparencyMethod::Sorted,
+            )
         })
         .expect("the angle is in range");
         let depth_at = |p: &Polygon| {
@@ -338,10 +362,10 @@ fn panes_pass_through_each_other_from_a_third_of_a_right_angle_on() {
 #[test]
 fn no_shader_writes_what_half_floats_do_not_hold() {
     for name in SCENES {
-        let made = scene(&Wire {
+        let made = scene(&TransparencyWire {
             alpha: Some(0.99),
             layers: Some(64),
-            ..wire(name, MethodName::WeightedBlended)
+            ..wire(name, TransparencyMethod::WeightedBlended)
         });
         let draws = made.passes.iter().flat_map(|p| &p.draws);
         let sum: f32 = draws
@@ -351,7 +375,7 @@ fn no_shader_writes_what_half_floats_do_not_hold() {
             .sum();
         // The sum over all triangles exceeds the sum at any texel.
         assert!(
-            sum / 2.0 < 65504.0 || name == SceneName::Hair,
+            sum / 2.0 < 65504.0 || name == TransparencyScene::Hair,
             "{name:?}: {sum}"
         );
     }

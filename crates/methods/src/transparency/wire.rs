@@ -6,11 +6,11 @@ use serde::Deserialize;
 /// Transparent surfaces, and the method that draws them.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Wire {
+pub struct TransparencyWire {
     /// The scene.
-    pub(crate) scene: SceneName,
+    pub(crate) scene: TransparencyScene,
     /// The method.
-    pub(crate) method: MethodName,
+    pub(crate) method: TransparencyMethod,
     /// Alpha of the transparent surfaces, 0.01 to 0.99.
     pub(crate) alpha: Option<f64>,
     /// The number of thin layers, 1 to 64.
@@ -25,7 +25,7 @@ pub struct Wire {
 /// The method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum MethodName {
+pub(crate) enum TransparencyMethod {
     /// Blended in no particular order, and depths are stored.
     Unsorted,
     /// Blended object by object, farthest first, by the mean depth of the corners.
@@ -58,7 +58,7 @@ pub(crate) enum MethodName {
 /// The scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum SceneName {
+pub(crate) enum TransparencyScene {
     /// Six panes next to and over each other, each at its own depth, and an opaque pane between them.
     /// `alpha` is that of the six.
     Windows,

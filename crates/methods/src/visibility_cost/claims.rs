@@ -1,6 +1,6 @@
 //! Claims about the cost of visibility.
 
-use crate::claim::{Claim, Condition, Quantity, Test, one};
+use crate::claim::{Claim, FigureCondition, Quantity, Test, one};
 
 const QUESTION: &str = "visibility-cost";
 
@@ -16,7 +16,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Fragments,
             of: one!("front-to-back"),
             over: one!("unsorted"),
-            holds: Condition::Below(0.9),
+            holds: FigureCondition::Below(0.9),
         },
     )
     .between(2.0, f64::INFINITY)
@@ -29,7 +29,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Fragments,
             of: one!("front-to-back"),
             over: &[("depth-prepass", 1.0), ("unsorted", -1.0)],
-            holds: Condition::Between(0.8, 1.2),
+            holds: FigureCondition::Between(0.8, 1.2),
         },
     )
     .noting("A prepass is drawn in the order of unsorted with the same test, and so has that method's fragments; the rest were shaded.")
@@ -43,7 +43,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Time,
             of: one!("depth-prepass"),
             over: one!("unsorted"),
-            holds: Condition::Below(1.0),
+            holds: FigureCondition::Below(1.0),
         },
     )
     .between(8.0, f64::INFINITY),
@@ -55,7 +55,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             quantity: Quantity::Fragments,
             of: one!("written-depth"),
             over: one!("front-to-back"),
-            holds: Condition::Above(1.0),
+            holds: FigureCondition::Above(1.0),
         },
     )
     .between(2.0, f64::INFINITY)

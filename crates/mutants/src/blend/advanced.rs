@@ -1,7 +1,7 @@
 //! Bugs of advanced blending: a mode is replaced by another, or a mode's function, the weights of coverage
 //! or the division by alpha is wrong.
 
-use crate::fields::Places;
+use crate::fields::FieldPlaces;
 use crate::hooks::{advanced_blending, faithful_advanced};
 use crate::list::{SMALL, bugs};
 use crate::plant::{Plant, draws};
@@ -11,7 +11,7 @@ use etalon_scene::AdvancedBlend;
 /// The colours of source and destination.
 type Colors = [[f32; 4]; 2];
 /// Returns the weights of the overlap, of the source alone and of the destination alone, for two alphas.
-type Weights = fn(f32, f32) -> [f32; 3];
+type OverlapWeights = fn(f32, f32) -> [f32; 3];
 
 /// Returns the result of a mode's function for opaque colours.
 fn mix(mode: AdvancedBlend, s: f32, d: f32) -> f32 {
@@ -27,7 +27,7 @@ fn over_alpha(color: f32, alpha: f32) -> f32 {
 fn composed(
     [src, dst]: Colors,
     f: impl Fn(f32, f32) -> f32,
-    weights: Weights,
+    weights: OverlapWeights,
     divided: [bool; 2],
 ) -> [f32; 4] {
     let [both, source, destination] = weights(src[3], dst[3]);
@@ -63,7 +63,7 @@ fn mixes(wrong: AdvancedBlend, function: fn(f32, f32, f32) -> f32) -> Plant {
 }
 
 /// Replaces the weights of coverage.
-fn weighed(weights: Weights) -> Plant {
+fn weighed(weights: OverlapWeights) -> Plant {
     advanced_blending(move |mode, _, colors: Colors| {
         composed(colors, |s, d| mix(mode, s, d), weights, [true; 2])
     })
@@ -89,7 +89,7 @@ bugs! {
     class "blend", "blend";
     let modes = AdvancedBlend::ALL.iter().copied();
     let next = modes.clone().cycle().skip(1);
-    let mode: Places<AdvancedBlend> = |d| d.targets.iter_mut().filter_map(|t| t.advanced.as_mut()).collect();
+    let mode: FieldPlaces<AdvancedBlend> = |d| d.targets.iter_mut().filter_map(|t| t.advanced.as_mut()).collect();
     swaps "advanced-", "The mode ", mode, modes.zip(next);
     "advanced-dodge-onto-black: Colour dodge by white makes black white." =>
         mixes(AdvancedBlend::ColorDodge, |right, s, _d| if s >= 1.0 { 1.0 } else { right });

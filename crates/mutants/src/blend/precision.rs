@@ -1,7 +1,7 @@
 //! Bugs of the blend constant, of precision and of the colour store.
 
 use super::{Input, after, before, component, is_extreme, joined};
-use crate::fields::Places;
+use crate::fields::FieldPlaces;
 use crate::formats::store;
 use crate::hooks::{blending, code, color_code, faithful_blend};
 use crate::list::{CONFUSION, PRECISION, ROUNDED, SMALL, bugs};
@@ -10,7 +10,7 @@ use crate::tables::place;
 use etalon_frame::ChannelEncoding::{Float32, Unorm};
 use etalon_scene::{BlendFactor, BlendOperation};
 
-const CONSTANT: Places<[f32; 4]> = |d| vec![&mut d.blend_constant];
+const CONSTANT: FieldPlaces<[f32; 4]> = |d| vec![&mut d.blend_constant];
 
 type BlendValues = [[f32; 1]; 4];
 

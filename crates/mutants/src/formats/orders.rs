@@ -4,7 +4,7 @@ use crate::list::bugs;
 use crate::plant::{Plant, contents, images_of, passes};
 use crate::tables::CHANNELS;
 use etalon_frame::TextureFormat::{self, *};
-use etalon_scene::{Contents, Draw};
+use etalon_scene::{AttachmentContents, Draw};
 
 /// Exchanges two codes of each texel.
 fn swap<T>(codes: &mut [T], texel: usize, [a, b]: [usize; 2]) {
@@ -14,7 +14,7 @@ fn swap<T>(codes: &mut [T], texel: usize, [a, b]: [usize; 2]) {
 /// Changes the initial contents of attachments of a format.
 fn contents_of(
     format: TextureFormat,
-    bug: impl Fn(&mut Contents) + Send + Sync + 'static,
+    bug: impl Fn(&mut AttachmentContents) + Send + Sync + 'static,
 ) -> Plant {
     contents(move |attachment| {
         if attachment.format == format {
@@ -51,9 +51,9 @@ bugs! {
         let n = format.color_channels().len();
         let read = images_of(move |a| a.format == format, move |image| swap(&mut image.codes, n, channels));
         "{name}-read-{first}-{second}-swapped: Each read of {name} exchanges {first} and {second}." => read;
-        let clear = contents_of(format, move |c| if let Contents::Color(color) = c { swap(color, 4, channels) });
+        let clear = contents_of(format, move |c| if let AttachmentContents::Color(color) = c { swap(color, 4, channels) });
         "{name}-clear-{first}-{second}-swapped: Each clear of {name} exchanges {first} and {second}." => clear;
-        let upload = contents_of(format, move |c| if let Contents::Texels(codes) = c { swap(codes, n, channels) });
+        let upload = contents_of(format, move |c| if let AttachmentContents::Texels(codes) = c { swap(codes, n, channels) });
         if (format != Rgba32Float) {
             "{name}-upload-{first}-{second}-swapped: Each upload of {name} exchanges {first} and {second}." => upload;
         }

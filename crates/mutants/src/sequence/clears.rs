@@ -6,7 +6,7 @@ use crate::aspects::{
 use crate::list::{CONFUSION, bugs};
 use crate::plant::{Plant, passes, scene};
 use etalon_frame::Aspect;
-use etalon_scene::{Clear, Contents, LoadOperation, Pass, PassOperations, Scene};
+use etalon_scene::{AttachmentContents, Clear, LoadOperation, Pass, PassOperations, Scene};
 
 const FAST: &str = "AMD, Intel: fast clears and their metadata";
 
@@ -50,13 +50,14 @@ fn skip_equal(scene: &mut Scene) {
             last = asked;
         }
         let first = pass.color.first().map(|i| &scene.attachments[*i].contents);
-        if let Some(Contents::Color(value)) = first
+        if let Some(AttachmentContents::Color(value)) = first
             && pass.color_operations(0).load == LoadOperation::Clear(*value)
         {
             load(pass, Aspect::Color);
         }
         if let Some(index) = pass.depth_stencil
-            && let Contents::DepthStencil { depth, stencil } = scene.attachments[index].contents
+            && let AttachmentContents::DepthStencil { depth, stencil } =
+                scene.attachments[index].contents
         {
             if pass.operations.depth.load == LoadOperation::Clear(depth) {
                 load(pass, Aspect::Depth);

@@ -3,14 +3,14 @@
 use crate::aspects::{ASPECTS, word};
 use crate::list::bugs;
 use crate::plant::{Plant, memory};
-use etalon_cpu::Surface;
+use etalon_cpu::CpuSurface;
 use etalon_cpu::steps::Moment;
 use etalon_frame::Aspect;
 use etalon_scene::Scene;
 use std::collections::HashSet;
 
 /// Copies one aspect of an attachment.
-fn restore(aspect: Aspect, from: &Surface, to: &mut Surface) {
+fn restore(aspect: Aspect, from: &CpuSurface, to: &mut CpuSurface) {
     match aspect {
         Aspect::Stencil => to.stencil.clone_from(&from.stencil),
         _ if (aspect == Aspect::Depth) == to.encodings.is_empty() => {
@@ -27,7 +27,7 @@ fn restored(
     from: impl Fn(Moment, &Scene) -> bool + Copy + Send + Sync + 'static,
     to: impl Fn(Moment, &Scene) -> bool + Copy + Send + Sync + 'static,
 ) -> Plant {
-    memory(move |kept: &mut Vec<Surface>, moment, scene, stored| {
+    memory(move |kept: &mut Vec<CpuSurface>, moment, scene, stored| {
         if to(moment, scene) && !kept.is_empty() {
             let drawn: Vec<usize> = match moment {
                 Moment::Begin { pass } | Moment::End { pass } => {
@@ -55,7 +55,7 @@ fn at_end(moment: Moment, scene: &Scene) -> bool {
 /// Undoes draws of submissions after the first.
 fn later_submissions(undone: fn(Moment) -> bool) -> Plant {
     memory(
-        move |(submissions, kept): &mut (u32, Vec<Surface>), moment, _, stored| match moment {
+        move |(submissions, kept): &mut (u32, Vec<CpuSurface>), moment, _, stored| match moment {
             Moment::Initial => *submissions += 1,
             Moment::Draw { .. } if *submissions > 1 => *kept = stored.surfaces.to_vec(),
             Moment::Drawn { .. } if *submissions > 1 && undone(moment) => {
@@ -91,7 +91,7 @@ bugs! {
             restored(aspect, at_end, |moment, _| moment == Moment::Initial);
     }
     "texture-as-it-began: A texture that earlier passes drew is read as it began." =>
-        memory(|began: &mut Vec<Surface>, moment, scene, stored| match moment {
+        memory(|began: &mut Vec<CpuSurface>, moment, scene, stored| match moment {
             Moment::Initial => *began = stored.surfaces.to_vec(),
             Moment::Draw { pass, draw } | Moment::Drawn { pass, draw } => {
                 let textures = scene.passes[pass].draws[draw].textures.iter().copied();

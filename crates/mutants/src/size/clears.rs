@@ -4,7 +4,9 @@ use crate::aspects::{BOTH, clear, is_cleared, load, reach_both, reaches};
 use crate::list::bugs;
 use crate::plant::{Plant, contents, passes};
 use etalon_frame::Aspect;
-use etalon_scene::{Attachment, Clear, ClearTarget, Contents, LoadOperation, Pass, Scene};
+use etalon_scene::{
+    Attachment, AttachmentContents, Clear, ClearTarget, LoadOperation, Pass, Scene,
+};
 
 /// Changes passes whose attachments are larger than 64 texels, given the scene and their size.
 fn large(bug: impl Fn(&mut Pass, &Scene, [u32; 2]) + Send + Sync + 'static) -> Plant {
@@ -49,7 +51,7 @@ fn inward([x, y, w, h]: [u32; 4], side: u32) -> [u32; 4] {
 }
 
 /// Changes the initial contents of large attachments.
-fn large_contents(bug: impl Fn(&mut Contents) + Send + Sync + 'static) -> Plant {
+fn large_contents(bug: impl Fn(&mut AttachmentContents) + Send + Sync + 'static) -> Plant {
     contents(move |attachment: &mut Attachment| {
         if attachment.size[0].max(attachment.size[1]) > 64 {
             bug(&mut attachment.contents);
@@ -93,7 +95,7 @@ bugs! {
         large(|pass, scene, _| {
             let first = pass.color.first().map(|i| &scene.attachments[*i].contents);
             for operations in &mut pass.operations.color {
-                if let (Some(Contents::Color(first)), LoadOperation::Clear(value)) =
+                if let (Some(AttachmentContents::Color(first)), LoadOperation::Clear(value)) =
                     (first, operations.load) && *first == value
                 {
                     operations.load = LoadOperation::Load;
@@ -122,11 +124,11 @@ bugs! {
             large(move |pass, _, _| if is_cleared(pass, cleared) && !is_cleared(pass, other) { clear(pass, other) });
     }
     "clear-color-to-ends: Large attachments are cleared to 0 and 1 alone." =>
-        large_contents(|contents| if let Contents::Color(value) = contents { *value = value.map(f32::round) });
+        large_contents(|contents| if let AttachmentContents::Color(value) = contents { *value = value.map(f32::round) });
     "clear-color-first-channel: Large attachments take the first channel's value." =>
-        large_contents(|contents| { if let Contents::Color(value) = contents { *value = [value[0]; 4]; } });
+        large_contents(|contents| { if let AttachmentContents::Color(value) = contents { *value = [value[0]; 4]; } });
     "clear-depth-to-ends: The depths of large attachments are cleared to 0 and 1 alone." =>
-        large_contents(|contents| if let Contents::DepthStencil { depth, .. } = contents { *depth = depth.round() });
+        large_contents(|contents| if let AttachmentContents::DepthStencil { depth, .. } = contents { *depth = depth.round() });
     "clear-stencil-lost: The stencil values of large attachments are cleared to 0." =>
-        large_contents(|contents| if let Contents::DepthStencil { stencil, .. } = contents { *stencil = 0 });
+        large_contents(|contents| if let AttachmentContents::DepthStencil { stencil, .. } = contents { *stencil = 0 });
 }

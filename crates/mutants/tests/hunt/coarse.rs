@@ -2,7 +2,7 @@
 
 use etalon_backend::Prepared;
 use etalon_case::{Library, Profile};
-use etalon_cpu::PreparedScene;
+use etalon_cpu::CpuScene;
 use etalon_cpu::steps::Faithful;
 use etalon_mutants::with_faithful_hierarchy;
 
@@ -21,7 +21,7 @@ fn a_right_coarse_depth_changes_no_frame() {
         prepared.read_back().unwrap()
     };
     for scene in cases.iter().flat_map(|case| case.scenes()) {
-        let expected = PreparedScene::new(scene.clone(), Faithful);
+        let expected = CpuScene::new(scene.clone(), Faithful);
         let found = with_faithful_hierarchy(scene.clone());
         assert_eq!(draw(Box::new(expected)), draw(Box::new(found)));
     }

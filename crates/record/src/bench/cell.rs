@@ -6,7 +6,7 @@
 use super::record::BenchRecord;
 use super::time::Time;
 use etalon_frame::{Work, state_enum};
-use etalon_stats::{Pair, Slope, quantile};
+use etalon_stats::{Slope, WorkTimes, quantile};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -101,14 +101,14 @@ impl CellRate {
             _ if stamped && !software => Time::Gpu,
             _ => Time::Wall,
         };
-        let pairs: Vec<Pair<'_>> = both()
-            .map(|(less, more)| Pair {
+        let pairs: Vec<WorkTimes<'_>> = both()
+            .map(|(less, more)| WorkTimes {
                 less: less.samples(time),
                 more: more.samples(time),
             })
             .collect();
         let medians =
-            |times: fn(&Pair<'_>) -> Option<f64>| pairs.iter().filter_map(times).collect();
+            |times: fn(&WorkTimes<'_>) -> Option<f64>| pairs.iter().filter_map(times).collect();
         let difference = |f: fn(Work) -> u64| {
             let [less, more] = [less, more].map(|r| r.picture.work.map_or(0, f));
             more.saturating_sub(less)

@@ -17,7 +17,7 @@ state_enum! {
 /// The instructions of processes that draw the same case and differ only in their number of frames.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Counted {
+pub struct CountedInstructions {
     /// The case's id.
     pub case: String,
     /// The adapter's name.
@@ -28,7 +28,7 @@ pub struct Counted {
     pub processes: Vec<[u64; 2]>,
 }
 
-impl Counted {
+impl CountedInstructions {
     /// Returns the instructions of one frame: the difference of the last and the first process, per frame. What
     /// a process does only once cancels. `None` if no process has more frames than the first, or if more
     /// frames took no more instructions.
@@ -37,7 +37,7 @@ impl Counted {
     }
 
     /// Returns the largest distance of the slopes between neighbouring processes from
-    /// [`Counted::per_frame`], relative to it: 0 if each frame took as many instructions.
+    /// [`CountedInstructions::per_frame`], relative to it: 0 if each frame took as many instructions.
     pub fn scatter(&self) -> Option<f64> {
         let whole = self.per_frame()?;
         let slopes = self.processes.windows(2).map(|pair| match pair {
@@ -66,8 +66,8 @@ fn slope(first: [u64; 2], last: [u64; 2]) -> Option<f64> {
 mod tests {
     use super::*;
 
-    fn counted(processes: &[[u64; 2]]) -> Counted {
-        Counted {
+    fn counted(processes: &[[u64; 2]]) -> CountedInstructions {
+        CountedInstructions {
             case: "perf/a".to_owned(),
             adapter: "cpu".to_owned(),
             counter: InstructionCounter::Valgrind,

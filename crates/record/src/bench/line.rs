@@ -1,6 +1,6 @@
 //! The lines of a bench after the first.
 
-use super::counted::Counted;
+use super::counted::CountedInstructions;
 use super::time::Time;
 use crate::reason::{self, Reason};
 use crate::verdict::Verdict;
@@ -16,7 +16,7 @@ pub enum BenchLine {
     /// The verdict of a picture, before any frame of it was timed.
     Picture(Picture),
     /// The instructions of a frame.
-    Counted(Counted),
+    Counted(CountedInstructions),
     /// A round of frame times.
     Round(Round),
     /// The reason why a case has no more rounds on an adapter.

@@ -1,6 +1,6 @@
 //! Reading a bench folder.
 
-use super::counted::Counted;
+use super::counted::CountedInstructions;
 use super::header::{BENCH_FORMAT, BenchHeader};
 use super::line::{BenchLine, Done, Ended, Picture, Round};
 use super::record::BenchRecord;
@@ -179,7 +179,7 @@ impl Assembly {
         Ok(record)
     }
 
-    fn counted(&mut self, counted: Counted) -> Result<(), String> {
+    fn counted(&mut self, counted: CountedInstructions) -> Result<(), String> {
         if let Some(wrong) = counted.wrong() {
             return Err(wrong.to_owned());
         }

@@ -1,6 +1,6 @@
 //! The part of a bench about one case on one adapter.
 
-use super::counted::Counted;
+use super::counted::CountedInstructions;
 use super::line::{Ended, Enough, Picture, Round};
 use super::time::Time;
 
@@ -10,7 +10,7 @@ pub struct BenchRecord {
     /// The case's picture on the adapter, with the verdict.
     pub picture: Picture,
     /// The instructions of a frame, if they were counted.
-    pub counted: Option<Counted>,
+    pub counted: Option<CountedInstructions>,
     /// The rounds, by number; empty if the picture may not be timed.
     pub rounds: Vec<Round>,
     /// The error that ended the case's rounds before those of others, if any.

@@ -2,7 +2,7 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
-    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMask, MaskOfOne, NegativeAlpha,
+    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMaskRule, MaskOfOne, NegativeAlpha,
     Permission, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp,
     SmallFloats, Snap, SrgbLogic, narrowed, permit,
 };
@@ -399,8 +399,8 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         ),
         input_mask: permit(
             match text {
-                OpenGlText::V33 | OpenGlText::V45 => InputMask::OfRunIfAsked,
-                OpenGlText::V46 => InputMask::OfAnyRun,
+                OpenGlText::V33 | OpenGlText::V45 => InputMaskRule::OfRunIfAsked,
+                OpenGlText::V46 => InputMaskRule::OfAnyRun,
             },
             text.cite([
                 "OpenGL 3.3 with GL_ARB_gpu_shader5: 3.12.2 Shader Inputs: a bit if its sample is covered for the run, of which 3.3.1 asks for a least number",

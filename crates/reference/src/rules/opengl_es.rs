@@ -2,9 +2,9 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
-    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMask, MaskOfOne, NegativeAlpha, Resolve,
-    Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap,
-    SrgbLogic, narrowed, permit,
+    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMaskRule, MaskOfOne, NegativeAlpha,
+    Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats,
+    Snap, SrgbLogic, narrowed, permit,
 };
 use etalon_frame::{ApiVersion, Grade, Limits, Property};
 
@@ -341,7 +341,7 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "OpenGL ES: 7.3 Program Objects (3.0: 2.11.3): a program has a fragment shader, or does not link",
         ),
         input_mask: permit(
-            InputMask::OfAnyRun,
+            InputMaskRule::OfAnyRun,
             text.cite([
                 "OpenGL ES 3.0: OES_sample_variables, Shader Inputs: the samples covered for the run, of which sample shading asks for a least number; the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",
                 "OpenGL ES 3.1: OES_sample_variables, Shader Inputs: the samples covered for the run, of which sample shading asks for a least number; the current sample's bit alone where gl_SampleID asks for it; of several runs exactly one has a covered sample's bit",

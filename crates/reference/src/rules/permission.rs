@@ -347,7 +347,7 @@ pub enum FragCoord {
 
 /// The sample mask that a shader reads, out of the samples that a primitive covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum InputMask {
+pub enum InputMaskRule {
     /// With sample shading, the samples of the run; otherwise all samples.
     OfRun,
     /// The samples of the run. There can be more runs than the state demands: without sample shading, a run
@@ -517,7 +517,7 @@ rules! {
     /// depth.
     goes_on_unshaded: bool,
     /// The sample mask that a shader reads.
-    input_mask: InputMask,
+    input_mask: InputMaskRule,
     /// True if the mask that a shader reads lacks the samples that the draw's sample mask and sample coverage
     /// remove; otherwise it may have them.
     input_mask_lacks_masked: bool,

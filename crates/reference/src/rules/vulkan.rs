@@ -2,9 +2,9 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
-    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMask, MaskOfOne, NegativeAlpha, Resolve,
-    Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap,
-    SrgbLogic, narrowed, permit,
+    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMaskRule, MaskOfOne, NegativeAlpha,
+    Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats,
+    Snap, SrgbLogic, narrowed, permit,
 };
 use etalon_frame::{Grade, Limits, Property};
 
@@ -270,7 +270,7 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "Vulkan: Fragment Shading: without a fragment shader none is executed, and the values of colour attachments alone are undefined",
         ),
         input_mask: permit(
-            InputMask::OfRun,
+            InputMaskRule::OfRun,
             "Vulkan: Sample Mask: the coverage mask of the fragment, with sample shading of the samples being shaded alone",
         ),
         input_mask_lacks_masked: narrowed(

@@ -3,9 +3,9 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
-    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMask, MaskOfOne, NegativeAlpha, Resolve,
-    Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats, Snap,
-    SrgbLogic, narrowed, permit,
+    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMaskRule, MaskOfOne, NegativeAlpha,
+    Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats,
+    Snap, SrgbLogic, narrowed, permit,
 };
 use etalon_frame::{Grade, Limits};
 
@@ -207,7 +207,7 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "WebGPU: 23.2.8 No Color Output: depth test and stencil operations use the depth of the vertex position output",
         ),
         input_mask: permit(
-            InputMask::AllOrOwn,
+            InputMaskRule::AllOrOwn,
             "WebGPU: WGSL, sample_mask: a bit for every sample that the fragment covers, or that of the run's sample alone",
         ),
         input_mask_lacks_masked: permit(

@@ -7,11 +7,11 @@ const STEP: f64 = 4.0;
 
 /// Places labels so that each covers no point, line or other label. A label without such a position is left
 /// out; the legend, hover text and table also show it.
-pub(crate) struct Labels {
+pub(crate) struct LabelPlaces {
     taken: Vec<[f64; 4]>,
 }
 
-impl Labels {
+impl LabelPlaces {
     /// Prepares labels for a chart with points at these positions.
     pub(crate) fn new(points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let around = |(x, y): (f64, f64)| [x - 5.0, y - 5.0, x + 5.0, y + 5.0];
@@ -77,7 +77,7 @@ mod tests {
 
     #[test]
     fn labels_cover_nothing() {
-        let mut labels = Labels::new([(100.0, 100.0), (112.0, 100.0)]);
+        let mut labels = LabelPlaces::new([(100.0, 100.0), (112.0, 100.0)]);
         let (left, base) = labels.place("a method", (100.0, 100.0)).unwrap();
         let across = left < 117.0 && left + 8.0 * 5.8 > 107.0;
         let along = base - 8.5 < 105.0 && base + 2.0 > 95.0;
@@ -90,9 +90,9 @@ mod tests {
 
     #[test]
     fn no_line_strikes_through_a_label() {
-        let free = Labels::new([(200.0, 150.0)]).place("method", (200.0, 150.0));
+        let free = LabelPlaces::new([(200.0, 150.0)]).place("method", (200.0, 150.0));
         let (left, base) = free.unwrap();
-        let mut labels = Labels::new([(200.0, 150.0)]);
+        let mut labels = LabelPlaces::new([(200.0, 150.0)]);
         // A step of a front runs through the label's default position.
         labels.avoid(&[(200.0, base - 4.0), (300.0, base - 4.0), (300.0, 40.0)]);
         let (x, y) = labels.place("method", (200.0, 150.0)).unwrap();

@@ -3,7 +3,7 @@
 //!
 //! Records are matched by case and adapter. `etalon diff` exits with 1 if anything is *worse*:
 //!
-//! - a case changed for the worse, by the table of [`Change`](etalon_record::Change::between);
+//! - a case changed for the worse, by the table of [`CaseChange`](etalon_record::Change::between);
 //! - both runs select a case, by their lists of cases, and the second has no record of it;
 //! - the second run lacks an adapter of the first, unless the pair to compare was named.
 //!
@@ -22,8 +22,8 @@ mod table;
 mod times;
 
 pub use data::{
-    AreaTime, Change, Detail, Direction, Fact, FrameChange, ImageChange, MethodTime, Only, Pair,
-    RunDiff, Side, Transition, Unpaired,
+    AdapterPair, AreaTime, CaseChange, ChangeDirection, Detail, Fact, FrameChange, ImageChange,
+    MethodTime, Only, RunDiff, RunSide, Transition, Unpaired,
 };
 pub use page::write_page;
 pub use table::table;
@@ -55,7 +55,7 @@ pub fn diff(
     let [first, second] = &folders;
     let chosen = pairs::choose(first, second, adapters)?;
     let same_selection = facts::same_selection(&runs[0].header, &runs[1].header);
-    let selection = Selection::read(after, &runs[1], same_selection)?;
+    let selection = CasesToDraw::read(after, &runs[1], same_selection)?;
     let mut found = RunDiff {
         kind: "runs",
         warnings: warnings(&runs, same_selection),
@@ -68,8 +68,8 @@ pub fn diff(
     for adapter in chosen {
         of_pair(&mut found, &folders, adapter, &selection);
     }
-    if matches!(selection, Selection::Unknown) {
-        let alone = found.only.iter().filter(|o| o.side == Side::Before);
+    if matches!(selection, CasesToDraw::Unknown) {
+        let alone = found.only.iter().filter(|o| o.side == RunSide::Before);
         match alone.count() as u64 {
             0 => {}
             n => found.untold.push(format!(
@@ -92,10 +92,10 @@ pub fn diff(
 }
 
 /// The sort key: first the direction (worse, better, other), then the severity, then case file and case.
-fn order(change: &Change) -> (Direction, Reverse<u8>, &str, &str, &[String; 2]) {
+fn order(change: &CaseChange) -> (ChangeDirection, Reverse<u8>, &str, &str, &[String; 2]) {
     let severity = match change.direction {
-        Direction::Better => change.verdict[0],
-        Direction::Worse | Direction::Other => change.verdict[1],
+        ChangeDirection::Better => change.verdict[0],
+        ChangeDirection::Worse | ChangeDirection::Other => change.verdict[1],
     };
     (
         change.direction,
@@ -110,10 +110,10 @@ fn of_pair(
     found: &mut RunDiff,
     folders: &[Folder<'_>; 2],
     adapter: [&str; 2],
-    selection: &Selection,
+    selection: &CasesToDraw,
 ) {
     let matched = Matched::new(folders, adapter);
-    let mut pair = Pair::new(adapter, facts::of_adapters(folders, adapter));
+    let mut pair = AdapterPair::new(adapter, facts::of_adapters(folders, adapter));
     for both in &matched.both {
         pair.add(both);
         if let Some(change) = compare::change(folders, adapter, both) {
@@ -124,8 +124,8 @@ fn of_pair(
         }
     }
     for (side, records) in [
-        (Side::Before, &matched.before),
-        (Side::After, &matched.after),
+        (RunSide::Before, &matched.before),
+        (RunSide::After, &matched.after),
     ] {
         pair.only[side as usize] = records.len() as u64;
         for record in records {
@@ -135,7 +135,7 @@ fn of_pair(
                 adapter: record.adapter.clone(),
                 side,
                 verdict: record.verdict,
-                worse: side == Side::Before && selection.has(&record.case),
+                worse: side == RunSide::Before && selection.has(&record.case),
             });
         }
     }
@@ -146,7 +146,7 @@ fn of_pair(
 }
 
 /// Which cases the second run should draw.
-enum Selection {
+enum CasesToDraw {
     /// The cases of the first run.
     Same,
     /// The cases of a list and a shard.
@@ -155,7 +155,7 @@ enum Selection {
     Unknown,
 }
 
-impl Selection {
+impl CasesToDraw {
     fn read(folder: &Path, run: &Run, same: bool) -> Result<Self, ReportError> {
         if same {
             return Ok(Self::Same);

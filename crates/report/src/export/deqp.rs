@@ -23,7 +23,7 @@
 use crate::export::status::seconds;
 use crate::files::file_name;
 use crate::numbers::count;
-use crate::run::grid::Grid;
+use crate::run::grid::RunGrid;
 use etalon_record::{Record, Run, Verdict, read_cases, shard_of};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -38,7 +38,7 @@ pub(crate) struct CaseList {
 }
 
 /// Returns a list per adapter of the run.
-pub(crate) fn lists(folder: &Path, run: &Run, grid: &Grid<'_>) -> Vec<CaseList> {
+pub(crate) fn lists(folder: &Path, run: &Run, grid: &RunGrid<'_>) -> Vec<CaseList> {
     let selected = selected(folder, run);
     let mut names = BTreeSet::new();
     let adapters = grid.adapters.iter().enumerate();
@@ -50,7 +50,7 @@ pub(crate) fn lists(folder: &Path, run: &Run, grid: &Grid<'_>) -> Vec<CaseList> 
         .collect()
 }
 
-fn list(run: &Run, grid: &Grid<'_>, column: usize, selected: &[String]) -> String {
+fn list(run: &Run, grid: &RunGrid<'_>, column: usize, selected: &[String]) -> String {
     let mut lines = Vec::new();
     let mut refused = 0;
     let mut drawn = BTreeSet::new();

@@ -11,14 +11,14 @@
 //! process is `system-err`. A last suite, `etalon`, has one case that fails if the run is empty or
 //! incomplete, so that an unfinished run does not look green.
 
-use crate::export::status::{Conclusion, account, incomplete, note, particulars, seconds};
-use crate::run::grid::Grid;
+use crate::export::status::{CiConclusion, account, incomplete, note, particulars, seconds};
+use crate::run::grid::RunGrid;
 use crate::words::{headline, name};
 use etalon_record::{Record, Run};
 use quick_junit::{NonSuccessKind, Report, SerializeError, TestCase, TestCaseStatus, TestSuite};
 use std::time::Duration;
 
-pub(crate) fn xml(run: &Run, grid: &Grid<'_>) -> Result<String, SerializeError> {
+pub(crate) fn xml(run: &Run, grid: &RunGrid<'_>) -> Result<String, SerializeError> {
     let mut report = Report::new("etalon");
     for (column, adapter) in grid.adapters.iter().enumerate() {
         let mut suite = TestSuite::new(*adapter);
@@ -44,11 +44,11 @@ fn well_formed(xml: &str) -> String {
 }
 
 fn test_case(record: &Record) -> TestCase {
-    let conclusion = Conclusion::of(record);
+    let conclusion = CiConclusion::of(record);
     let mut case = TestCase::new(record.case.as_str(), status(record, conclusion));
     case.set_classname(record.parts().file());
     case.set_time(Duration::try_from_secs_f64(seconds(record)).unwrap_or_default());
-    let against = matches!(conclusion, Conclusion::Failed | Conclusion::Broken);
+    let against = matches!(conclusion, CiConclusion::Failed | CiConclusion::Broken);
     let mut lines = Vec::new();
     if let Some(note) = note(record) {
         lines.push(format!("{}; {note}", name(record.verdict)));
@@ -67,17 +67,20 @@ fn test_case(record: &Record) -> TestCase {
     case
 }
 
-fn status(record: &Record, conclusion: Conclusion) -> TestCaseStatus {
+fn status(record: &Record, conclusion: CiConclusion) -> TestCaseStatus {
     let kind = match conclusion {
-        Conclusion::Broken => NonSuccessKind::Error,
-        Conclusion::Failed => NonSuccessKind::Failure,
-        Conclusion::Skipped => {
+        CiConclusion::Broken => NonSuccessKind::Error,
+        CiConclusion::Failed => NonSuccessKind::Failure,
+        CiConclusion::Skipped => {
             let mut status = TestCaseStatus::skipped();
             status.set_type(record.verdict.name());
             status.set_message(headline(record));
             return status;
         }
-        Conclusion::Passed | Conclusion::Due | Conclusion::Excused | Conclusion::Measured => {
+        CiConclusion::Passed
+        | CiConclusion::Due
+        | CiConclusion::Excused
+        | CiConclusion::Measured => {
             return TestCaseStatus::success();
         }
     };

@@ -6,7 +6,7 @@
 
 use crate::command;
 use crate::export::status::{incomplete, particulars};
-use crate::news::{News, NewsEntry};
+use crate::news::{NewsEntry, RunNews};
 use crate::numbers::{count, percent_of};
 use crate::run::grid::VerdictTally;
 use crate::run::unexpected::unexpected_records;
@@ -77,7 +77,7 @@ impl MarkdownText {
 }
 
 /// The file.
-pub(crate) fn summary(run: &Run, news: Option<&News>) -> String {
+pub(crate) fn summary(run: &Run, news: Option<&RunNews>) -> String {
     let mut text = MarkdownText {
         text: String::new(),
         until: 0,
@@ -103,7 +103,7 @@ pub(crate) fn summary(run: &Run, news: Option<&News>) -> String {
     text.text
 }
 
-fn head(text: &mut MarkdownText, run: &Run, news: Option<&News>) {
+fn head(text: &mut MarkdownText, run: &Run, news: Option<&RunNews>) {
     let h = &run.header;
     text.line("# etalon\n");
     if let Some(why) = incomplete(run) {
@@ -151,7 +151,7 @@ fn head(text: &mut MarkdownText, run: &Run, news: Option<&News>) {
 }
 
 /// Writes the news, then the runs with which this run was compared.
-fn told(text: &mut MarkdownText, news: &News) {
+fn told(text: &mut MarkdownText, news: &RunNews) {
     for (title, entries) in news.sections() {
         if entries.is_empty() {
             continue;

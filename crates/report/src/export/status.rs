@@ -6,7 +6,7 @@ use etalon_record::{Record, Run, Verdict};
 
 /// The conclusion that continuous integration draws from a record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Conclusion {
+pub(crate) enum CiConclusion {
     /// The frame is right by the API's specification.
     Passed,
     /// A selftest that was due to fail, and failed.
@@ -23,7 +23,7 @@ pub(crate) enum Conclusion {
     Broken,
 }
 
-impl Conclusion {
+impl CiConclusion {
     pub(crate) fn of(record: &Record) -> Self {
         let verdict = record.verdict;
         if record.unexpected() {
@@ -83,7 +83,9 @@ pub(crate) fn note(record: &Record) -> Option<String> {
             "better than expected: {} is no longer due",
             name(verdict)
         )),
-        _ if Conclusion::of(record) == Conclusion::Due => Some("due to fail, and fails".to_owned()),
+        _ if CiConclusion::of(record) == CiConclusion::Due => {
+            Some("due to fail, and fails".to_owned())
+        }
         _ if record.verdict == Verdict::Imprecise => Some("legal, not precise".to_owned()),
         _ => None,
     }
@@ -152,10 +154,10 @@ mod tests {
                 record.expected = expected.then(|| Expected {
                     reason: "known".to_owned(),
                 });
-                let conclusion = Conclusion::of(&record);
-                let against = matches!(conclusion, Conclusion::Failed | Conclusion::Broken);
+                let conclusion = CiConclusion::of(&record);
+                let against = matches!(conclusion, CiConclusion::Failed | CiConclusion::Broken);
                 assert_eq!(against, record.unexpected(), "{record:?}");
-                if matches!(conclusion, Conclusion::Passed) {
+                if matches!(conclusion, CiConclusion::Passed) {
                     assert!(matches!(verdict, Verdict::Pass | Verdict::Imprecise));
                 }
             }

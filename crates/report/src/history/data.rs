@@ -6,7 +6,7 @@
 use super::courses::{Course, Courses};
 use super::model::{Model, Timeline};
 use super::news::{self, News};
-use super::times::{Series, Timed};
+use super::times::{CaseTimes, Timed};
 use crate::lists::Interner;
 use crate::numbers::trimmed;
 use crate::words::machine;
@@ -230,7 +230,7 @@ fn entry_data(entry: &TriageEntry) -> Value {
 }
 
 /// Returns the series of a case.
-pub(super) fn times(id: &str, history: &History, series: &[&Series]) -> String {
+pub(super) fn times(id: &str, history: &History, series: &[&CaseTimes]) -> String {
     let series_data: Vec<Value> = series
         .iter()
         .map(|series| {

@@ -6,7 +6,7 @@ use super::places::Line;
 use crate::numbers::{percent, thousands};
 use crate::page::adapter::breakable;
 use crate::table::{Cell, Table};
-use etalon_stats::{Score, Scores as Both};
+use etalon_stats::{RunScore as Both, Score};
 use maud::{Markup, html};
 use serde_json::{Value, json};
 

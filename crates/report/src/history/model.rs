@@ -5,7 +5,7 @@ use super::families::Families;
 use super::looks::Looks;
 use super::places::{Line, Places};
 use super::scores::Scores;
-use super::times::{self, Series};
+use super::times::{self, CaseTimes};
 use etalon_history::{History, HistoryError, TriageStates};
 use std::rc::Rc;
 
@@ -17,7 +17,7 @@ pub(super) struct Model<'a> {
     pub(super) families: Families,
     pub(super) looks: Looks,
     pub(super) timelines: Vec<Timeline<'a>>,
-    pub(super) series: Vec<Series>,
+    pub(super) series: Vec<CaseTimes>,
     pub(super) states: TriageStates,
 }
 

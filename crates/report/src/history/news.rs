@@ -2,11 +2,11 @@
 //! first.
 
 use super::model::Model;
-use super::times::{Series, Timed};
+use super::times::{CaseTimes, Timed};
 use crate::lists::grouped;
 use crate::numbers::{between, change, count};
-use etalon_history::{Subject, TriageEntry, TriageState};
-use etalon_stats::{Cause, ChangePoint, Event, Happening};
+use etalon_history::{TriageEntry, TriageState, TriageSubject};
+use etalon_stats::{Cause, ChangePoint, Happening, VerdictEvent};
 use std::collections::BTreeMap;
 
 /// The maximum number of lines of news on the start page.
@@ -16,7 +16,7 @@ const RECENT: usize = 20;
 
 /// The kind of a line, worst first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(super) enum Kind {
+pub(super) enum NewsLineKind {
     Broken,
     Flaky,
     Set,
@@ -28,16 +28,16 @@ pub(super) enum Kind {
 
 /// The kinds, each with the class that colours its lines and the maximum number of lines if other kinds need
 /// room.
-const KINDS: [(Kind, &str, usize); 6] = [
-    (Kind::Broken, "f", 10),
-    (Kind::Flaky, "o", 3),
-    (Kind::Set, "n", 3),
-    (Kind::Fixed, "p", 3),
-    (Kind::Times, "b", 4),
-    (Kind::Known, "u", 1),
+const KINDS: [(NewsLineKind, &str, usize); 6] = [
+    (NewsLineKind::Broken, "f", 10),
+    (NewsLineKind::Flaky, "o", 3),
+    (NewsLineKind::Set, "n", 3),
+    (NewsLineKind::Fixed, "p", 3),
+    (NewsLineKind::Times, "b", 4),
+    (NewsLineKind::Known, "u", 1),
 ];
 
-impl Kind {
+impl NewsLineKind {
     /// The class that colours a line.
     pub(super) fn colour(self) -> &'static str {
         KINDS[self as usize].1
@@ -46,7 +46,7 @@ impl Kind {
 
 /// A line of the news.
 pub(super) struct Item {
-    pub(super) kind: Kind,
+    pub(super) kind: NewsLineKind,
     /// The sign and the word: `✗ broken`.
     pub(super) word: &'static str,
     /// The case, or the family of cases.
@@ -71,16 +71,16 @@ pub(super) struct News {
 
 /// The events in the order of [`News::counts`] and of the data files, each with its kind of line and the label
 /// of these lines.
-const EVENTS: [(Event, Kind, &str); 5] = [
-    (Event::Broken, Kind::Broken, "✗ broken"),
-    (Event::Flaky, Kind::Flaky, "⇄ flaky"),
-    (Event::Fixed, Kind::Fixed, "✓ fixed"),
-    (Event::Appeared, Kind::Set, "+ appeared"),
-    (Event::Gone, Kind::Set, "− gone"),
+const EVENTS: [(VerdictEvent, NewsLineKind, &str); 5] = [
+    (VerdictEvent::Broken, NewsLineKind::Broken, "✗ broken"),
+    (VerdictEvent::Flaky, NewsLineKind::Flaky, "⇄ flaky"),
+    (VerdictEvent::Fixed, NewsLineKind::Fixed, "✓ fixed"),
+    (VerdictEvent::Appeared, NewsLineKind::Set, "+ appeared"),
+    (VerdictEvent::Gone, NewsLineKind::Set, "− gone"),
 ];
 
 /// Returns the index of an event in [`EVENTS`].
-pub(super) fn number(event: Event) -> usize {
+pub(super) fn number(event: VerdictEvent) -> usize {
     let place = EVENTS.iter().position(|(known, ..)| *known == event);
     place.unwrap_or_default()
 }
@@ -140,7 +140,7 @@ impl News {
     /// Returns the lines for a screen: each kind gets an equal part, and the worst kinds get the room that is
     /// left.
     pub(super) fn screen(&self) -> Vec<&Item> {
-        let items = |kind: Kind| self.items.iter().filter(move |item| item.kind == kind);
+        let items = |kind: NewsLineKind| self.items.iter().filter(move |item| item.kind == kind);
         let mut room = LINES;
         let mut counts = KINDS.map(|(kind, _, most)| {
             let lines = items(kind).count().min(most).min(room);
@@ -162,7 +162,7 @@ impl News {
 fn of_case(model: &Model<'_>, kind: usize, case: &str, hits: &[NewsHit]) -> Item {
     let unexpected = hits.iter().any(|hit| hit.unexpected);
     let entry = |hit: &NewsHit| {
-        model.states.get(&Subject {
+        model.states.get(&TriageSubject {
             case: case.to_owned(),
             timeline: model.name(hit.line).to_owned(),
             step: None,
@@ -186,7 +186,7 @@ fn of_case(model: &Model<'_>, kind: usize, case: &str, hits: &[NewsHit]) -> Item
         .collect();
     let (_, kind, word) = EVENTS[kind];
     Item {
-        kind: if is_known { Kind::Known } else { kind },
+        kind: if is_known { NewsLineKind::Known } else { kind },
         word,
         subject: case.to_owned(),
         is_family: false,
@@ -201,7 +201,7 @@ fn of_set(model: &Model<'_>, kind: usize, family: &str, lines: &BTreeMap<usize, 
     let names: Vec<&str> = lines.keys().map(|line| model.name(*line)).collect();
     let (event, kind, word) = EVENTS[kind];
     let verb = match event {
-        Event::Appeared => "new",
+        VerdictEvent::Appeared => "new",
         _ => "without a verdict",
     };
     Item {
@@ -231,7 +231,7 @@ fn named(names: &[&str]) -> String {
 }
 
 /// Returns the changes of one series that are news.
-fn of_times(model: &Model<'_>, series: &Series, timed: &Timed) -> Vec<Item> {
+fn of_times(model: &Model<'_>, series: &CaseTimes, timed: &Timed) -> Vec<Item> {
     let line = &model.timelines[series.line].line.runs;
     // The end of a series that is no longer measured is not news.
     let is_measured = timed.runs.last() == line.last().map(|run| &run.place);
@@ -254,7 +254,11 @@ fn of_times(model: &Model<'_>, series: &Series, timed: &Timed) -> Vec<Item> {
         let ratio = &point.ratio;
         let size = ratio.estimate.ln().abs();
         items.push(Item {
-            kind: if known { Kind::Known } else { Kind::Times },
+            kind: if known {
+                NewsLineKind::Known
+            } else {
+                NewsLineKind::Times
+            },
             word: if ratio.estimate > 1.0 {
                 "▲ slower"
             } else {

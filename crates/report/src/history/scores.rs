@@ -66,7 +66,7 @@ impl Scores {
         &self,
         families: impl Iterator<Item = usize>,
         run: usize,
-    ) -> etalon_stats::Scores {
+    ) -> etalon_stats::RunScore {
         let mut sums = [Score::default(); 2];
         for family in families {
             let scores = [self.common[family][run], self.own[family][run]];
@@ -76,7 +76,7 @@ impl Scores {
             }
         }
         let [common, own] = sums;
-        etalon_stats::Scores { common, own }
+        etalon_stats::RunScore { common, own }
     }
 }
 

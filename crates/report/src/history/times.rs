@@ -3,10 +3,11 @@
 use super::places::Places;
 use crate::threads::on_threads;
 use etalon_history::{
-    History, HistoryError, MachineId, SeriesKey, Subject, TimePoint, TriageEntry, TriageStates,
+    History, HistoryError, MachineId, SeriesKey, TimePoint, TriageEntry, TriageStates,
+    TriageSubject,
 };
 use etalon_record::Time;
-use etalon_stats::{ChangePoint, Changes, Point, change_points};
+use etalon_stats::{ChangePoint, Changes, TimedRun, change_points};
 
 /// The times that are shown as series.
 const TIMES: [Time; 4] = [Time::Wall, Time::Gpu, Time::Cpu, Time::ReadBack];
@@ -14,7 +15,7 @@ const TIMES: [Time; 4] = [Time::Wall, Time::Gpu, Time::Cpu, Time::ReadBack];
 const RECENT: usize = 40;
 
 /// The times of one case on one adapter, one machine and one ruler.
-pub(super) struct Series {
+pub(super) struct CaseTimes {
     /// The case's number minus one.
     pub(super) case: usize,
     /// The index of the timeline.
@@ -30,7 +31,7 @@ pub(super) struct Timed {
     pub(super) time: Time,
     /// The indices of the runs.
     pub(super) runs: Vec<usize>,
-    pub(super) points: Vec<Point>,
+    pub(super) points: Vec<TimedRun>,
     pub(super) changes: Changes,
     /// The last entry of triage of each change.
     pub(super) states: Vec<Option<TriageEntry>>,
@@ -43,8 +44,8 @@ pub(super) fn read(
     history: &History,
     places: &Places<'_>,
     states: &TriageStates,
-) -> Result<Vec<Series>, HistoryError> {
-    let mut series_list: Vec<Series> = Vec::new();
+) -> Result<Vec<CaseTimes>, HistoryError> {
+    let mut series_list: Vec<CaseTimes> = Vec::new();
     let mut measured = Vec::new();
     for key in history.series_keys()? {
         let line = places.timelines.iter().position(|l| l.name == key.timeline);
@@ -65,7 +66,7 @@ pub(super) fn read(
                     });
                 }
             }
-            series_list.push(Series {
+            series_list.push(CaseTimes {
                 case: key.case.number() as usize - 1,
                 line,
                 machine: key.machine,
@@ -90,7 +91,7 @@ struct MeasuredTime<'a> {
     time: Time,
     /// The indices of the runs.
     runs: Vec<usize>,
-    points: Vec<Point>,
+    points: Vec<TimedRun>,
     /// Triage of the series' steps, by the index of the run.
     said: Vec<(usize, &'a TriageEntry)>,
 }
@@ -136,7 +137,7 @@ fn said<'a>(
     }
     let case = history.case_name(key.case)?;
     let is_subject =
-        |subject: &Subject| *subject.case == *case && *subject.timeline == *key.timeline;
+        |subject: &TriageSubject| *subject.case == *case && *subject.timeline == *key.timeline;
     let entries = states.iter().filter(|(subject, _)| is_subject(subject));
     let entries = entries.filter_map(|(subject, entry)| {
         let step = subject.step.filter(|step| step.machine == key.machine)?;
@@ -156,7 +157,7 @@ impl Timed {
 }
 
 /// Returns whether each change was found only with the last run.
-fn fresh(points: &[Point], changes: &Changes) -> Vec<bool> {
+fn fresh(points: &[TimedRun], changes: &Changes) -> Vec<bool> {
     let recent = |change: &&ChangePoint| change.index + RECENT >= points.len();
     let before = match changes.points.last().filter(recent) {
         Some(_) => change_points(&points[..points.len() - 1]).ok(),

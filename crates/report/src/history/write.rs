@@ -6,7 +6,7 @@ use super::model::Model;
 use super::news::News;
 use super::page::page;
 use super::places::Places;
-use super::times::Series;
+use super::times::CaseTimes;
 use crate::error::ReportError;
 use crate::staged::{PagesKind, Staged, WrittenFolder};
 use etalon_history::{History, Labels, TriageEntry};
@@ -89,7 +89,7 @@ impl PageOrder {
 type Packed = ([(&'static str, Vec<String>); 3], Value);
 
 fn packed(model: &Model<'_>, order: &PageOrder) -> Result<Packed, ReportError> {
-    let mut series_of: BTreeMap<usize, Vec<&Series>> = BTreeMap::new();
+    let mut series_of: BTreeMap<usize, Vec<&CaseTimes>> = BTreeMap::new();
     for times in &model.series {
         series_of.entry(times.case).or_default().push(times);
     }

@@ -11,7 +11,7 @@ use crate::table::{Cell, Table};
 use check::{Checked, check};
 use etalon_methods::claims;
 use maud::{Markup, html};
-use outcome::{Figure, Holds, Reproduction};
+use outcome::{CaseFigure, Holds, Reproduction};
 
 /// Returns the checked claims that the run has measurements for, and the others.
 fn checked<'a>(methods: &Methods<'a>) -> (Vec<Checked<'a>>, Vec<Checked<'a>>) {
@@ -93,7 +93,7 @@ struct FigureRange {
 }
 
 /// Joins equal figures of a scene into one entry, with the adapters and the settings at which they were found.
-fn together(figures: &[Figure]) -> Vec<FigureRange> {
+fn together(figures: &[CaseFigure]) -> Vec<FigureRange> {
     let groups = grouped(figures.iter().map(|f| ((f.holds, &*f.scene, f.text()), f)));
     let texts = groups.into_iter().map(|((holds, scene, _), figures)| {
         let adapters = distinct(figures.iter().map(|f| f.adapter.as_str()));
@@ -110,7 +110,7 @@ fn together(figures: &[Figure]) -> Vec<FigureRange> {
         };
         FigureRange {
             holds,
-            text: Figure::range(&figures),
+            text: CaseFigure::range(&figures),
             places: format!("{scene}{place} on {}", adapters.join(", ")),
         }
     });

@@ -64,11 +64,11 @@ pub(crate) struct SceneSeries<'a> {
     /// The last part of the case file's name: the scene's name, with a suffix or without.
     pub(crate) name: &'a str,
     /// The series in the order of methods and variants.
-    pub(crate) series: Vec<Series<'a>>,
+    pub(crate) series: Vec<MethodSeries<'a>>,
 }
 
 /// A method with its settings, along a parameter if it has one.
-pub(crate) struct Series<'a> {
+pub(crate) struct MethodSeries<'a> {
     pub(crate) method: &'a str,
     /// Axis values, other than the method and the parameter, that differ within the scene:
     /// `format=rgba16float`.
@@ -92,14 +92,14 @@ pub(crate) struct SeriesPoint<'a> {
 /// The parameters of a scene at which methods are compared. Points are compared only if their settings are
 /// equal.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Setting<'a> {
-    /// See [`Series::variant`].
+pub(crate) struct SceneSetting<'a> {
+    /// See [`MethodSeries::variant`].
     pub(crate) variant: String,
     /// The parameter and its value.
     pub(crate) parameter: Option<(&'a str, f64)>,
 }
 
-impl Setting<'_> {
+impl SceneSetting<'_> {
     /// Returns the setting in words: `alpha 0.4, address=repeat`; empty if the scene has no parameter.
     pub(crate) fn text(&self) -> String {
         let parameter = self
@@ -127,7 +127,7 @@ pub(crate) struct ShownScene<'s, 'a> {
     /// The id of the element that holds its charts.
     pub(crate) anchor: String,
     /// All settings at which a method was drawn.
-    pub(crate) settings: Vec<Setting<'a>>,
+    pub(crate) settings: Vec<SceneSetting<'a>>,
     /// The index of the setting that represents the scene.
     pub(crate) main: usize,
 }
@@ -175,10 +175,10 @@ impl SeriesPoint<'_> {
     }
 }
 
-impl<'a> Series<'a> {
+impl<'a> MethodSeries<'a> {
     /// Returns the setting of one of the series' points.
-    pub(crate) fn setting(&self, point: &SeriesPoint<'a>) -> Setting<'a> {
-        Setting {
+    pub(crate) fn setting(&self, point: &SeriesPoint<'a>) -> SceneSetting<'a> {
+        SceneSetting {
             variant: self.variant.clone(),
             parameter: self.parameter.zip(point.value),
         }
@@ -214,13 +214,13 @@ impl<'a> Series<'a> {
 
 impl<'a> SceneSeries<'a> {
     /// Returns all settings at which a method was drawn, by variant, then along the parameter.
-    pub(crate) fn settings(&self) -> Vec<Setting<'a>> {
-        let settings_of = |series: &Series<'a>| -> Vec<Setting<'a>> {
+    pub(crate) fn settings(&self) -> Vec<SceneSetting<'a>> {
+        let settings_of = |series: &MethodSeries<'a>| -> Vec<SceneSetting<'a>> {
             series.points.iter().map(|p| series.setting(p)).collect()
         };
         let mut settings = distinct(self.series.iter().flat_map(settings_of));
         settings.sort_by(|a, b| {
-            let key = |s: &Setting<'a>| s.parameter.map_or(("", 0.0), |p| p);
+            let key = |s: &SceneSetting<'a>| s.parameter.map_or(("", 0.0), |p| p);
             let ((a_name, a_value), (b_name, b_value)) = (key(a), key(b));
             a.variant
                 .cmp(&b.variant)
@@ -232,11 +232,11 @@ impl<'a> SceneSeries<'a> {
 
     /// Returns the setting that represents the scene. Of the settings at which the most methods were
     /// measured, it is the middle one of the first variant.
-    pub(crate) fn main(&self) -> Option<Setting<'a>> {
+    pub(crate) fn main(&self) -> Option<SceneSetting<'a>> {
         let settings = self.settings();
-        let measured = |s: &Setting<'a>| self.measured(s).len();
+        let measured = |s: &SceneSetting<'a>| self.measured(s).len();
         let most = settings.iter().map(measured).max()?;
-        let mut best: Vec<Setting<'a>> = settings
+        let mut best: Vec<SceneSetting<'a>> = settings
             .into_iter()
             .filter(|s| measured(s) == most)
             .collect();
@@ -248,8 +248,8 @@ impl<'a> SceneSeries<'a> {
     /// Returns the points drawn at a setting.
     pub(crate) fn at<'s>(
         &'s self,
-        setting: &'s Setting<'a>,
-    ) -> impl Iterator<Item = (&'s Series<'a>, &'s SeriesPoint<'a>)> {
+        setting: &'s SceneSetting<'a>,
+    ) -> impl Iterator<Item = (&'s MethodSeries<'a>, &'s SeriesPoint<'a>)> {
         self.series.iter().flat_map(move |series| {
             let here = move |p: &&SeriesPoint<'a>| series.setting(p) == *setting;
             series.points.iter().filter(here).map(move |p| (series, p))
@@ -257,7 +257,7 @@ impl<'a> SceneSeries<'a> {
     }
 
     /// Returns the methods that have an error at a setting on some adapter, without repetitions.
-    pub(crate) fn measured(&self, setting: &Setting<'a>) -> Vec<&'a str> {
+    pub(crate) fn measured(&self, setting: &SceneSetting<'a>) -> Vec<&'a str> {
         let some = self.at(setting).filter(|(_, p)| p.error().is_some());
         let mut names: Vec<&str> = some.map(|(s, _)| s.method).collect();
         names.dedup();
@@ -273,7 +273,7 @@ impl<'a> SceneSeries<'a> {
 
     /// Returns the methods that were drawn at another setting or on another adapter, but not at this setting
     /// on this adapter.
-    pub(crate) fn unmeasured(&self, setting: &Setting<'a>, adapter: usize) -> Vec<&'a str> {
+    pub(crate) fn unmeasured(&self, setting: &SceneSetting<'a>, adapter: usize) -> Vec<&'a str> {
         let here = |method: &str| {
             self.at(setting)
                 .any(|(s, p)| s.method == method && p.adapter == adapter && p.error().is_some())
@@ -424,7 +424,7 @@ fn scene<'a>(
             });
             // A run has one record per case and adapter. If a damaged run has two, the first record counts.
             points.dedup_by(|a, b| place(a) == place(b));
-            Series {
+            MethodSeries {
                 method,
                 variant,
                 parameter,
@@ -470,7 +470,7 @@ mod tests {
             [("s", "mirror"), ("t", "windows"), ("t", "windows-k")]
         );
         let windows = methods.scenes().nth(1).unwrap();
-        let series: Vec<String> = windows.series.iter().map(Series::name).collect();
+        let series: Vec<String> = windows.series.iter().map(MethodSeries::name).collect();
         assert_eq!(series, ["a (size=4)", "b (size=4)", "b (size=8)"]);
         let values: Vec<_> = windows.series[1]
             .points
@@ -478,7 +478,7 @@ mod tests {
             .map(|p| (p.value, p.adapter))
             .collect();
         assert_eq!(values, [(Some(0.1), 0), (Some(0.1), 1), (Some(0.9), 0)]);
-        let settings: Vec<String> = windows.settings().iter().map(Setting::text).collect();
+        let settings: Vec<String> = windows.settings().iter().map(SceneSetting::text).collect();
         let expected = [
             "alpha 0.1, size=4",
             "alpha 0.5, size=4",

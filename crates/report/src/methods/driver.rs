@@ -3,7 +3,7 @@
 use crate::chart::{LEFT, RIGHT, Scale, TOP, chart, key, marker, n};
 use crate::numbers::{digits, duration, median, share};
 use crate::page::adapter::breakable;
-use crate::run::grid::{Grid, rate};
+use crate::run::grid::{RunGrid, rate};
 use crate::table::{Cell, Table};
 use crate::words::plain;
 use etalon_frame::{Accuracy, Aspect, ChannelEncoding};
@@ -44,7 +44,7 @@ impl<'a> DriverFigures<'a> {
 /// encodings are never added.
 type DriverRows<'a> = BTreeMap<(&'a str, Aspect, Option<ChannelEncoding>), Vec<DriverFigures<'a>>>;
 
-fn rows<'a>(grid: &Grid<'a>) -> DriverRows<'a> {
+fn rows<'a>(grid: &RunGrid<'a>) -> DriverRows<'a> {
     let mut rows: DriverRows<'a> = BTreeMap::new();
     for area in &grid.areas {
         for column in 0..grid.adapters.len() {
@@ -86,7 +86,7 @@ struct Speed {
     frame: Option<f64>,
 }
 
-fn speed(grid: &Grid<'_>, adapter: &str) -> Speed {
+fn speed(grid: &RunGrid<'_>, adapter: &str) -> Speed {
     let records = grid.run.records.iter();
     let records: Vec<&Record> = records.filter(|r| r.adapter == adapter).collect();
     let judged = records.iter().filter(|r| r.verdict.is_judged());
@@ -101,7 +101,7 @@ fn speed(grid: &Grid<'_>, adapter: &str) -> Speed {
 }
 
 /// Returns the section of `index.html`; `None` if no record has a distance.
-pub(crate) fn section(grid: &Grid<'_>) -> Option<Markup> {
+pub(crate) fn section(grid: &RunGrid<'_>) -> Option<Markup> {
     let rows = rows(grid);
     if rows.is_empty() {
         return None;
@@ -145,7 +145,7 @@ pub(crate) fn section(grid: &Grid<'_>) -> Option<Markup> {
     Some(section)
 }
 
-fn table(grid: &Grid<'_>, rows: &DriverRows<'_>) -> Markup {
+fn table(grid: &RunGrid<'_>, rows: &DriverRows<'_>) -> Markup {
     // The names of a row, its class, and a cell per adapter.
     type Row = ([String; 3], &'static str, Vec<Cell>);
     let speeds: Vec<Speed> = grid.adapters.iter().map(|a| speed(grid, a)).collect();
@@ -258,7 +258,7 @@ fn shares<'a>(
 }
 
 /// Returns a chart with a row per area and a mark per adapter at its mean distance.
-fn panel(grid: &Grid<'_>, rows: &DriverRows<'_>, aspect: Aspect) -> Markup {
+fn panel(grid: &RunGrid<'_>, rows: &DriverRows<'_>, aspect: Aspect) -> Markup {
     const ROW: f64 = 24.0;
     const NAMES: f64 = 96.0;
     const ZERO: f64 = 30.0;

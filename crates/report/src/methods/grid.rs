@@ -1,7 +1,7 @@
 //! Break points in one picture: a row for each method with a parameter, and a cell for each value.
 
 use super::breaks::LIMIT;
-use super::data::{Series, ShownScene};
+use super::data::{MethodSeries, ShownScene};
 use super::name::value_text;
 use crate::chart::key;
 use crate::numbers::share;
@@ -14,7 +14,7 @@ const STEPS: [f64; 5] = [0.0, 1e-9, 0.001, LIMIT, 0.1];
 /// A method along its parameter in a scene.
 struct Row<'s, 'a> {
     shown: &'s ShownScene<'s, 'a>,
-    series: &'s Series<'a>,
+    series: &'s MethodSeries<'a>,
     /// The parameter's values, each with the largest error of all adapters.
     errors: Vec<(f64, f64)>,
 }
@@ -63,7 +63,7 @@ fn rows<'s, 'a>(shown: &'s ShownScene<'s, 'a>) -> Vec<Row<'s, 'a>> {
 }
 
 /// Returns the values of a series, each with the largest error of all adapters.
-fn errors(series: &Series<'_>) -> Vec<(f64, f64)> {
+fn errors(series: &MethodSeries<'_>) -> Vec<(f64, f64)> {
     let mut errors: Vec<(f64, f64)> = Vec::new();
     for point in &series.points {
         if let (Some(value), Some(error)) = (point.value, point.error()) {

@@ -1,8 +1,10 @@
 //! `methods.html`.
 
-use super::data::{Methods, Question, SceneSeries, Series, SeriesPoint, Setting, ShownScene};
+use super::data::{
+    MethodSeries, Methods, Question, SceneSeries, SceneSetting, SeriesPoint, ShownScene,
+};
 use super::name::{title, value_text};
-use super::pictures::Pictures;
+use super::pictures::PagePictures;
 use super::stability::CurveBreak;
 use super::{claims, grid, overview, scatter, stability};
 use crate::chart::{self, color, key, line_key};
@@ -35,7 +37,7 @@ pub(crate) fn page(folder: &Path, run: &Run, methods: &Methods<'_>) -> String {
     let main = html! {
         (head(run, methods))
         noscript { p.note { "Scripts are off: each scene shows one setting, and its pictures cannot be enlarged." } }
-        (sections(run, methods, &mut Pictures::in_folder(folder)))
+        (sections(run, methods, &mut PagePictures::in_folder(folder)))
         (page::script(SCRIPT))
     };
     Page::new(
@@ -53,7 +55,7 @@ pub(crate) fn page(folder: &Path, run: &Run, methods: &Methods<'_>) -> String {
 /// setting.
 pub fn methods_html(run: &Run, read: impl Fn(&str) -> Option<Vec<u8>>) -> Option<(String, String)> {
     let methods = Methods::of(run)?;
-    let html = sections(run, &methods, &mut Pictures::new(&read));
+    let html = sections(run, &methods, &mut PagePictures::new(&read));
     Some((html.into_string(), style()))
 }
 
@@ -61,7 +63,7 @@ fn style() -> String {
     chart::style() + STYLE
 }
 
-fn sections(run: &Run, methods: &Methods<'_>, pictures: &mut Pictures<'_>) -> Markup {
+fn sections(run: &Run, methods: &Methods<'_>, pictures: &mut PagePictures<'_>) -> Markup {
     let shown = methods.shown();
     let scenes: Vec<Markup> = shown
         .iter()
@@ -205,7 +207,7 @@ fn single_values(methods: &Methods<'_>) -> u64 {
 }
 
 /// Returns links to the pictures on both sides of crossings.
-fn beside(shown: &ShownScene<'_, '_>, between: &[[Setting<'_>; 2]]) -> Markup {
+fn beside(shown: &ShownScene<'_, '_>, between: &[[SceneSetting<'_>; 2]]) -> Markup {
     html! {
         @for (i, pair) in between.iter().enumerate() {
             @if i > 0 { "; " }
@@ -237,7 +239,7 @@ fn explained(question: &Question<'_>) -> Markup {
     }
 }
 
-fn in_scene(run: &Run, pictures: &mut Pictures<'_>, shown: &ShownScene<'_, '_>) -> Markup {
+fn in_scene(run: &Run, pictures: &mut PagePictures<'_>, shown: &ShownScene<'_, '_>) -> Markup {
     let (methods, scene) = (shown.methods, shown.scene);
     let truth = scene
         .series
@@ -293,7 +295,7 @@ fn in_scene(run: &Run, pictures: &mut Pictures<'_>, shown: &ShownScene<'_, '_>) 
 /// Returns the setting of the charts and pictures, and the slider to other settings. Without scripts the
 /// setting is fixed.
 fn slider(shown: &ShownScene<'_, '_>) -> Markup {
-    let names: Vec<String> = shown.settings.iter().map(Setting::text).collect();
+    let names: Vec<String> = shown.settings.iter().map(SceneSetting::text).collect();
     let input = format!("{}-at", shown.anchor);
     html! {
         @match shown.settings.as_slice() {
@@ -311,7 +313,7 @@ fn slider(shown: &ShownScene<'_, '_>) -> Markup {
 }
 
 /// Returns the methods of the scene without an error, or without a time, at a setting.
-fn unmeasured(shown: &ShownScene<'_, '_>, setting: &Setting<'_>, index: usize) -> Markup {
+fn unmeasured(shown: &ShownScene<'_, '_>, setting: &SceneSetting<'_>, index: usize) -> Markup {
     let (methods, scene) = (shown.methods, shown.scene);
     let drew = |i: &usize| scene.series.iter().any(|s| s.on(*i).next().is_some());
     let drew: Vec<usize> = (0..methods.adapters.len()).filter(drew).collect();
@@ -344,7 +346,7 @@ fn unmeasured(shown: &ShownScene<'_, '_>, setting: &Setting<'_>, index: usize) -
 }
 
 fn table(methods: &Methods<'_>, scene: &SceneSeries<'_>) -> Markup {
-    type Row<'s, 'a> = (&'s Series<'a>, &'s SeriesPoint<'a>);
+    type Row<'s, 'a> = (&'s MethodSeries<'a>, &'s SeriesPoint<'a>);
     let time = |point: &SeriesPoint<'_>, part: fn(&Times) -> Option<f64>| {
         point.measured.time.as_ref().and_then(part).map(duration)
     };

@@ -1,6 +1,6 @@
 //! The pictures of a scene: the truth, and the picture of each method at each setting.
 
-use super::data::{SeriesPoint, Setting, ShownScene};
+use super::data::{SceneSetting, SeriesPoint, ShownScene};
 use crate::chart::color;
 use crate::numbers::{digits, share};
 use base64::Engine;
@@ -14,11 +14,11 @@ const PICTURE: u64 = 256 << 10;
 const PICTURES: usize = 12 << 20;
 
 /// Returns the PNG file of a path below the run folder.
-type Reader<'a> = dyn Fn(&str) -> Option<Vec<u8>> + 'a;
+type PictureReader<'a> = dyn Fn(&str) -> Option<Vec<u8>> + 'a;
 
 /// Pictures of a run, up to the number of bytes that the page has room for.
-pub(super) struct Pictures<'a> {
-    read: Box<Reader<'a>>,
+pub(super) struct PagePictures<'a> {
+    read: Box<PictureReader<'a>>,
     room: usize,
 }
 
@@ -29,7 +29,7 @@ struct Shot<'s, 'a> {
     data: String,
 }
 
-impl<'f> Pictures<'f> {
+impl<'f> PagePictures<'f> {
     /// Returns the pictures that `read` finds.
     pub(super) fn new(read: impl Fn(&str) -> Option<Vec<u8>> + 'f) -> Self {
         Self {
@@ -93,7 +93,7 @@ impl<'f> Pictures<'f> {
     }
 }
 
-fn figure(shown: &ShownScene<'_, '_>, setting: &Setting<'_>, shot: &Shot<'_, '_>) -> Markup {
+fn figure(shown: &ShownScene<'_, '_>, setting: &SceneSetting<'_>, shot: &Shot<'_, '_>) -> Markup {
     let distance = &shot.point.measured.distance;
     let adapter = shown.methods.adapters[shot.point.adapter].name;
     let name = format!("{}{}", shot.method, setting.at());

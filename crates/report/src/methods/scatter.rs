@@ -1,9 +1,9 @@
 //! Accuracy against speed: a chart per scene and adapter, with a Pareto front for each setting.
 
-use super::data::{DeviceKind, SeriesPoint, Setting, ShownScene};
+use super::data::{DeviceKind, SceneSetting, SeriesPoint, ShownScene};
 use super::front::front;
 use crate::chart::{
-    BOTTOM, HEIGHT, LEFT, Labels, Plot, RIGHT, Scale, TOP, chart, color, marker, n, polyline,
+    BOTTOM, HEIGHT, LEFT, LabelPlaces, Plot, RIGHT, Scale, TOP, chart, color, marker, n, polyline,
     zero_band,
 };
 use crate::numbers::{between, duration, round_duration, share};
@@ -132,7 +132,7 @@ fn at_setting(
     plot: &Plot,
     same: &[&Dot<'_, '_>],
     line: &[&Dot<'_, '_>],
-    setting: &Setting<'_>,
+    setting: &SceneSetting<'_>,
 ) -> (String, Markup) {
     let costs = |dots: &[&Dot<'_, '_>]| -> Vec<(f64, f64)> {
         dots.iter().map(|d| (d.time, d.error)).collect()
@@ -156,7 +156,7 @@ fn at_setting(
         ),
     };
     let place = |d: &Dot<'_, '_>| (plot.x(d.time), plot.y(d.error));
-    let mut labels = Labels::new(line.iter().map(|d| place(d)));
+    let mut labels = LabelPlaces::new(line.iter().map(|d| place(d)));
     for level in [0.01, ROUNDING] {
         labels.avoid(&[(LEFT, plot.y(level)), (RIGHT, plot.y(level))]);
     }

@@ -1,12 +1,12 @@
 //! Stability: the error along a parameter, one curve per method, with break points.
 
 use super::breaks::{self, Break, LIMIT};
-use super::data::{Methods, SceneSeries, Series, Setting, ShownScene};
+use super::data::{MethodSeries, Methods, SceneSeries, SceneSetting, ShownScene};
 use super::name::value_text;
 use super::scatter::{ROUNDING, line_at};
 use crate::chart::{
-    BOTTOM, HEIGHT, LEFT, Labels, Plot, RIGHT, Scale, TOP, chart, color, dash, marker, n, polyline,
-    zero_band,
+    BOTTOM, HEIGHT, LEFT, LabelPlaces, Plot, RIGHT, Scale, TOP, chart, color, dash, marker, n,
+    polyline, zero_band,
 };
 use crate::lists::grouped;
 use crate::numbers::share;
@@ -23,7 +23,7 @@ pub(super) struct CurveBreak<'a> {
     /// The parameter with its ends: `alpha 0.1 to 0.9`.
     range: String,
     /// The settings on both sides of each crossing.
-    pub(super) between: Vec<[Setting<'a>; 2]>,
+    pub(super) between: Vec<[SceneSetting<'a>; 2]>,
 }
 
 impl CurveBreak<'_> {
@@ -40,13 +40,13 @@ fn parameters<'a>(scene: &SceneSeries<'a>) -> BTreeSet<&'a str> {
 }
 
 /// The curves along a parameter.
-fn curves<'s, 'a>(scene: &'s SceneSeries<'a>, parameter: &str) -> Vec<&'s Series<'a>> {
-    let along = |s: &&Series<'a>| s.parameter == Some(parameter) && s.values().len() > 1;
+fn curves<'s, 'a>(scene: &'s SceneSeries<'a>, parameter: &str) -> Vec<&'s MethodSeries<'a>> {
+    let along = |s: &&MethodSeries<'a>| s.parameter == Some(parameter) && s.values().len() > 1;
     scene.series.iter().filter(along).collect()
 }
 
 /// The scale of a parameter in a scene.
-fn scale(series: &[&Series<'_>]) -> Scale {
+fn scale(series: &[&MethodSeries<'_>]) -> Scale {
     let values: Vec<f64> = series.iter().flat_map(|s| s.values()).collect();
     Scale::fitting(&values)
 }
@@ -93,11 +93,11 @@ pub(super) fn found<'a>(shown: &ShownScene<'_, 'a>) -> Vec<CurveBreak<'a>> {
 }
 
 /// The settings on both sides of each crossing of a curve.
-fn between<'a>(series: &Series<'a>, found: &Break) -> Vec<[Setting<'a>; 2]> {
+fn between<'a>(series: &MethodSeries<'a>, found: &Break) -> Vec<[SceneSetting<'a>; 2]> {
     let Break::Crossings(crossings) = found else {
         return Vec::new();
     };
-    let setting = |value: f64| Setting {
+    let setting = |value: f64| SceneSetting {
         variant: series.variant.clone(),
         parameter: series.parameter.map(|name| (name, value)),
     };
@@ -113,7 +113,7 @@ pub(super) fn charts(shown: &ShownScene<'_, '_>) -> Vec<Markup> {
         let variants: BTreeSet<&str> = found.iter().map(|s| s.variant.as_str()).collect();
         for variant in variants {
             let in_variant = found.iter().copied().filter(|s| s.variant == variant);
-            let series: Vec<&Series<'_>> = in_variant.collect();
+            let series: Vec<&MethodSeries<'_>> = in_variant.collect();
             let adapters = alike(shown.methods, &series).into_iter();
             panels.extend(adapters.map(|on| panel(shown, parameter, variant, &series, &on)));
         }
@@ -179,7 +179,7 @@ pub(super) fn who(methods: &Methods<'_>, found: &CurveBreak<'_>) -> String {
 }
 
 /// Groups adapters whose curves look the same in a chart.
-fn alike(methods: &Methods<'_>, series: &[&Series<'_>]) -> Vec<Vec<usize>> {
+fn alike(methods: &Methods<'_>, series: &[&MethodSeries<'_>]) -> Vec<Vec<usize>> {
     let lines = |adapter: usize| -> Vec<Vec<(f64, f64)>> {
         series.iter().map(|s| s.curve(adapter)).collect()
     };
@@ -207,7 +207,7 @@ fn panel(
     shown: &ShownScene<'_, '_>,
     parameter: &str,
     variant: &str,
-    series: &[&Series<'_>],
+    series: &[&MethodSeries<'_>],
     adapters: &[usize],
 ) -> Markup {
     let (methods, scene) = (shown.methods, shown.scene);
@@ -232,13 +232,13 @@ fn panel(
         1 | 2 => format!("{what} on {}", names.join(", ")),
         n => format!("{what} on {} and {} like it", names[0], n - 1),
     };
-    let places = |s: &Series<'_>| -> Vec<(f64, f64)> {
+    let places = |s: &MethodSeries<'_>| -> Vec<(f64, f64)> {
         s.curve(on)
             .iter()
             .map(|(v, e)| (plot.x(*v), plot.y(*e)))
             .collect()
     };
-    let mut labels = Labels::new(series.iter().flat_map(|s| places(s)));
+    let mut labels = LabelPlaces::new(series.iter().flat_map(|s| places(s)));
     for s in series {
         labels.avoid(&places(s));
     }
@@ -251,7 +251,7 @@ fn panel(
             let (name, value) = setting.parameter?;
             (name == parameter && setting.variant == variant).then(|| (index, plot.x(value)))
         });
-    let crossings = |s: &Series<'_>| match breaks::find(&s.curve(on), log) {
+    let crossings = |s: &MethodSeries<'_>| match breaks::find(&s.curve(on), log) {
         Some(Break::Crossings(crossings)) => crossings,
         _ => Vec::new(),
     };

@@ -1,7 +1,7 @@
 //! The best methods of every scene, for the first page and the terminal.
 
 use super::breaks::LIMIT;
-use super::data::{DeviceKind, Methods, SceneSeries, Series, SeriesPoint, Setting};
+use super::data::{DeviceKind, MethodSeries, Methods, SceneSeries, SceneSetting, SeriesPoint};
 use super::name::PAGE;
 use super::{claims, overview, stability};
 use crate::numbers::{duration, share};
@@ -19,7 +19,7 @@ struct Best<'a> {
     /// The scene's index in the page of methods.
     anchor: String,
     scene: String,
-    setting: Setting<'a>,
+    setting: SceneSetting<'a>,
     kind: DeviceKind,
     /// The most accurate method and its error.
     accurate: (&'a str, f64),
@@ -62,12 +62,12 @@ fn best<'a>(methods: &Methods<'a>) -> Vec<Best<'a>> {
 }
 
 /// A method on an adapter with its error.
-type RankedMethod<'s, 'a> = (&'s Series<'a>, &'s SeriesPoint<'a>, f64);
+type RankedMethod<'s, 'a> = (&'s MethodSeries<'a>, &'s SeriesPoint<'a>, f64);
 
 fn candidates<'s, 'a>(
     methods: &'s Methods<'a>,
     scene: &'s SceneSeries<'a>,
-    setting: &'s Setting<'a>,
+    setting: &'s SceneSetting<'a>,
     kind: DeviceKind,
 ) -> impl Iterator<Item = RankedMethod<'s, 'a>> {
     let of_kind = scene

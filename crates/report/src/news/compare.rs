@@ -1,9 +1,9 @@
 //! Finds what changed since the last run of each adapter, and which changes count.
 
-use super::{News, NewsEntry, Since};
+use super::{NewsEntry, RunNews, Since};
 use etalon_history::{
-    AdapterRun, History, HistoryError, Kind, Labels, Outcome, RunInfo, Subject, TriageEntry,
-    TriageState, TriageStates, format_time, parse_time,
+    AdapterRun, History, HistoryError, Kind, Labels, Outcome, RunInfo, TriageEntry, TriageState,
+    TriageStates, TriageSubject, format_time, parse_time,
 };
 use etalon_record::{Change, Record, Run, Standing, Verdict};
 use std::cmp::Reverse;
@@ -42,7 +42,7 @@ impl<'r> Now<'r> {
     }
 }
 
-impl News {
+impl RunNews {
     /// Compares a run with the last run of each of its adapters in a history, among those with the same label `branch`.
     ///
     /// # Errors
@@ -189,7 +189,7 @@ fn settled<'s>(
     now: &Now<'_>,
     record: &Record,
 ) -> Result<Option<&'s TriageEntry>, HistoryError> {
-    let subject = Subject {
+    let subject = TriageSubject {
         case: record.case.clone(),
         timeline: record.adapter.clone(),
         step: None,

@@ -12,7 +12,7 @@ const LAST_COLUMN: usize = MAX_COLUMNS - 1;
 const OTHERS: &str = "(more adapters)";
 
 /// A run, sorted. Records are named by their position in the run.
-pub(crate) struct Grid<'a> {
+pub(crate) struct RunGrid<'a> {
     pub(crate) run: &'a Run,
     /// Adapter names: the header's, then any that only records name.
     pub(crate) adapters: Vec<&'a str>,
@@ -35,11 +35,11 @@ pub(crate) struct GridFile<'a> {
 /// One case on all adapters.
 pub(crate) struct CaseRow<'a> {
     pub(crate) id: &'a str,
-    /// The record on each adapter of [`Grid::adapters`], if there is one.
+    /// The record on each adapter of [`RunGrid::adapters`], if there is one.
     pub(crate) records: Vec<Option<usize>>,
 }
 
-impl<'a> Grid<'a> {
+impl<'a> RunGrid<'a> {
     pub(crate) fn new(run: &'a Run) -> Self {
         let mut adapters: Vec<&str> = Vec::new();
         let mut column: HashMap<&str, usize> = HashMap::new();

@@ -20,12 +20,12 @@ mod overview;
 use crate::chart;
 use crate::mark::class;
 use crate::methods::{self, Methods};
-use crate::news::News;
+use crate::news::RunNews;
 use crate::numbers::count;
 use crate::page::origin::origin;
 use crate::page::{self, Page};
 use crate::run::beside;
-use crate::run::grid::{Grid, VerdictTally};
+use crate::run::grid::{RunGrid, VerdictTally};
 use crate::run::reasons::{total, undrawn};
 use crate::words::{self, Tone};
 use etalon_record::{Dead, Run, Verdict};
@@ -56,9 +56,9 @@ pub(crate) fn page(
     scripts: &[(String, String)],
     dead: &[Dead],
     methods: Option<&Methods<'_>>,
-    news: Option<&News>,
+    news: Option<&RunNews>,
 ) -> String {
-    let grid = Grid::new(run);
+    let grid = RunGrid::new(run);
     let plan = findings::FindingPlan::new(&grid);
     let drivers = methods::driver_section(&grid);
     let charts = drivers.as_ref().map(|_| chart::style());
@@ -106,7 +106,7 @@ fn title(run: &Run) -> String {
     }
 }
 
-fn head(run: &Run, dead: &[Dead], news: Option<&News>, methods: bool, drivers: bool) -> Markup {
+fn head(run: &Run, dead: &[Dead], news: Option<&RunNews>, methods: bool, drivers: bool) -> Markup {
     let h = &run.header;
     html! {
         header {
@@ -133,7 +133,7 @@ fn head(run: &Run, dead: &[Dead], news: Option<&News>, methods: bool, drivers: b
 }
 
 /// The state of the run, in the order of the page: what is missing, changed, new, known and not drawn.
-fn state(run: &Run, dead: &[Dead], news: Option<&News>) -> Markup {
+fn state(run: &Run, dead: &[Dead], news: Option<&RunNews>) -> Markup {
     let tally = VerdictTally::of(run.all_records());
     let beside = run.unexpected_beside();
     let improvements = run.records.iter().filter(|r| r.improvement()).count() as u64;

@@ -10,7 +10,7 @@ const UNDRAWN: [Verdict; 3] = [Verdict::Blocked, Verdict::Skipped, Verdict::NotS
 
 /// Records of one verdict and one reason.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Reason {
+pub(crate) struct ReasonRecords {
     pub(crate) verdict: Verdict,
     /// The missing requirement, the failed round trip, the skip rule, or the expectation.
     pub(crate) text: String,
@@ -18,7 +18,7 @@ pub(crate) struct Reason {
     pub(crate) adapters: Vec<(String, u64)>,
 }
 
-impl Reason {
+impl ReasonRecords {
     /// The number of records.
     pub(crate) fn records(&self) -> u64 {
         self.adapters.iter().map(|(_, n)| n).sum()
@@ -40,12 +40,12 @@ impl Reason {
 }
 
 /// The number of records of several reasons.
-pub(crate) fn total(reasons: &[Reason]) -> u64 {
-    reasons.iter().map(Reason::records).sum()
+pub(crate) fn total(reasons: &[ReasonRecords]) -> u64 {
+    reasons.iter().map(ReasonRecords::records).sum()
 }
 
 /// The reasons why cases of a run were not drawn, by verdict, the most frequent first.
-pub(crate) fn undrawn(run: &Run) -> Vec<Reason> {
+pub(crate) fn undrawn(run: &Run) -> Vec<ReasonRecords> {
     let place = |verdict| UNDRAWN.iter().position(|v| *v == verdict);
     let mut reasons = reasons(run, |record| {
         place(record.verdict).map(|_| headline(record))
@@ -56,7 +56,7 @@ pub(crate) fn undrawn(run: &Run) -> Vec<Reason> {
 
 /// The expectations that failures of a run met, the most frequent first. Selftests that are due to fail are not
 /// among them.
-pub(crate) fn known(run: &Run) -> Vec<Reason> {
+pub(crate) fn known(run: &Run) -> Vec<ReasonRecords> {
     let mut reasons = reasons(run, |record| {
         let expected = record.expected.as_ref();
         let expected = expected.filter(|_| Tone::of(record) == Tone::Excused);
@@ -67,7 +67,7 @@ pub(crate) fn known(run: &Run) -> Vec<Reason> {
 }
 
 /// The records that have a reason, by verdict and reason.
-fn reasons(run: &Run, reason: impl Fn(&Record) -> Option<String>) -> Vec<Reason> {
+fn reasons(run: &Run, reason: impl Fn(&Record) -> Option<String>) -> Vec<ReasonRecords> {
     let mut found: BTreeMap<(Verdict, String), BTreeMap<usize, u64>> = BTreeMap::new();
     let adapters = &run.header.adapters;
     for record in run.all_records() {
@@ -84,7 +84,7 @@ fn reasons(run: &Run, reason: impl Fn(&Record) -> Option<String>) -> Vec<Reason>
     };
     let found = found.into_iter();
     found
-        .map(|((verdict, text), counts)| Reason {
+        .map(|((verdict, text), counts)| ReasonRecords {
             verdict,
             text,
             adapters: counts.into_iter().map(named).collect(),

@@ -2,7 +2,7 @@
 
 use crate::methods;
 use crate::numbers::count;
-use crate::run::grid::{Grid, VerdictTally, rate};
+use crate::run::grid::{RunGrid, VerdictTally, rate};
 use crate::run::reasons::{total, undrawn};
 use crate::run::unexpected::unexpected_records;
 use crate::table::{Cell, Table, some};
@@ -36,7 +36,7 @@ pub fn table(run: &Run, options: TableOptions) -> String {
     if run.records.is_empty() {
         return format!("No case was run.\n{}", incomplete(run));
     }
-    let grid = Grid::new(run);
+    let grid = RunGrid::new(run);
     let rows: Vec<(&str, Vec<&Record>)> = grid
         .adapters
         .iter()

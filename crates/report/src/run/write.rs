@@ -1,13 +1,13 @@
 //! Writing the reports of a run.
 
-use super::grid::Grid;
+use super::grid::RunGrid;
 use super::index;
 use crate::catalogue::{CATALOGUE, Catalogue, write_scripts};
 use crate::error::ReportError;
 use crate::export::{deqp, junit, markdown};
 use crate::files::Destination;
 use crate::methods::{self, Methods};
-use crate::news::News;
+use crate::news::RunNews;
 use etalon_frame::threads::join;
 use etalon_record::{Dead, FolderKind, OutputFolder, Run};
 use std::path::{Path, PathBuf};
@@ -52,12 +52,12 @@ impl RunReports {
 pub struct RunReport<'a> {
     /// The run folder, for frames, pictures and dead expectations.
     pub folder: &'a Path,
-    /// The run. [`News::settle`] gives the one in which what triage settled does not count.
+    /// The run. [`RunNews::settle`] gives the one in which what triage settled does not count.
     pub run: &'a Run,
     /// The cases, for the pages of single cases; `None` if they are unknown.
     pub catalogue: Option<&'a Catalogue>,
     /// The changes since the last run, which the page and the summary tell first.
-    pub news: Option<&'a News>,
+    pub news: Option<&'a RunNews>,
     /// True to write `results/<adapter>.csv` in deqp-runner's format. It repeats what `junit.xml` says. A folder that
     /// has it gets it anew anyway, so that no file in it is older than the others.
     pub deqp: bool,
@@ -146,7 +146,7 @@ impl RunReport<'_> {
             }
             None => None,
         };
-        let grid = Grid::new(run);
+        let grid = RunGrid::new(run);
         let junit = to.write(JUNIT, junit::xml(run, &grid)?.as_bytes())?;
         let summary = to.write(SUMMARY, markdown::summary(run, self.news).as_bytes())?;
         let results = if self.deqp || folder.join(deqp::FOLDER).exists() {

@@ -4,8 +4,9 @@ use super::event::{detail_of, draw_name, event_line, rejection_predicate};
 use super::subject::{list, scene_name, side_name, texel_name};
 use super::value::{codes_list, color_name};
 use etalon_frame::{
-    Allowed, Aspect, Band, ChannelMismatch, CodeInterval, Codes, Contents, Demand, Effect, Event,
-    Initial, Reason, Rejection, Returned, Ruling, Source, Step, Story, Target, ToldLine, Values,
+    Allowed, Aspect, Band, ChannelMismatch, CodeInterval, Codes, ContentSource, Contents,
+    DecidingStep, Demand, Effect, Event, Initial, Rejection, Returned, Ruling, Step, Story, Target,
+    ToldLine, Values,
 };
 use std::fmt::Write as _;
 
@@ -199,9 +200,9 @@ fn values_predicate(values: &Values) -> String {
         Some(Returned::Kept { contents, from }) => {
             let value = value(contents, several);
             let kept = match from {
-                Source::Initial(initial) => first_contents(contents, *initial, several),
-                Source::Operation => value,
-                Source::Draw { pass, draw } => {
+                ContentSource::Initial(initial) => first_contents(contents, *initial, several),
+                ContentSource::Operation => value,
+                ContentSource::Draw { pass, draw } => {
                     format!(
                         "{value} of {}",
                         draw_name(*pass, *draw, values.several_passes)
@@ -250,7 +251,7 @@ fn demand(values: &Values) -> String {
 
 /// Returns the reasons for the demand: the operations that decide it.
 fn reasons(values: &Values) -> String {
-    let reason = |reason: &Reason| reason_text(reason, values.several_passes);
+    let reason = |reason: &DecidingStep| reason_text(reason, values.several_passes);
     let mut parts: Vec<String> = values.reasons.iter().map(reason).collect();
     match values.more_draws {
         0 => {}
@@ -263,14 +264,14 @@ fn reasons(values: &Values) -> String {
     list(&parts, "and")
 }
 
-fn reason_text(reason: &Reason, several_passes: bool) -> String {
+fn reason_text(reason: &DecidingStep, several_passes: bool) -> String {
     let name = |event: &Event| {
         let (pass, draw) = event.origin.draw().unwrap_or_default();
         draw_name(pass, draw, several_passes)
     };
     match reason {
-        Reason::Open(event) => format!("of {}, {}", name(event), detail_of(event)),
-        Reason::Stored {
+        DecidingStep::Open(event) => format!("of {}, {}", name(event), detail_of(event)),
+        DecidingStep::Stored {
             store,
             shade,
             blended,
@@ -294,13 +295,13 @@ fn reason_text(reason: &Reason, several_passes: bool) -> String {
                 _ => format!("{name} passes all its tests and stores it"),
             }
         }
-        Reason::Cleared(event) => {
+        DecidingStep::Cleared(event) => {
             let line = event_line(event);
             format!("{}, {} after a clear", line.at, line.detail)
         }
-        Reason::Resolved(event) => format!("it is resolved from {}", detail_of(event)),
-        Reason::Kept(event) => format!("{} leaves it: {}", name(event), detail_of(event)),
-        Reason::Ended { by, draws } => {
+        DecidingStep::Resolved(event) => format!("it is resolved from {}", detail_of(event)),
+        DecidingStep::Kept(event) => format!("{} leaves it: {}", name(event), detail_of(event)),
+        DecidingStep::Ended { by, draws } => {
             let Some(rejection) = by.effect.rejection() else {
                 return format!("{} ends before it", name(by));
             };
@@ -316,7 +317,7 @@ fn reason_text(reason: &Reason, several_passes: bool) -> String {
                 ),
             }
         }
-        Reason::Unwritten { pass, draw, aspect } => {
+        DecidingStep::Unwritten { pass, draw, aspect } => {
             let name = draw_name(*pass, *draw, several_passes);
             format!("{name} does not write {}", aspect.name())
         }

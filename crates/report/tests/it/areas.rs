@@ -3,7 +3,7 @@
 use crate::synthetic::{self, adapter, header};
 use etalon_frame::Api;
 use etalon_record::{Expected, Record, Run, RunWriter, Verdict};
-use etalon_report::{News, NewsEntry, RunReport, Since, write};
+use etalon_report::{NewsEntry, RunNews, RunReport, Since, write};
 use roxmltree::{Document, Node};
 use std::fs;
 use std::path::Path;
@@ -210,7 +210,7 @@ fn a_page_tells_what_changed_what_is_new_what_is_known_and_what_was_not_drawn() 
         verdict: Verdict::Fail,
         note: "pass before".to_owned(),
     };
-    let news = News {
+    let news = RunNews {
         since: vec![Since {
             adapter: "gl:zink".to_owned(),
             run: Some("run 7".to_owned()),
@@ -218,7 +218,7 @@ fn a_page_tells_what_changed_what_is_new_what_is_known_and_what_was_not_drawn() 
         broken: (0..12)
             .map(|n| entry(&format!("depth/compare/number={n:02}")))
             .collect(),
-        ..News::default()
+        ..RunNews::default()
     };
     let written = RunReport {
         folder: folder.path(),

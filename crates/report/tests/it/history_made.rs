@@ -2,8 +2,8 @@
 
 use etalon_frame::AdapterInfo;
 use etalon_history::{
-    Adapter, FrameTimes, Kind, Labels, NewAdapter, NewRun, Outcome, Step, Subject, TriageEntry,
-    TriageState, Writer, parse_labels, parse_time,
+    Adapter, FrameTimes, Kind, Labels, NewAdapter, NewRun, Outcome, TimeStep, TriageEntry,
+    TriageState, TriageSubject, Writer, parse_labels, parse_time,
 };
 use etalon_record::{Machine, Time, Verdict};
 use std::collections::BTreeMap;
@@ -145,7 +145,7 @@ pub(crate) fn write(path: &Path) {
         let entry = TriageEntry {
             at: 1_800_000_000,
             author: HOSTILE[1].to_owned(),
-            subject: Subject {
+            subject: TriageSubject {
                 case: case.to_owned(),
                 timeline: "vulkan:first".to_owned(),
                 step,
@@ -159,7 +159,7 @@ pub(crate) fn write(path: &Path) {
         let entry = TriageEntry {
             at: 1_800_000_000,
             author: String::new(),
-            subject: Subject {
+            subject: TriageSubject {
                 case: IGNORED.to_owned(),
                 timeline: name.to_owned(),
                 step: None,
@@ -170,7 +170,7 @@ pub(crate) fn write(path: &Path) {
         writer.triage(&entry).unwrap();
     }
     // The eleventh bench is the sixteenth run.
-    let step = Step {
+    let step = TimeStep {
         machine: 1.into(),
         time: Time::Wall,
         run: 16.into(),

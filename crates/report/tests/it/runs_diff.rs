@@ -7,7 +7,7 @@ use etalon_record::{
     Expected, ProcessEnd, Reason, Record, Run, RunWriter, Shard, Verdict, selection_digest,
     shard_of,
 };
-use etalon_report::runs::{Change, Direction, Side, diff, table, write_page};
+use etalon_report::runs::{CaseChange, ChangeDirection, RunSide, diff, table, write_page};
 use etalon_report::{ReportError, TableOptions};
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -15,7 +15,7 @@ use std::fs;
 use std::path::Path;
 
 /// The change that a planted difference is reported as: its direction and what differs.
-fn planted(change: impl FnOnce(&mut Record)) -> Option<Change> {
+fn planted(change: impl FnOnce(&mut Record)) -> Option<CaseChange> {
     let two = Two::new();
     let old: Vec<Record> = (0..5).map(|i| rich(&format!("blend/f/case={i}"))).collect();
     let mut new = old.clone();
@@ -44,7 +44,7 @@ fn planted(change: impl FnOnce(&mut Record)) -> Option<Change> {
     found.changes.into_iter().next()
 }
 
-fn kinds(change: Option<Change>) -> (Direction, Vec<&'static str>) {
+fn kinds(change: Option<CaseChange>) -> (ChangeDirection, Vec<&'static str>) {
     let change = change.unwrap();
     assert_eq!(change.case, "blend/f/case=2");
     (change.direction, change.what)
@@ -55,34 +55,37 @@ fn each_planted_change_is_found_as_what_it_is() {
     let fail = planted(|r| r.verdict = Verdict::Fail);
     assert_eq!(
         kinds(fail),
-        (Direction::Worse, vec!["verdict", "expectation"])
+        (ChangeDirection::Worse, vec!["verdict", "expectation"])
     );
     let pass = planted(|r| r.verdict = Verdict::Pass);
-    assert_eq!(kinds(pass), (Direction::Other, vec!["verdict"]));
+    assert_eq!(kinds(pass), (ChangeDirection::Other, vec!["verdict"]));
     let expected = planted(|r| {
         r.expected = Some(Expected {
             reason: "known".to_owned(),
         });
     });
-    assert_eq!(kinds(expected), (Direction::Other, vec!["expectation"]));
+    assert_eq!(
+        kinds(expected),
+        (ChangeDirection::Other, vec!["expectation"])
+    );
     let texels = planted(|r| r.texels.imprecise = 4);
-    assert_eq!(kinds(texels), (Direction::Other, vec!["texels"]));
+    assert_eq!(kinds(texels), (ChangeDirection::Other, vec!["texels"]));
     let mean = planted(|r| r.accuracy[0].mean = 0.250_000_1);
-    assert_eq!(kinds(mean), (Direction::Other, vec!["accuracy"]));
+    assert_eq!(kinds(mean), (ChangeDirection::Other, vec!["accuracy"]));
     let count = planted(|r| r.counters[0].actual = 143);
     let detail = &count.as_ref().unwrap().details[0];
     assert_eq!((&detail.before, &detail.after), (&json!(144), &json!(143)));
-    assert_eq!(kinds(count), (Direction::Other, vec!["counters"]));
+    assert_eq!(kinds(count), (ChangeDirection::Other, vec!["counters"]));
     let distance = planted(|r| r.measured.as_mut().unwrap().distance.rmse = 0.02);
-    assert_eq!(kinds(distance), (Direction::Other, vec!["distance"]));
+    assert_eq!(kinds(distance), (ChangeDirection::Other, vec!["distance"]));
     let cost = planted(|r| r.measured.as_mut().unwrap().fragments = Some(4097));
-    assert_eq!(kinds(cost), (Direction::Other, vec!["cost"]));
+    assert_eq!(kinds(cost), (ChangeDirection::Other, vec!["cost"]));
     let repeats = planted(|r| r.repeats = vec![Verdict::Imprecise, Verdict::Pass]);
-    assert_eq!(kinds(repeats), (Direction::Other, vec!["repeats"]));
+    assert_eq!(kinds(repeats), (ChangeDirection::Other, vec!["repeats"]));
     let order = planted(|r| r.after = vec!["blend/f/case=1x".to_owned()]);
-    assert_eq!(kinds(order), (Direction::Other, vec!["order"]));
+    assert_eq!(kinds(order), (ChangeDirection::Other, vec!["order"]));
     let said = planted(|r| r.validation = vec!["VUID-2".to_owned()]);
-    assert_eq!(kinds(said), (Direction::Other, vec!["validation"]));
+    assert_eq!(kinds(said), (ChangeDirection::Other, vec!["validation"]));
     let lost = planted(|r| {
         r.process = Some(ProcessEnd {
             signal: Some(6),
@@ -90,7 +93,7 @@ fn each_planted_change_is_found_as_what_it_is() {
             ..ProcessEnd::default()
         });
     });
-    assert_eq!(kinds(lost), (Direction::Other, vec!["process"]));
+    assert_eq!(kinds(lost), (ChangeDirection::Other, vec!["process"]));
 }
 
 #[test]
@@ -104,10 +107,14 @@ fn of_a_blocked_case_nothing_is_known() {
     };
     let blocked = Verdict::Blocked;
     for drawn in [Verdict::Pass, Verdict::Open, Verdict::Crash, Verdict::Fail] {
-        assert_eq!(direction([drawn, blocked]), Direction::Worse, "{drawn}");
+        assert_eq!(
+            direction([drawn, blocked]),
+            ChangeDirection::Worse,
+            "{drawn}"
+        );
         let back = match drawn {
-            Verdict::Pass => Direction::Better,
-            _ => Direction::Other,
+            Verdict::Pass => ChangeDirection::Better,
+            _ => ChangeDirection::Other,
         };
         assert_eq!(direction([blocked, drawn]), back, "{drawn}");
     }
@@ -162,7 +169,7 @@ fn frames_are_compared_texel_by_texel_and_shown() {
         panic!("{:?}", found.changes)
     };
     assert_eq!(change.what, ["frame"]);
-    assert_eq!(change.direction, Direction::Other);
+    assert_eq!(change.direction, ChangeDirection::Other);
     let images = &change.frame.as_ref().unwrap().images;
     assert_eq!((images[0].differ, images[0].largest), (2, 16));
     assert_eq!((images[1].differ, images[1].largest), (0, 0));
@@ -264,7 +271,7 @@ fn cases_in_one_run_only_are_worse_when_the_second_was_to_have_them() {
     // The other way round nothing is lost.
     let found = diff(&two.after(), &two.before(), None).unwrap();
     assert_eq!((found.lost(), found.only.len()), (0, 2));
-    assert!(found.only.iter().all(|o| o.side == Side::After));
+    assert!(found.only.iter().all(|o| o.side == RunSide::After));
 
     // Nor if fewer cases were selected.
     let mut fewer = one_adapter(1);
@@ -400,7 +407,7 @@ fn adapters_are_matched_by_name_or_alone_or_as_named() {
     run(&two.after(), &["vulkan:y"], Verdict::Fail);
     let found = two.diff();
     assert_eq!(found.pairs[0].adapter, ["gl:x", "vulkan:y"]);
-    assert_eq!(found.count(Direction::Worse), 1);
+    assert_eq!(found.count(ChangeDirection::Worse), 1);
     assert!(table(&found, TableOptions::default()).contains("gl:x → vulkan:y"));
 
     run(&two.after(), &["vulkan:y", "gl:x", "gl:z"], Verdict::Fail);
@@ -412,7 +419,7 @@ fn adapters_are_matched_by_name_or_alone_or_as_named() {
         found
             .unpaired
             .iter()
-            .all(|u| u.side == Side::After && u.records == 1)
+            .all(|u| u.side == RunSide::After && u.records == 1)
     );
 
     let named = |names| diff(&two.before(), &two.after(), Some(names));
@@ -605,7 +612,7 @@ fn large_differences_stay_small() {
     }
     let found = two.diff();
     assert!(found.changes.len() > 1000, "{}", found.changes.len());
-    let sum: u64 = Direction::ALL.iter().map(|d| found.count(*d)).sum();
+    let sum: u64 = ChangeDirection::ALL.iter().map(|d| found.count(*d)).sum();
     assert_eq!(sum, found.changes.len() as u64);
     let order: Vec<_> = found.changes.iter().map(|c| c.direction).collect();
     assert!(order.is_sorted());

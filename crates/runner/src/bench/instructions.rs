@@ -5,10 +5,10 @@
 
 use super::round::SLOT;
 use crate::launch::Launch;
-use crate::loss::Failure;
+use crate::loss::RequestError;
 use crate::protocol::Request;
 use crate::worker::Worker;
-use etalon_record::{Counted, InstructionCounter};
+use etalon_record::{CountedInstructions, InstructionCounter};
 use etalon_scene::Scene;
 use std::borrow::Cow;
 use std::fs;
@@ -55,7 +55,7 @@ pub(crate) fn count(
     [case, adapter]: [&str; 2],
     scene: &Scene,
     timeout: Duration,
-) -> Result<Counted, String> {
+) -> Result<CountedInstructions, String> {
     if launch.launcher.is_some() {
         return Err(
             "a launcher starts its workers, whose instructions cannot be counted".to_owned(),
@@ -75,7 +75,7 @@ pub(crate) fn count(
     let mut processes = Vec::new();
     for frames in FRAMES {
         let mut worker = Worker::start(&launch).map_err(|e| e.to_string())?.process;
-        let mut draw = || -> Result<(), Failure> {
+        let mut draw = || -> Result<(), RequestError> {
             let scene = Cow::Borrowed(scene);
             worker.ask(Request::Prepare { slot: SLOT, scene }, timeout)?;
             worker.submit(SLOT, frames, timeout)?;
@@ -84,8 +84,8 @@ pub(crate) fn count(
         };
         if let Err(failure) = draw() {
             let why = match failure {
-                Failure::Backend(error) => error.to_string(),
-                Failure::Lost(loss) => worker.end_of(loss).to_string(),
+                RequestError::Backend(error) => error.to_string(),
+                RequestError::Lost(loss) => worker.end_of(loss).to_string(),
             };
             return Err(format!("a worker failed under {counter}: {why}"));
         }
@@ -97,7 +97,7 @@ pub(crate) fn count(
         processes.push([u64::from(frames), total]);
     }
     processes.remove(0);
-    Ok(Counted {
+    Ok(CountedInstructions {
         case: case.to_owned(),
         adapter: adapter.to_owned(),
         counter,

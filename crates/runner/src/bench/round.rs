@@ -1,7 +1,7 @@
 //! A round of frame times of a case on one worker.
 
 use crate::drawing::wrong_answer;
-use crate::loss::Failure;
+use crate::loss::RequestError;
 use crate::process::WorkerProcess;
 use crate::protocol::{Payload, Request};
 use etalon_backend::FrameTime;
@@ -49,14 +49,14 @@ impl WorkerProcess {
         scene: &Scene,
         budget: Duration,
         timeout: Duration,
-    ) -> Result<RoundTimes, Failure> {
+    ) -> Result<RoundTimes, RequestError> {
         let request = Request::Prepare {
             slot: SLOT,
             scene: Cow::Borrowed(scene),
         };
         let (_, prepare) = self.ask(request, timeout)?;
         let outcome = self.prepared_round(prepare, budget, timeout);
-        if !matches!(outcome, Err(Failure::Lost(_))) {
+        if !matches!(outcome, Err(RequestError::Lost(_))) {
             self.ask(Request::Drop { slot: SLOT }, timeout)?;
         }
         outcome
@@ -67,7 +67,7 @@ impl WorkerProcess {
         prepare: Duration,
         budget: Duration,
         timeout: Duration,
-    ) -> Result<RoundTimes, Failure> {
+    ) -> Result<RoundTimes, RequestError> {
         let warming = Instant::now();
         let mut warm: Vec<Duration> = Vec::new();
         while warm.len() < MOST_WARM_UP && !steady(&warm) {
@@ -103,7 +103,7 @@ impl WorkerProcess {
     }
 
     /// Reads the frame back. Returns its fingerprint, and the time that the worker took.
-    fn read_back(&mut self, timeout: Duration) -> Result<(u64, Duration), Failure> {
+    fn read_back(&mut self, timeout: Duration) -> Result<(u64, Duration), RequestError> {
         let (payload, took) = self.ask(Request::ReadBack { slot: SLOT }, timeout)?;
         let Payload::Frame(frame) = payload else {
             return Err(wrong_answer().into());

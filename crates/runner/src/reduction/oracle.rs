@@ -5,7 +5,7 @@ use crate::trial::Trials;
 use crate::worker::Worker;
 use etalon_case::Case;
 use etalon_diagnose::Symptom;
-use etalon_explore::{Budget, Candidate, Oracle, Reduction, reduce};
+use etalon_explore::{Candidate, Oracle, Reduction, ReductionLimits, reduce};
 use etalon_frame::Limits;
 use etalon_record::{Record, Verdict};
 use std::sync::atomic::AtomicBool;
@@ -119,9 +119,9 @@ impl<'a> DriverOracle<'a> {
     ) -> Reduction {
         let can_draw = |case: &Case| limits.missing(&case.requirements()).is_none();
         let budget = if self.record.verdict.is_violation() {
-            Budget::draws(draws)
+            ReductionLimits::draws(draws)
         } else {
-            Budget::of_processes()
+            ReductionLimits::of_processes()
         };
         reduce(failing, budget.with_stop(Some(self.stop)), &can_draw, self)
     }

@@ -4,17 +4,17 @@ use super::adapter_queue::AdapterQueue;
 use super::plan::KeptFrames;
 use super::shared::Shared;
 use crate::drawing::Drawing;
-use crate::event::Event;
+use crate::event::RunEvent;
 use crate::failure_report::FailureReport;
-use crate::loss::Failure;
 use crate::loss::Loss;
+use crate::loss::RequestError;
 use crate::process::Wait;
 use crate::sync::lock;
 use etalon_case::Case;
 use etalon_frame::Frame;
 use etalon_judge::{
-    IMPRECISE_FRAMES, Judged, Shown, is_due_to_fail, keep_pictures, measured, note_validation,
-    settled, shorten, undrawn,
+    IMPRECISE_FRAMES, Judged, ShownDetail, is_due_to_fail, keep_pictures, measured,
+    note_validation, settled, shorten, undrawn,
 };
 use etalon_record::{FrameFile, Record, RecordError, Seconds, Verdict};
 use std::time::{Duration, Instant};
@@ -31,12 +31,12 @@ pub(super) struct Observation {
 
 /// One adapter's part of a run.
 #[derive(Clone, Copy)]
-pub(super) struct AdapterRun<'s, 'a> {
+pub(super) struct RunningAdapter<'s, 'a> {
     pub(super) shared: &'s Shared<'a>,
     pub(super) queue: &'s AdapterQueue,
 }
 
-impl<'s> AdapterRun<'s, '_> {
+impl<'s> RunningAdapter<'s, '_> {
     pub(super) fn case(&self, number: usize) -> &'s Case {
         self.shared.cases[number]
     }
@@ -67,7 +67,7 @@ impl<'s> AdapterRun<'s, '_> {
             }
             for number in numbers {
                 let case = self.case(number);
-                let failure = Failure::Lost(Loss::NotStarted(error.to_owned()));
+                let failure = RequestError::Lost(Loss::NotStarted(error.to_owned()));
                 let report = FailureReport::new(failure, None);
                 let mut record = report.record(&case.id, &self.queue.adapter.info.name);
                 record.due_fail = is_due_to_fail(case, &self.queue.adapter.limits);
@@ -101,7 +101,7 @@ impl<'s> AdapterRun<'s, '_> {
         &self,
         number: usize,
         drawing: Drawing,
-        report: impl FnOnce(Failure) -> FailureReport,
+        report: impl FnOnce(RequestError) -> FailureReport,
     ) -> Observation {
         let case = self.case(number);
         let adapter = &self.queue.adapter;
@@ -181,23 +181,23 @@ impl<'s> AdapterRun<'s, '_> {
     }
 
     /// Returns how much the record of a failure shows.
-    fn shown(&self, record: &Record) -> Shown {
+    fn shown(&self, record: &Record) -> ShownDetail {
         if self.shared.options.frames == KeptFrames::All || !record.verdict.is_bad() {
-            return Shown::Whole;
+            return ShownDetail::Whole;
         }
         let settled = self.settled(record.clone());
         let Some(reason) = settled.excuse() else {
-            return Shown::Whole;
+            return ShownDetail::Whole;
         };
         let example = self.queue.example(reason, &record.case);
-        example.map_or(Shown::Example, Shown::By)
+        example.map_or(ShownDetail::Example, ShownDetail::By)
     }
 
-    fn keeps_frame(&self, record: &Record, shown: &Shown) -> bool {
+    fn keeps_frame(&self, record: &Record, shown: &ShownDetail) -> bool {
         let frames = self.shared.options.frames;
         match frames {
             KeptFrames::All => {}
-            KeptFrames::Examples if matches!(shown, Shown::By(_)) => return false,
+            KeptFrames::Examples if matches!(shown, ShownDetail::By(_)) => return false,
             KeptFrames::Examples => {}
             KeptFrames::New if self.settled(record.clone()).unexpected() => {}
             KeptFrames::New | KeptFrames::None => return false,
@@ -225,9 +225,9 @@ impl<'s> AdapterRun<'s, '_> {
             return self.shared.fail(error);
         }
         lock(&self.shared.summary).count(&record);
-        (self.shared.events)(Event::Recorded(Box::new(record)));
+        (self.shared.events)(RunEvent::Recorded(Box::new(record)));
         if let Some(wall) = self.queue.written() {
-            (self.shared.events)(Event::AdapterFinished {
+            (self.shared.events)(RunEvent::AdapterFinished {
                 adapter: self.queue.adapter.info.name.clone(),
                 wall,
             });

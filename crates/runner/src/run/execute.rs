@@ -5,7 +5,7 @@ use super::budget::Budget;
 use super::plan::{Plan, Rechecks, RunError, RunSummary};
 use super::shared::Shared;
 use super::worker_loop::WorkerLoop;
-use crate::event::Event;
+use crate::event::RunEvent;
 use crate::sync::lock;
 use etalon_case::Case;
 use etalon_frame::threads::share;
@@ -22,7 +22,7 @@ const WAITING: Duration = Duration::from_millis(5);
 ///
 /// # Errors
 /// If the run folder cannot be written to, or holds a run that differs from the one to resume.
-pub fn run(plan: Plan<'_>, events: &(dyn Fn(Event) + Sync)) -> Result<RunSummary, RunError> {
+pub fn run(plan: Plan<'_>, events: &(dyn Fn(RunEvent) + Sync)) -> Result<RunSummary, RunError> {
     let mut summary = RunSummary::default();
     let mut done: HashSet<(String, String)> = HashSet::new();
     let selected: HashMap<&str, usize> = (0..).zip(plan.cases).map(|(n, c)| (&*c.id, n)).collect();

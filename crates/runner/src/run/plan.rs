@@ -25,7 +25,7 @@ pub struct Plan<'a> {
     /// Adapters whose driver does not start, with the error. Each of their cases becomes a `Crash`.
     pub dead: Vec<(AdapterRecord, String)>,
     /// The limits and repetitions of drawing.
-    pub options: Options,
+    pub options: RunOptions,
     /// The known bad verdicts.
     pub expectations: &'a Expectations,
     /// The run folder.
@@ -43,7 +43,7 @@ pub struct Plan<'a> {
 /// Gets an adapter, a case and its frame.
 pub type Drawn<'a> = dyn Fn(&AdapterRecord, &Case, &Frame) + Sync + 'a;
 
-/// The default of [`Options::recheck`].
+/// The default of [`RunOptions::recheck`].
 const DEFAULT_RECHECK: u32 = 4;
 
 /// The numbers of unexpected bad verdicts.
@@ -72,7 +72,7 @@ pub enum KeptFrames {
 
 /// The limits and repetitions of drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Options {
+pub struct RunOptions {
     /// The number of workers that draw at the same time; at least one.
     pub jobs: usize,
     /// The time that a case may take; methods and frame times may take four times as long.
@@ -92,7 +92,7 @@ pub struct Options {
     pub within: Option<Duration>,
 }
 
-impl Default for Options {
+impl Default for RunOptions {
     fn default() -> Self {
         Self {
             jobs: 1,

@@ -1,9 +1,9 @@
 //! Checking a bad verdict again: a fresh process confirms it, or shows what it depends on.
 
-use super::adapter_run::{AdapterRun, Observation};
+use super::adapter_run::{Observation, RunningAdapter};
 use crate::drawing::Drawing;
 use crate::failure_report::FailureReport;
-use crate::loss::{Failure, Loss};
+use crate::loss::{Loss, RequestError};
 use crate::process::WorkerProcess;
 use crate::supervisor::start;
 use crate::sync::lock;
@@ -24,7 +24,7 @@ const MAX_NAMED: usize = 8;
 /// other cases, which the record then names. Calls `make_room` before the first process starts. Returns
 /// `None` if the run is stopped.
 pub(super) fn confirm(
-    run: &AdapterRun<'_, '_>,
+    run: &RunningAdapter<'_, '_>,
     number: usize,
     mut first: Observation,
     before: &[usize],
@@ -86,7 +86,7 @@ pub(super) fn confirm(
 }
 
 /// Returns true if a verdict is bad and unexpected, and a fresh process could change it.
-fn needs_confirmation(run: &AdapterRun<'_, '_>, observed: &Observation, most: u32) -> bool {
+fn needs_confirmation(run: &RunningAdapter<'_, '_>, observed: &Observation, most: u32) -> bool {
     let record = &observed.record;
     let started = record
         .process
@@ -106,7 +106,7 @@ enum Redrawn {
 }
 
 /// Draws a case in a fresh process, after other cases that are not judged.
-fn draw_alone(run: &AdapterRun<'_, '_>, before: &[usize], number: usize) -> Redrawn {
+fn draw_alone(run: &RunningAdapter<'_, '_>, before: &[usize], number: usize) -> Redrawn {
     let Ok(mut worker) = start(&run.queue.launch, run.shared.options.memory) else {
         return Redrawn::Unable;
     };
@@ -114,12 +114,12 @@ fn draw_alone(run: &AdapterRun<'_, '_>, before: &[usize], number: usize) -> Redr
         if run.shared.stopped() {
             return Redrawn::Stopped;
         }
-        if let Err(Failure::Lost(_)) = draw(run, &mut worker, *other).frames {
+        if let Err(RequestError::Lost(_)) = draw(run, &mut worker, *other).frames {
             return Redrawn::Unable;
         }
     }
     let drawing = draw(run, &mut worker, number);
-    if matches!(drawing.frames, Err(Failure::Lost(Loss::Cancelled))) {
+    if matches!(drawing.frames, Err(RequestError::Lost(Loss::Cancelled))) {
         return Redrawn::Stopped;
     }
     let is_drawn = drawing.frames.is_ok();
@@ -131,7 +131,7 @@ fn draw_alone(run: &AdapterRun<'_, '_>, before: &[usize], number: usize) -> Redr
     Redrawn::Observed(Box::new(observation))
 }
 
-fn draw(run: &AdapterRun<'_, '_>, worker: &mut WorkerProcess, number: usize) -> Drawing {
+fn draw(run: &RunningAdapter<'_, '_>, worker: &mut WorkerProcess, number: usize) -> Drawing {
     let case = run.case(number);
     worker.draw_case(number as u32, case, run.wait(case))
 }
@@ -146,7 +146,7 @@ enum OrderCause {
 
 /// Searches for the cases that must precede a case for its verdict, by halving the cases drawn before it.
 fn search(
-    run: &AdapterRun<'_, '_>,
+    run: &RunningAdapter<'_, '_>,
     number: usize,
     verdict: Verdict,
     before: &[usize],

@@ -1,8 +1,8 @@
 //! The state that all threads of a run share.
 
 use super::budget::Budget;
-use super::plan::{Drawn, Options, RunSummary};
-use crate::event::Event;
+use super::plan::{Drawn, RunOptions, RunSummary};
+use crate::event::RunEvent;
 use crate::sync::lock;
 use etalon_case::Case;
 use etalon_judge::{Judge, Truths};
@@ -15,7 +15,7 @@ use std::sync::{Mutex, RwLock};
 pub(super) struct Shared<'a> {
     /// The cases of the run, followed by the round trips that are not among them.
     pub(super) cases: Vec<&'a Case>,
-    pub(super) options: Options,
+    pub(super) options: RunOptions,
     /// The time left, if the run has a time limit.
     pub(super) budget: Option<Budget>,
     pub(super) judge: Judge,
@@ -34,7 +34,7 @@ pub(super) struct Shared<'a> {
     pub(super) pictures: HashSet<usize>,
     /// The adapter whose pictures are kept.
     pub(super) picture_adapter: String,
-    pub(super) events: &'a (dyn Fn(Event) + Sync),
+    pub(super) events: &'a (dyn Fn(RunEvent) + Sync),
     pub(super) drawn: &'a Drawn<'a>,
 }
 

@@ -4,12 +4,12 @@
 //! Requests are pipelined: while the worker draws the next cases, the thread judges the previous one.
 
 use super::adapter_queue::AdapterQueue;
-use super::adapter_run::{AdapterRun, Observation};
+use super::adapter_run::{Observation, RunningAdapter};
 use super::second_look::confirm;
 use super::shared::Shared;
-use crate::drawing::{Drawing, Due};
-use crate::event::Event;
-use crate::loss::{Failure, Loss};
+use crate::drawing::{Drawing, DueAnswers};
+use crate::event::RunEvent;
+use crate::loss::{Loss, RequestError};
 use crate::supervisor::Supervisor;
 use etalon_judge::RoundTrips;
 use etalon_record::{Reason, Record};
@@ -28,7 +28,7 @@ struct Requested {
 
 /// One thread with its worker.
 pub(super) struct WorkerLoop<'s, 'a> {
-    run: AdapterRun<'s, 'a>,
+    run: RunningAdapter<'s, 'a>,
     supervisor: Supervisor,
     /// The cases requested from the current worker, in order.
     history: Vec<usize>,
@@ -46,7 +46,7 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
             None,
         );
         Self {
-            run: AdapterRun { shared, queue },
+            run: RunningAdapter { shared, queue },
             generation: supervisor.generation(),
             supervisor,
             history: Vec::new(),
@@ -58,7 +58,7 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
         let run = self.run;
         let (shared, queue) = (run.shared, run.queue);
         if queue.begin(shared.budget.as_ref()) {
-            (shared.events)(Event::AdapterStarted {
+            (shared.events)(RunEvent::AdapterStarted {
                 adapter: queue.adapter.info.name.clone(),
                 cases: queue.cases(),
             });
@@ -196,14 +196,14 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
         let case = self.run.case(number);
         let wait = self.run.wait(case);
         match self.supervisor.running() {
-            Ok(worker) => worker.receive_frames(number as u32, Due::of(case), asked, wait),
-            Err(loss) => Drawing::failed(Failure::Lost(loss)),
+            Ok(worker) => worker.receive_frames(number as u32, DueAnswers::of(case), asked, wait),
+            Err(loss) => Drawing::failed(RequestError::Lost(loss)),
         }
     }
 
     /// Judges a drawing; returns `None` if the run is stopped.
     fn observe(&mut self, number: usize, drawing: Drawing) -> Option<Observation> {
-        if matches!(drawing.frames, Err(Failure::Lost(Loss::Cancelled))) {
+        if matches!(drawing.frames, Err(RequestError::Lost(Loss::Cancelled))) {
             return None;
         }
         let supervisor = &mut self.supervisor;

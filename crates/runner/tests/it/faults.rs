@@ -9,7 +9,7 @@ use etalon_cpu::CpuBackend;
 use etalon_frame::{AdapterInfo, Feature, Frame, Limits, Requirement};
 use etalon_record::{Expectations, Header, LossKind, Reason, Record, Run, Verdict};
 use etalon_runner::{
-    Event, Launch, Launcher, Options, Plan, RunSummary, START_TIMEOUT, StartError, Worker,
+    Launch, Launcher, Plan, RunEvent, RunOptions, RunSummary, START_TIMEOUT, StartError, Worker,
 };
 use etalon_scene::Scene;
 use std::io::Write;
@@ -294,12 +294,12 @@ fn run_with(launch: Launch, jobs: usize, libraries: &[&Library]) -> (Vec<Record>
         header: Header::new(vec![(&worker).into()], cases.len() as u64),
         adapters: vec![(launch, worker)],
         dead: Vec::new(),
-        options: Options {
+        options: RunOptions {
             // A recheck starts additional workers, which these tests count.
             recheck: 0,
             timeout: Duration::from_secs(10),
             jobs,
-            ..Options::default()
+            ..RunOptions::default()
         },
         expectations: &Expectations::default(),
         folder: &out,
@@ -310,7 +310,7 @@ fn run_with(launch: Launch, jobs: usize, libraries: &[&Library]) -> (Vec<Record>
     };
     let records = Mutex::new(Vec::new());
     let summary = etalon_runner::run(plan, &|event| {
-        if let Event::Recorded(record) = event {
+        if let RunEvent::Recorded(record) = event {
             records.lock().unwrap().push(*record);
         }
     });

@@ -2,7 +2,7 @@
 
 use super::change::{Cause, ChangePoint, Drift, ratio};
 use super::clean::clean;
-use super::point::{Point, PointError, check};
+use super::point::{PointError, TimedRun, check};
 use super::segmentation::{self, WINDOW};
 use super::stretch::{MIN_RUNS, STEP, ShiftTest, Sums};
 use crate::compare::{BEYOND_RULER, LEVEL, MINIMUM};
@@ -39,7 +39,7 @@ pub struct Changes {
 ///
 /// # Errors
 /// If a time is not finite and above zero, or an interval does not contain its median.
-pub fn change_points(points: &[Point]) -> Result<Changes, PointError> {
+pub fn change_points(points: &[TimedRun]) -> Result<Changes, PointError> {
     check(points)?;
     let mut changes = analyze(points);
     mark_returns(&mut changes.points);
@@ -80,7 +80,7 @@ impl Changes {
     ///
     /// # Errors
     /// As for [`change_points`].
-    pub fn append(&self, runs: &[Point]) -> Result<Self, PointError> {
+    pub fn append(&self, runs: &[TimedRun]) -> Result<Self, PointError> {
         let start = self.settled().min(runs.len());
         check(&runs[start..])?;
         let mut tail = analyze(&runs[start..]);
@@ -129,10 +129,10 @@ fn without_drift(sums: Sums) -> (Vec<usize>, Sums) {
 
 impl Logs {
     /// Returns the logarithms, and the changes as measured and in units of the ruler.
-    fn new(points: &[Point]) -> (Self, [Vec<usize>; 2]) {
+    fn new(points: &[TimedRun]) -> (Self, [Vec<usize>; 2]) {
         let times: Vec<f64> = points.iter().map(|p| p.median.ln()).collect();
         let deviations = upper_normal((1.0 - CONFIDENCE) / 2.0);
-        let error = |p: &Point| {
+        let error = |p: &TimedRun| {
             p.interval
                 .map_or(0.0, |[low, high]| (high / low).ln() / 2.0 / deviations)
         };
@@ -180,7 +180,7 @@ impl Logs {
     }
 }
 
-fn analyze(points: &[Point]) -> Changes {
+fn analyze(points: &[TimedRun]) -> Changes {
     let runs = points.len();
     let (logs, [raw, hidden]) = Logs::new(points);
     // A machine whose speed changes constantly hides steps of the times, but not in units of the ruler.

@@ -15,5 +15,5 @@ mod stretch;
 
 pub use analysis::{Changes, change_points};
 pub use change::{Cause, ChangePoint, Drift};
-pub use point::{Point, PointError};
+pub use point::{PointError, TimedRun};
 pub use stretch::{MIN_RUNS, STEP};

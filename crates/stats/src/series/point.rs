@@ -6,7 +6,7 @@ use thiserror::Error;
 
 /// One run's time of one case on one adapter and machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Point {
+pub struct TimedRun {
     /// The median of the run's rounds, in seconds or any other unit.
     pub median: f64,
     /// The interval of the time with a confidence of [`crate::CONFIDENCE`], if there were enough rounds.
@@ -16,7 +16,7 @@ pub struct Point {
     pub ruler: Option<f64>,
 }
 
-impl From<&Samples> for Point {
+impl From<&Samples> for TimedRun {
     fn from(samples: &Samples) -> Self {
         let summary = summarize(samples);
         let mut rulers = samples.rulers();
@@ -55,7 +55,7 @@ pub enum PointError {
 }
 
 /// Checks all points.
-pub(super) fn check(points: &[Point]) -> Result<(), PointError> {
+pub(super) fn check(points: &[TimedRun]) -> Result<(), PointError> {
     let is_time = |t: &f64| t.is_finite() && *t > 0.0;
     for (index, point) in points.iter().enumerate() {
         let [low, high] = point.interval.unwrap_or([point.median; 2]);

@@ -1,7 +1,7 @@
 //! Simulated series of nightly benches with planted steps, and how well change points match them. Also for
 //! `examples/change_points.rs`.
 
-use etalon_stats::{Point, change_points};
+use etalon_stats::{TimedRun, change_points};
 use oorandom::Rand64;
 
 /// Runs of a series.
@@ -107,7 +107,7 @@ pub(crate) const MACHINES: [Machine; 10] = [
 /// A series and the first run of each of its steps.
 #[derive(Clone, Debug)]
 pub(crate) struct Series {
-    pub(crate) points: Vec<Point>,
+    pub(crate) points: Vec<TimedRun>,
     pub(crate) steps: Vec<usize>,
 }
 
@@ -147,7 +147,7 @@ pub(crate) fn series(random: &mut Rand64, machine: Machine, size: f64) -> Series
         }
         let within = machine.noise / 2.0 * 2.576 / ROUNDS.sqrt();
         let median = 0.003 * log.exp();
-        points.push(Point {
+        points.push(TimedRun {
             median,
             interval: Some([median * (-within).exp(), median * within.exp()]),
             ruler: machine
@@ -197,7 +197,7 @@ impl Score {
 }
 
 /// The runs that a person should look at.
-pub(crate) fn alarms(points: &[Point]) -> Vec<usize> {
+pub(crate) fn alarms(points: &[TimedRun]) -> Vec<usize> {
     let changes = change_points(points).expect("simulated times are above zero");
     let alarms = changes.points.iter().filter(|point| point.is_alarm());
     alarms.map(|point| point.index).collect()

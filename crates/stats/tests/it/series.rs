@@ -1,12 +1,14 @@
 //! Change points of series: made by hand, by properties of any series, simulated, and recorded.
 
 use crate::nightly::{MACHINES, Machine, RUNS, Score, alarms, normal, series};
-use etalon_stats::{Cause, Changes, MIN_RUNS, Point, PointError, Samples, change_points, quantile};
+use etalon_stats::{
+    Cause, Changes, MIN_RUNS, PointError, Samples, TimedRun, change_points, quantile,
+};
 use oorandom::Rand64;
 use std::path::Path;
 
-fn points(times: &[f64]) -> Vec<Point> {
-    let point = |median: &f64| Point {
+fn points(times: &[f64]) -> Vec<TimedRun> {
+    let point = |median: &f64| TimedRun {
         median: *median,
         interval: None,
         ruler: None,
@@ -76,11 +78,11 @@ fn series_that_say_nothing() {
     let two = found(&[1.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 2.0]);
     assert_eq!(indices(&two), [4]);
     // Wide intervals within the runs show that the agreement is chance.
-    let wide = |p: Point| Point {
+    let wide = |p: TimedRun| TimedRun {
         interval: Some([p.median / 3.0, p.median * 3.0]),
         ..p
     };
-    let wide: Vec<Point> = points(&[1.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 2.0])
+    let wide: Vec<TimedRun> = points(&[1.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 2.0])
         .into_iter()
         .map(wide)
         .collect();
@@ -95,13 +97,13 @@ fn what_is_no_time_is_refused() {
             matches!(error, PointError::Time { index: 1, .. }),
             "{error}"
         );
-        let ruler = Point {
+        let ruler = TimedRun {
             ruler: Some(time),
             ..points(&[1.0])[0]
         };
         assert!(change_points(&[ruler]).is_err());
     }
-    let outside = Point {
+    let outside = TimedRun {
         interval: Some([2.0, 3.0]),
         ..points(&[1.0])[0]
     };
@@ -115,14 +117,14 @@ fn what_is_no_time_is_refused() {
 fn a_point_is_what_a_bench_gives() {
     let rounds: Vec<[f64; 1]> = (0..9).map(|i| [1.0 + 0.01 * f64::from(i)]).collect();
     let samples = Samples::new(&rounds).unwrap();
-    let point = Point::from(&samples);
+    let point = TimedRun::from(&samples);
     assert!(
         (point.median - 1.04).abs() < 1e-12 && point.interval.is_some() && point.ruler.is_none()
     );
     let ruled = samples
         .with_ruler(&[2.0, 2.0, 2.0, 2.0, 2.1, 2.2, 2.2, 2.2, 2.2])
         .unwrap();
-    assert!((Point::from(&ruled).ruler.unwrap() - 2.1).abs() < 1e-12);
+    assert!((TimedRun::from(&ruled).ruler.unwrap() - 2.1).abs() < 1e-12);
 }
 
 #[test]
@@ -133,10 +135,10 @@ fn a_step_that_the_ruler_shares_is_the_machine_s() {
     let with = |ruler_after: f64, noise: f64, random: &mut Rand64| -> Cause {
         let mut rulers = level(random, 40, 2.0, noise);
         rulers.extend(level(random, 40, 2.0 * ruler_after, noise));
-        let points: Vec<Point> = points(&times)
+        let points: Vec<TimedRun> = points(&times)
             .into_iter()
             .zip(rulers)
-            .map(|(p, ruler)| Point {
+            .map(|(p, ruler)| TimedRun {
                 ruler: Some(ruler),
                 ..p
             })
@@ -158,10 +160,10 @@ fn a_step_that_the_ruler_shares_is_the_machine_s() {
 fn a_ruler_that_steps_alone_is_no_change() {
     let mut random = Rand64::new(8);
     let times = level(&mut random, 80, 1.0, 0.01);
-    let points: Vec<Point> = points(&times)
+    let points: Vec<TimedRun> = points(&times)
         .into_iter()
         .enumerate()
-        .map(|(i, p)| Point {
+        .map(|(i, p)| TimedRun {
             ruler: Some(if i < 40 { 1.0 } else { 1.2 }),
             ..p
         })
@@ -183,9 +185,9 @@ fn a_drift_is_one_drift_and_no_stairs() {
     };
     assert_eq!((drift.from, drift.to, drift.machine), (0, 300, false));
     assert!((1.13..1.17).contains(&drift.ratio.estimate), "{drift:?}");
-    let ruled: Vec<Point> = points(&times)
+    let ruled: Vec<TimedRun> = points(&times)
         .into_iter()
-        .map(|p| Point {
+        .map(|p| TimedRun {
             ruler: Some(p.median * 2.0),
             ..p
         })
@@ -271,7 +273,7 @@ fn run_by_run_gives_the_same_as_all_at_once() {
         assert_eq!(grown.settled(), 270);
         // Earlier points are not read.
         let mut other = points.clone();
-        other[..200].fill(Point {
+        other[..200].fill(TimedRun {
             median: 9.0,
             ..points[0]
         });
@@ -387,7 +389,7 @@ fn noise_alone_gives_no_alarm() {
 }
 
 /// Benches of `ci/history/record`: the points, and the runs at which frames were made longer or shorter.
-fn recorded(name: &str) -> (Vec<Point>, Vec<usize>) {
+fn recorded(name: &str) -> (Vec<TimedRun>, Vec<usize>) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reports/history");
     let text = std::fs::read_to_string(folder.join(name)).unwrap();
     let line = |line: &str| {
@@ -398,9 +400,9 @@ fn recorded(name: &str) -> (Vec<Point>, Vec<usize>) {
         let rounds: Vec<[f64; 1]> = rounds.iter().map(|t| [*t]).collect();
         let samples = Samples::new(&rounds).unwrap();
         let samples = samples.with_ruler(&vec![*ruler; rounds.len()]).unwrap();
-        (Point::from(&samples), *percent)
+        (TimedRun::from(&samples), *percent)
     };
-    let (points, percents): (Vec<Point>, Vec<f64>) = text.lines().skip(1).map(line).unzip();
+    let (points, percents): (Vec<TimedRun>, Vec<f64>) = text.lines().skip(1).map(line).unzip();
     let steps = (1..percents.len()).filter(|i| percents[*i] != percents[i - 1]);
     (points, steps.collect())
 }

@@ -1,16 +1,16 @@
 //! Pictures with a closed form.
 
 use crate::common::{assert_near, pane, rectangle, scene, triangle};
-use etalon_methods::{Coverage, Paint, Surface, Texture};
+use etalon_methods::{FlatSurface, Paint, StraightTexture, TexelCoverage};
 use etalon_scene::AddressMode;
 use etalon_truth::truth;
 
-const BOTH: [Coverage; 2] = [Coverage::Center, Coverage::Area];
+const BOTH: [TexelCoverage; 2] = [TexelCoverage::Center, TexelCoverage::Area];
 const RED: [f64; 4] = [1.0, 0.0, 0.0, 0.5];
 const BLUE: [f64; 4] = [0.0, 0.0, 1.0, 0.25];
 const GREEN: [f64; 4] = [0.0, 0.5, 0.0, 0.75];
 
-fn flat(depth: f64, color: [f64; 4]) -> Surface {
+fn flat(depth: f64, color: [f64; 4]) -> FlatSurface {
     pane(|_, _| depth, Paint::Flat(color))
 }
 
@@ -63,7 +63,7 @@ fn of_two_at_the_same_depth_the_later_is_in_front() {
             [
                 pane(slanted, Paint::Flat([1.0, 0.0, 0.0, 1.0])),
                 // Other corners on the same plane, which rounding moves apart.
-                Surface {
+                FlatSurface {
                     corners: [[-7.0, -9.0], [39.0, -9.0], [-7.0, 50.3]]
                         .map(|[x, y]| [x, y, slanted(x, y)])
                         .to_vec(),
@@ -95,7 +95,7 @@ fn panes_a_hair_apart_keep_their_order() {
 fn layers_accumulate_as_a_power() {
     for (alpha, layers) in [(0.01, 500), (0.25, 16), (0.5, 64)] {
         let surfaces = (0..layers).map(|i| flat(f64::from(i), [1.0, 1.0, 1.0, alpha]));
-        let what = scene([4, 4], Coverage::Area, surfaces.collect());
+        let what = scene([4, 4], TexelCoverage::Area, surfaces.collect());
         let expected = 1.0 - (1.0 - alpha).powi(layers);
         assert_near(truth(&what).rgb[9], [expected; 3], 1e-12);
     }
@@ -113,7 +113,7 @@ fn panes_that_pass_through_each_other_swap_along_the_line() {
     ];
     for (depth, share) in cases {
         let surfaces = vec![flat(0.5, RED), pane(depth, Paint::Flat(BLUE))];
-        let picture = truth(&scene([1, 1], Coverage::Area, surfaces));
+        let picture = truth(&scene([1, 1], TexelCoverage::Area, surfaces));
         let [front, behind] = [[0.375, 0.0, 0.25], [0.5, 0.0, 0.125]];
         let expected = [0, 1, 2].map(|c| share * front[c] + (1.0 - share) * behind[c]);
         assert_near(picture.rgb[0], expected, 1e-9);
@@ -141,7 +141,7 @@ fn three_panes_through_one_point_make_six_orders() {
         turned(120.0, opaque(1)),
         turned(240.0, opaque(2)),
     ];
-    let picture = truth(&scene([1, 1], Coverage::Area, surfaces));
+    let picture = truth(&scene([1, 1], TexelCoverage::Area, surfaces));
     // Red is nearest within 60 degrees of the direction to the left: the left half of the square
     // without two triangles at the middle line, whose legs are 0.5 and 0.5 tan 30 degrees.
     let red = 0.5 - 0.25 * 30_f64.to_radians().tan();
@@ -179,8 +179,8 @@ fn half_planes_cover_what_the_formula_says() {
                 corner(-9.0, -9.0),
             ];
             let paint = Paint::Flat([1.0; 4]);
-            let surfaces = vec![Surface { corners, paint }];
-            let picture = truth(&scene([3, 3], Coverage::Area, surfaces));
+            let surfaces = vec![FlatSurface { corners, paint }];
+            let picture = truth(&scene([3, 3], TexelCoverage::Area, surfaces));
             assert_eq!(picture.error, 0.0);
             for (i, texel) in picture.rgb.iter().enumerate() {
                 let (x, y) = ((i % 3) as f64 - 1.5, (i / 3) as f64 - 1.5);
@@ -207,7 +207,7 @@ fn a_thin_wedge_covers_its_area() {
             [16.0, 1.5 + thickness / 2.0],
         ];
         let surfaces = vec![triangle(corners, 0.0, [1.0; 4])];
-        let picture = truth(&scene([16, 3], Coverage::Area, surfaces));
+        let picture = truth(&scene([16, 3], TexelCoverage::Area, surfaces));
         for (i, texel) in picture.rgb.iter().enumerate() {
             let expected = match i / 16 {
                 1 => thickness * ((i % 16) as f64 + 0.5) / 16.0,
@@ -221,11 +221,11 @@ fn a_thin_wedge_covers_its_area() {
 #[test]
 fn depth_shown_as_grey_is_its_mean_over_what_is_covered() {
     let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|[x, y]| [x, y, x]);
-    let surfaces = vec![Surface {
+    let surfaces = vec![FlatSurface {
         corners: corners.to_vec(),
         paint: Paint::Depth,
     }];
-    let picture = truth(&scene([1, 1], Coverage::Area, surfaces));
+    let picture = truth(&scene([1, 1], TexelCoverage::Area, surfaces));
     assert_near(picture.rgb[0], [1.0 / 6.0; 3], 1e-9);
 
     let behind = pane(|x, y| 0.01 * x + 0.02 * y, Paint::Depth);
@@ -243,7 +243,7 @@ fn distances_and_fog_are_integrated_to_the_logarithm() {
         // Depth runs from 0 to 1 across one texel.
         let mean = (near * far * f64::ln(far / near) / (far - near) - near) / (far - near);
         let shown = pane(|x, _| x, Paint::Distance { near, far });
-        let picture = truth(&scene([1, 1], Coverage::Area, vec![shown]));
+        let picture = truth(&scene([1, 1], TexelCoverage::Area, vec![shown]));
         assert_near(picture.rgb[0], [mean; 3], 1e-9);
         assert_eq!(picture.error, 0.0);
 
@@ -254,7 +254,11 @@ fn distances_and_fog_are_integrated_to_the_logarithm() {
             near,
             far,
         };
-        let picture = truth(&scene([1, 1], Coverage::Area, vec![pane(|x, _| x, paint)]));
+        let picture = truth(&scene(
+            [1, 1],
+            TexelCoverage::Area,
+            vec![pane(|x, _| x, paint)],
+        ));
         let expected = [0, 1, 2].map(|c| color[c] + (fog[c] - color[c]) * mean);
         assert_near(picture.rgb[0], expected, 1e-9);
     }
@@ -265,15 +269,20 @@ fn a_distance_beyond_the_planes_is_held_to_them() {
     let (near, far) = (1.0, 3.0);
     // From -1 to 3 across four texels: 0 in the first one, 1 in the last two.
     let shown = pane(|x, _| x - 1.0, Paint::Distance { near, far });
-    let picture = truth(&scene([4, 1], Coverage::Area, vec![shown]));
+    let picture = truth(&scene([4, 1], TexelCoverage::Area, vec![shown]));
     let mean = (1.5 * 3_f64.ln() - 1.0) / 2.0;
     for (texel, expected) in picture.rgb.iter().zip([0.0, mean, 1.0, 1.0]) {
         assert_near(*texel, [expected; 3], 1e-9);
     }
 }
 
-fn textured(size: [u32; 2], texels: Vec<[f64; 4]>, address: AddressMode, repeats: f64) -> Surface {
-    let texture = Texture {
+fn textured(
+    size: [u32; 2],
+    texels: Vec<[f64; 4]>,
+    address: AddressMode,
+    repeats: f64,
+) -> FlatSurface {
+    let texture = StraightTexture {
         size,
         texels,
         address: [address; 2],
@@ -296,13 +305,13 @@ fn a_texture_is_filtered_as_the_formula_says() {
     // them t runs from 0 to 1, and colour times alpha is (1 - t) (1 - t / 2) and t (1 - t / 2).
     let surface = textured([2, 1], texels.clone(), AddressMode::ClampToEdge, 1.0);
     let expected = [0.25 + 0.5 * 5.0 / 12.0, 0.125 + 0.5 / 3.0, 0.0];
-    let picture = truth(&scene([1, 1], Coverage::Area, vec![surface]));
+    let picture = truth(&scene([1, 1], TexelCoverage::Area, vec![surface]));
     assert_near(picture.rgb[0], expected, 1e-9);
     assert_eq!(picture.error, 0.0);
     // Repeated it runs back likewise.
     for address in [AddressMode::Repeat, AddressMode::MirrorRepeat] {
         let surface = textured([2, 1], texels.clone(), address, 2.0);
-        let picture = truth(&scene([1, 1], Coverage::Area, vec![surface]));
+        let picture = truth(&scene([1, 1], TexelCoverage::Area, vec![surface]));
         let expected = match address {
             AddressMode::Repeat => [5.0 / 12.0, 1.0 / 3.0, 0.0],
             _ => expected,
@@ -311,6 +320,6 @@ fn a_texture_is_filtered_as_the_formula_says() {
     }
     // At the centre: halfway between the two.
     let surface = textured([2, 1], texels, AddressMode::ClampToEdge, 1.0);
-    let picture = truth(&scene([1, 1], Coverage::Center, vec![surface]));
+    let picture = truth(&scene([1, 1], TexelCoverage::Center, vec![surface]));
     assert_near(picture.rgb[0], [0.375, 0.375, 0.0], 1e-12);
 }

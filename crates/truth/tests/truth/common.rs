@@ -1,10 +1,10 @@
 //! Scenes made by hand.
 
-use etalon_methods::{Coverage, Paint, Surface, Truth};
+use etalon_methods::{FlatSurface, Paint, TexelCoverage, Truth};
 
 /// A rectangle between two corners at one depth.
-pub(crate) fn rectangle(low: [f64; 2], high: [f64; 2], depth: f64, color: [f64; 4]) -> Surface {
-    Surface {
+pub(crate) fn rectangle(low: [f64; 2], high: [f64; 2], depth: f64, color: [f64; 4]) -> FlatSurface {
+    FlatSurface {
         corners: vec![
             [low[0], low[1], depth],
             [high[0], low[1], depth],
@@ -16,22 +16,22 @@ pub(crate) fn rectangle(low: [f64; 2], high: [f64; 2], depth: f64, color: [f64; 
 }
 
 /// A rectangle larger than a picture of 16 by 16 texels, with depth as a function of the position.
-pub(crate) fn pane(depth: impl Fn(f64, f64) -> f64, paint: Paint) -> Surface {
+pub(crate) fn pane(depth: impl Fn(f64, f64) -> f64, paint: Paint) -> FlatSurface {
     let corners = [[-4.0, -4.0], [20.0, -4.0], [20.0, 20.0], [-4.0, 20.0]];
-    Surface {
+    FlatSurface {
         corners: corners.map(|[x, y]| [x, y, depth(x, y)]).to_vec(),
         paint,
     }
 }
 
-pub(crate) fn triangle(corners: [[f64; 2]; 3], depth: f64, color: [f64; 4]) -> Surface {
-    Surface {
+pub(crate) fn triangle(corners: [[f64; 2]; 3], depth: f64, color: [f64; 4]) -> FlatSurface {
+    FlatSurface {
         corners: corners.map(|[x, y]| [x, y, depth]).to_vec(),
         paint: Paint::Flat(color),
     }
 }
 
-pub(crate) fn scene(size: [u32; 2], coverage: Coverage, surfaces: Vec<Surface>) -> Truth {
+pub(crate) fn scene(size: [u32; 2], coverage: TexelCoverage, surfaces: Vec<FlatSurface>) -> Truth {
     Truth {
         size,
         background: [0.0; 3],

@@ -2,7 +2,7 @@
 
 use crate::common::{pane, scene};
 use etalon_frame::{Aspect, ChannelEncoding, Image, ReadPath, TextureFormat};
-use etalon_methods::{Coverage, Paint};
+use etalon_methods::{Paint, TexelCoverage};
 use etalon_truth::{TruthPicture, distance, truth};
 
 const SIZE: [u32; 2] = [16, 8];
@@ -29,13 +29,17 @@ fn image(format: TextureFormat, texel: impl Fn(u32, u32) -> Vec<f64>) -> Image {
 
 fn plain(color: [f64; 3]) -> TruthPicture {
     let paint = Paint::Flat([color[0], color[1], color[2], 1.0]);
-    truth(&scene(SIZE, Coverage::Area, vec![pane(|_, _| 0.5, paint)]))
+    truth(&scene(
+        SIZE,
+        TexelCoverage::Area,
+        vec![pane(|_, _| 0.5, paint)],
+    ))
 }
 
 #[test]
 fn a_picture_has_no_distance_from_itself() {
     let ramp = pane(|x, y| (x + 2.0 * y) / 40.0, Paint::Depth);
-    let expected = truth(&scene(SIZE, Coverage::Area, vec![ramp]));
+    let expected = truth(&scene(SIZE, TexelCoverage::Area, vec![ramp]));
     let value_at = |x: u32, y: u32| {
         let [r, g, b] = expected.rgb[(y * SIZE[0] + x) as usize];
         vec![r, g, b, 0.3]
@@ -143,7 +147,7 @@ fn what_cannot_be_compared_has_no_distance() {
         spoil(&mut image);
         assert_eq!(distance(&expected, &image), None);
     }
-    let empty = truth(&scene([0, 0], Coverage::Area, Vec::new()));
+    let empty = truth(&scene([0, 0], TexelCoverage::Area, Vec::new()));
     let mut image = good;
     image.size = [0, 0];
     image.codes.clear();

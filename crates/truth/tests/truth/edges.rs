@@ -1,7 +1,7 @@
 //! Shared edges, corners on centres, degenerate polygons.
 
 use crate::common::{assert_near, pane, rectangle, scene, triangle};
-use etalon_methods::{Coverage, Paint, Surface, Texture};
+use etalon_methods::{FlatSurface, Paint, StraightTexture, TexelCoverage};
 use etalon_scene::AddressMode;
 use etalon_truth::truth;
 
@@ -12,7 +12,7 @@ fn the_top_left_rule_decides_at_centres() {
     let mut reversed = surface.clone();
     reversed.corners.reverse();
     for surface in [surface, reversed] {
-        let picture = truth(&scene([5, 5], Coverage::Center, vec![surface]));
+        let picture = truth(&scene([5, 5], TexelCoverage::Center, vec![surface]));
         let covered: Vec<usize> = (0..25).filter(|&i| picture.rgb[i][0] > 0.0).collect();
         assert_eq!(covered, [6, 7, 11, 12]);
     }
@@ -32,12 +32,12 @@ fn a_fan_around_a_centre_covers_it_once() {
                 [0.5, 1.0, 0.25, 0.5],
             )
         });
-        let surfaces: Vec<Surface> = surfaces.collect();
-        let picture = truth(&scene([5, 5], Coverage::Center, surfaces.clone()));
+        let surfaces: Vec<FlatSurface> = surfaces.collect();
+        let picture = truth(&scene([5, 5], TexelCoverage::Center, surfaces.clone()));
         for texel in picture.rgb {
             assert_eq!(texel, [0.25, 0.5, 0.125]);
         }
-        let picture = truth(&scene([5, 5], Coverage::Area, surfaces));
+        let picture = truth(&scene([5, 5], TexelCoverage::Area, surfaces));
         assert!(picture.error <= 0.01, "{spokes}: {}", picture.error);
         for texel in picture.rgb {
             assert_near(texel, [0.25, 0.5, 0.125], 1e-9 + picture.error);
@@ -56,7 +56,7 @@ fn too_many_pieces_are_sampled_and_the_error_is_said() {
             let x = middle[0] + along * cos - across * sin;
             [x, middle[1] + along * sin + across * cos, 0.0]
         };
-        Surface {
+        FlatSurface {
             corners: vec![
                 corner(-3.0, -0.01),
                 corner(3.0, -0.01),
@@ -66,7 +66,7 @@ fn too_many_pieces_are_sampled_and_the_error_is_said() {
             paint: Paint::Flat([1.0, 0.0, 0.0, 0.05]),
         }
     });
-    let what = scene([1, 1], Coverage::Area, strips.collect());
+    let what = scene([1, 1], TexelCoverage::Area, strips.collect());
     let picture = truth(&what);
     assert!(picture.error > 0.0 && picture.error <= 1.0);
     // The same in parts of the texel, which are exact.
@@ -92,9 +92,9 @@ fn what_is_no_polygon_covers_nothing() {
         vec![[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [4.0, 1e-300, 0.0]],
         vec![[0.0, 0.0, f64::MAX], [4.0, 0.0, f64::MIN], [4.0, 4.0, 0.0]],
     ];
-    for coverage in [Coverage::Center, Coverage::Area] {
+    for coverage in [TexelCoverage::Center, TexelCoverage::Area] {
         for corners in &nothing {
-            let surface = Surface {
+            let surface = FlatSurface {
                 corners: corners.clone(),
                 paint: Paint::Flat([1.0; 4]),
             };
@@ -107,12 +107,12 @@ fn what_is_no_polygon_covers_nothing() {
 
 #[test]
 fn a_paint_that_means_nothing_covers_nothing() {
-    let texture = |size: [u32; 2], texels: usize| Texture {
+    let texture = |size: [u32; 2], texels: usize| StraightTexture {
         size,
         texels: vec![[1.0; 4]; texels],
         address: [AddressMode::Repeat; 2],
     };
-    let painted = |texture: Texture, uv: Vec<[f64; 2]>| Paint::Texture { texture, uv };
+    let painted = |texture: StraightTexture, uv: Vec<[f64; 2]>| Paint::Texture { texture, uv };
     let uv = vec![[0.0; 2]; 4];
     let (color, fog) = ([1.0; 3], [1.0; 3]);
     let paints = [
@@ -151,7 +151,7 @@ fn a_paint_that_means_nothing_covers_nothing() {
     for paint in paints {
         let picture = truth(&scene(
             [2, 2],
-            Coverage::Area,
+            TexelCoverage::Area,
             vec![pane(|_, _| 0.5, paint.clone())],
         ));
         assert_eq!(picture.rgb, vec![[0.0; 3]; 4], "{paint:?}");
@@ -169,21 +169,25 @@ fn repeated_corners_and_corners_on_edges_change_nothing() {
     odd.corners.insert(1, [0.3, 0.2, 0.5]);
     odd.corners.push([0.3, 0.2, 0.5]);
     odd.corners.insert(2, [2.7, 0.6, 0.5]);
-    let [a, b] = [plain, odd].map(|s| truth(&scene([6, 6], Coverage::Area, vec![s])));
+    let [a, b] = [plain, odd].map(|s| truth(&scene([6, 6], TexelCoverage::Area, vec![s])));
     assert!(crate::common::largest_difference(&a.rgb, &b.rgb) < 1e-9);
 }
 
 #[test]
 fn an_empty_picture_is_empty() {
     for size in [[0, 4], [4, 0], [0, 0]] {
-        let what = scene(size, Coverage::Area, vec![pane(|_, _| 0.0, Paint::Depth)]);
+        let what = scene(
+            size,
+            TexelCoverage::Area,
+            vec![pane(|_, _| 0.0, Paint::Depth)],
+        );
         assert!(truth(&what).rgb.is_empty());
     }
 }
 
 #[test]
 fn wild_texture_coordinates_end() {
-    let texture = Texture {
+    let texture = StraightTexture {
         size: [3, 5],
         texels: (0..15).map(|i| [f64::from(i) / 15.0; 4]).collect(),
         address: [AddressMode::MirrorRepeat, AddressMode::Repeat],
@@ -196,7 +200,7 @@ fn wild_texture_coordinates_end() {
         };
         let picture = truth(&scene(
             [2, 2],
-            Coverage::Area,
+            TexelCoverage::Area,
             vec![pane(|_, _| 0.5, paint)],
         ));
         assert!(picture.error > 0.0 && picture.error <= 1.0);

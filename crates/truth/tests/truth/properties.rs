@@ -1,7 +1,7 @@
 //! Properties of any scene.
 
 use crate::common::{assert_near, enlarged, largest_difference, reduced, scene, triangle};
-use etalon_methods::{Coverage, Paint, Surface, Texture, Truth};
+use etalon_methods::{FlatSurface, Paint, StraightTexture, TexelCoverage, Truth};
 use etalon_scene::AddressMode;
 use etalon_truth::truth;
 use proptest::array::{uniform2, uniform3, uniform4};
@@ -21,14 +21,14 @@ fn unit() -> impl Strategy<Value = f64> {
     prop_oneof![1 => select(vec![0.0, 1.0]), 4 => 0.0..1.0]
 }
 
-fn texture() -> impl Strategy<Value = Texture> {
+fn texture() -> impl Strategy<Value = StraightTexture> {
     let address = select(vec![
         AddressMode::ClampToEdge,
         AddressMode::Repeat,
         AddressMode::MirrorRepeat,
     ]);
     (1_u32..4, 1_u32..4, uniform2(address)).prop_flat_map(|(width, height, address)| {
-        vec(uniform4(unit()), (width * height) as usize).prop_map(move |texels| Texture {
+        vec(uniform4(unit()), (width * height) as usize).prop_map(move |texels| StraightTexture {
             size: [width, height],
             texels,
             address,
@@ -52,8 +52,8 @@ fn paint() -> impl Strategy<Value = Paint> {
     ]
 }
 
-fn surface(paint: impl Strategy<Value = Paint>) -> impl Strategy<Value = Surface> {
-    (vec((coordinate(), coordinate(), unit()), 3), paint).prop_map(|(corners, paint)| Surface {
+fn surface(paint: impl Strategy<Value = Paint>) -> impl Strategy<Value = FlatSurface> {
+    (vec((coordinate(), coordinate(), unit()), 3), paint).prop_map(|(corners, paint)| FlatSurface {
         corners: corners.into_iter().map(|(x, y, z)| [x, y, z]).collect(),
         paint,
     })
@@ -61,8 +61,8 @@ fn surface(paint: impl Strategy<Value = Paint>) -> impl Strategy<Value = Surface
 
 fn scenes(
     size: [u32; 2],
-    coverage: Coverage,
-    surface: impl Strategy<Value = Surface>,
+    coverage: TexelCoverage,
+    surface: impl Strategy<Value = FlatSurface>,
 ) -> impl Strategy<Value = Truth> {
     (uniform3(unit()), vec(surface, 0..6)).prop_map(move |(background, surfaces)| Truth {
         background,
@@ -165,7 +165,7 @@ proptest! {
 
     #[test]
     fn a_centre_shows_what_barycentric_coordinates_say(
-        what in scenes([4, 4], Coverage::Center, surface(uniform4(unit()).prop_map(Paint::Flat))),
+        what in scenes([4, 4], TexelCoverage::Center, surface(uniform4(unit()).prop_map(Paint::Flat))),
     ) {
         let picture = truth(&what);
         prop_assert_eq!(picture.error, 0.0);
@@ -182,11 +182,11 @@ proptest! {
     ) {
         let surfaces = triangulated(&points).into_iter();
         let surfaces = surfaces.map(|corners| triangle(corners, 0.5, [1.0, 0.5, 0.0, 0.5]));
-        let mut what = scene([4, 4], Coverage::Center, surfaces.collect());
+        let mut what = scene([4, 4], TexelCoverage::Center, surfaces.collect());
         for texel in truth(&what).rgb {
             prop_assert_eq!(texel, [0.5, 0.25, 0.0]);
         }
-        what.coverage = Coverage::Area;
+        what.coverage = TexelCoverage::Area;
         let picture = truth(&what);
         for texel in picture.rgb {
             assert_near(texel, [0.5, 0.25, 0.0], 1e-8 + picture.error);
@@ -195,11 +195,11 @@ proptest! {
 
     #[test]
     fn areas_agree_with_dense_sampling(
-        what in scenes([4, 4], Coverage::Area, surface(paint())),
+        what in scenes([4, 4], TexelCoverage::Area, surface(paint())),
     ) {
         let exact = truth(&what);
         let mut dense = enlarged(&what, 64);
-        dense.coverage = Coverage::Center;
+        dense.coverage = TexelCoverage::Center;
         let sampled = reduced(dense.size, &truth(&dense).rgb, 64);
         // An edge or a crossing of two surfaces misplaces at most 2 of 64 samples in a row or column;
         // most of it cancels.
@@ -209,7 +209,7 @@ proptest! {
 
     #[test]
     fn a_picture_is_the_mean_of_a_larger_one(
-        what in scenes([4, 4], Coverage::Area, surface(paint())),
+        what in scenes([4, 4], TexelCoverage::Area, surface(paint())),
     ) {
         let small = truth(&what);
         let large = enlarged(&what, 3);
@@ -234,10 +234,10 @@ proptest! {
             surface.paint = Paint::Texture { texture, uv };
             surface
         });
-        let what = scene([1, 1], Coverage::Area, surfaces.collect());
+        let what = scene([1, 1], TexelCoverage::Area, surfaces.collect());
         let picture = truth(&what);
         let mut dense = enlarged(&what, 96);
-        dense.coverage = Coverage::Center;
+        dense.coverage = TexelCoverage::Center;
         let sampled = reduced(dense.size, &truth(&dense).rgb, 96);
         let difference = largest_difference(&picture.rgb, &sampled);
         // The midpoint rule on 96 by 96 squares integrates functions with such slopes to this precision.
@@ -255,8 +255,8 @@ proptest! {
         ]), 0..7),
         paint in paint(),
     ) {
-        for coverage in [Coverage::Center, Coverage::Area] {
-            let surface = Surface { corners: corners.clone(), paint: paint.clone() };
+        for coverage in [TexelCoverage::Center, TexelCoverage::Area] {
+            let surface = FlatSurface { corners: corners.clone(), paint: paint.clone() };
             let picture = truth(&scene([3, 3], coverage, vec![surface.clone(), surface]));
             prop_assert!(picture.error >= 0.0);
         }
@@ -266,7 +266,7 @@ proptest! {
 /// Threads take parts of a picture: no texel may depend on how it is divided.
 #[test]
 fn a_part_of_a_picture_is_as_the_picture_of_that_part() {
-    let ramp = |shift: f64| Surface {
+    let ramp = |shift: f64| FlatSurface {
         corners: vec![
             [-9.0 - shift, 3.0, 0.2],
             [131.0 - shift, 17.0, 0.9],
@@ -274,7 +274,7 @@ fn a_part_of_a_picture_is_as_the_picture_of_that_part() {
         ],
         paint: Paint::Depth,
     };
-    let pane = |shift: f64| Surface {
+    let pane = |shift: f64| FlatSurface {
         corners: vec![
             [10.0 - shift, -5.0, 0.3],
             [90.0 - shift, 60.0, 0.5],
@@ -286,7 +286,7 @@ fn a_part_of_a_picture_is_as_the_picture_of_that_part() {
         truth(&Truth {
             size: [width, 128],
             background: [0.1, 0.2, 0.3],
-            coverage: Coverage::Area,
+            coverage: TexelCoverage::Area,
             surfaces: vec![ramp(shift), pane(shift)],
         })
     };

@@ -4,7 +4,7 @@
 //! have it all.
 
 use ash::vk;
-use etalon_backend::{Argument, Call, VulkanNeeds};
+use etalon_backend::{Argument, RecordedCall, VulkanNeeds};
 use etalon_frame::{
     Feature, PathDraws, PathLayers, PathState, PathViewport, Requirement, TextureFormat,
 };
@@ -49,7 +49,7 @@ impl Needed {
     }
 
     /// Removes from the call that creates the device what the scene does not need.
-    pub(super) fn narrow(&self, call: &mut Call) {
+    pub(super) fn narrow(&self, call: &mut RecordedCall) {
         if self.all || call.function != "vkCreateDevice" {
             return;
         }

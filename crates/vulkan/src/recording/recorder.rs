@@ -3,8 +3,8 @@
 use super::needed::Needed;
 use ash::vk;
 use etalon_backend::{
-    Argument, Call, CounterPart, Phase, Plane, RecordedContext, RecordedCounter, RecordedImage,
-    Recording,
+    Argument, CounterPart, Phase, RecordedCall, RecordedContext, RecordedCounter, RecordedImage,
+    RecordedPlane, Recording,
 };
 use etalon_frame::Image;
 use std::cell::RefCell;
@@ -19,7 +19,7 @@ struct Recorder {
     /// The driver's functions, by name.
     driver: HashMap<&'static str, usize>,
     phase: Phase,
-    calls: Vec<Call>,
+    calls: Vec<RecordedCall>,
     /// The number of memory regions that calls have written to.
     outputs: u32,
     memory: vk::PhysicalDeviceMemoryProperties,
@@ -105,7 +105,7 @@ fn memory(mapped: *const u8) -> Argument {
 }
 
 /// Records the image whose texels are in the memory that was read last.
-pub(crate) fn image(image: &Image, planes: impl Iterator<Item = Plane>) {
+pub(crate) fn image(image: &Image, planes: impl Iterator<Item = RecordedPlane>) {
     with(|r| {
         let output = r.outputs.saturating_sub(1);
         r.images.push(RecordedImage {
@@ -113,7 +113,9 @@ pub(crate) fn image(image: &Image, planes: impl Iterator<Item = Plane>) {
             aspect: image.aspect,
             channels: image.channels.clone(),
             size: image.size,
-            planes: planes.map(|plane| Plane { output, ..plane }).collect(),
+            planes: planes
+                .map(|plane| RecordedPlane { output, ..plane })
+                .collect(),
         });
     });
 }
@@ -187,7 +189,7 @@ pub(super) fn keep(function: &str, arguments: impl FnOnce() -> Vec<Argument>) {
     }
     let arguments = arguments();
     with(|r| {
-        r.calls.push(Call {
+        r.calls.push(RecordedCall {
             phase: r.phase,
             function: function.to_owned(),
             arguments,

@@ -3,7 +3,7 @@
 use crate::drivers::{backend, is_lavapipe};
 use etalon_backend::Backend;
 use etalon_frame::{Api, Feature, ReadPath, TextureFormat};
-use etalon_vulkan::{Options, enumerate, open};
+use etalon_vulkan::{VulkanOptions, enumerate, open};
 
 #[test]
 fn limits_are_those_of_the_device() {
@@ -58,7 +58,7 @@ fn adapters_are_named_by_their_drivers() {
 
 #[test]
 fn a_device_that_is_not_there_is_unavailable() {
-    let options = Options {
+    let options = VulkanOptions {
         device: 1000,
         validate: false,
         fault: None,

@@ -1,8 +1,8 @@
 //! The driver under test.
 
 use etalon_backend::Backend;
-use etalon_conformance::{Driver, known};
-use etalon_vulkan::{Options, VulkanBackend, enumerate, open};
+use etalon_conformance::{TestedDriver, known};
+use etalon_vulkan::{VulkanBackend, VulkanOptions, enumerate, open};
 
 /// The name of the adapter under test.
 fn name() -> String {
@@ -25,7 +25,7 @@ pub(crate) fn backend(validate: bool) -> VulkanBackend {
              mesa-vulkan-drivers, or name another in ETALON_VULKAN_ADAPTER"
         );
     };
-    let options = Options {
+    let options = VulkanOptions {
         device,
         validate,
         fault: None,
@@ -34,13 +34,13 @@ pub(crate) fn backend(validate: bool) -> VulkanBackend {
     open(&name, &options).unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
-pub(crate) fn lavapipe() -> Driver<'static> {
+pub(crate) fn lavapipe() -> TestedDriver<'static> {
     let mut known = known("vulkan:lavapipe");
     if !is_lavapipe() {
         // Other drivers can lack any feature.
         known.lacks = None;
     }
-    Driver {
+    TestedDriver {
         known,
         environment: Vec::new(),
         open: |validate| -> Box<dyn Backend> { Box::new(backend(validate)) },

@@ -3,10 +3,10 @@
 use crate::drivers::{backend, is_lavapipe, lavapipe};
 use etalon_backend::Backend;
 use etalon_case::Profile;
-use etalon_conformance::{Share, Subject, draw_area, draw_library, run_all};
+use etalon_conformance::{CheckedBackend, Share, draw_area, draw_library, run_all};
 
 pub(crate) fn sample(backend: &dyn Backend) {
-    let subject = Subject::new(backend, &[]);
+    let subject = CheckedBackend::new(backend, &[]);
     draw_library(&subject, Profile::Quick, Share::sample(4));
 }
 
@@ -18,7 +18,7 @@ fn the_validation_layer_is_silent() {
         run_all(&backend, &lavapipe());
     }
     draw_library(
-        &Subject::new(&backend, &[]),
+        &CheckedBackend::new(&backend, &[]),
         Profile::Full,
         Share::sample(3),
     );
@@ -28,6 +28,6 @@ fn the_validation_layer_is_silent() {
 #[test]
 fn the_validation_layer_is_silent_on_every_path() {
     let backend = backend(true);
-    let subject = Subject::new(&backend, &[]);
+    let subject = CheckedBackend::new(&backend, &[]);
     draw_area(&subject, "paths/", Profile::Quick, Share::All);
 }

@@ -1,8 +1,8 @@
 //! The drivers under wgpu. A missing driver is a failure: nothing would have been tested.
 
 use etalon_backend::Backend;
-use etalon_conformance::{Driver, LLVMPIPE, SOFTPIPE, known, variables};
-use etalon_wgpu::{Options, Via, WgpuBackend, enumerate, open};
+use etalon_conformance::{LLVMPIPE, SOFTPIPE, TestedDriver, known, variables};
+use etalon_wgpu::{Via, WgpuBackend, WgpuOptions, enumerate, open};
 use std::fs;
 use std::path::PathBuf;
 
@@ -37,7 +37,7 @@ fn opened(name: &str, via: Via, validate: bool) -> WgpuBackend {
     let device = names.iter().position(|n| *n == name);
     let device = device.unwrap_or_else(|| panic!("{name} is not among the adapters {names:?}"));
     assert!(found[device].software, "{name} is a software driver");
-    let options = Options {
+    let options = WgpuOptions {
         via,
         device,
         validate,
@@ -53,9 +53,9 @@ fn opened(name: &str, via: Via, validate: bool) -> WgpuBackend {
 /// depthBiasClamp.
 const MISTAKES_OF_WGPU: &[&str] = &["VUID-VkGraphicsPipelineCreateInfo-pDynamicStates-00754"];
 
-pub(crate) fn lavapipe() -> Driver<'static> {
+pub(crate) fn lavapipe() -> TestedDriver<'static> {
     let manifest = lavapipe_manifest().to_string_lossy().into_owned();
-    Driver {
+    TestedDriver {
         known: known("wgpu:vulkan:lavapipe"),
         environment: vec![
             ("VK_DRIVER_FILES", manifest.clone()),
@@ -66,8 +66,8 @@ pub(crate) fn lavapipe() -> Driver<'static> {
     }
 }
 
-pub(crate) fn llvmpipe() -> Driver<'static> {
-    Driver {
+pub(crate) fn llvmpipe() -> TestedDriver<'static> {
+    TestedDriver {
         known: known("wgpu:gl:llvmpipe"),
         environment: variables(LLVMPIPE),
         open: |validate| Box::new(opened("wgpu:gl:llvmpipe", Via::Gl, validate)),
@@ -75,8 +75,8 @@ pub(crate) fn llvmpipe() -> Driver<'static> {
     }
 }
 
-pub(crate) fn softpipe() -> Driver<'static> {
-    Driver {
+pub(crate) fn softpipe() -> TestedDriver<'static> {
+    TestedDriver {
         known: known("wgpu:gl:softpipe"),
         environment: variables(SOFTPIPE),
         open: |validate| Box::new(opened("wgpu:gl:softpipe", Via::Gl, validate)),

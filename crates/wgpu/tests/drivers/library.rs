@@ -4,7 +4,7 @@
 use crate::drivers;
 use etalon_backend::Backend;
 use etalon_case::Profile;
-use etalon_conformance::{Driver, Share, draw_library, in_child, run_all};
+use etalon_conformance::{Share, TestedDriver, draw_library, in_child, run_all};
 
 pub(crate) fn sample(backend: &dyn Backend) {
     let driver = match backend.adapter().name.as_str() {
@@ -12,7 +12,7 @@ pub(crate) fn sample(backend: &dyn Backend) {
         "wgpu:gl:llvmpipe" => drivers::llvmpipe(),
         _ => drivers::lavapipe(),
     };
-    let driver = Driver {
+    let driver = TestedDriver {
         tolerated: &[],
         ..driver
     };
@@ -20,7 +20,7 @@ pub(crate) fn sample(backend: &dyn Backend) {
 }
 
 /// Draws with validation: all checks, then cases of every file. OpenGL has no layers, only debug output.
-fn validated(driver: &str, described: &Driver<'_>, per_file: usize) {
+fn validated(driver: &str, described: &TestedDriver<'_>, per_file: usize) {
     let test = format!("library::validation_of_{driver}_is_silent");
     in_child(&test, &described.environment, || {
         let backend = (described.open)(true);

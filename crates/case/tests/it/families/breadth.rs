@@ -3,7 +3,7 @@
 use etalon_case::{Case, Library, Profile};
 use etalon_frame::{ChannelEncoding, Feature, Requirement};
 use etalon_scene::{
-    AdvancedBlend, Contents, LogicOperation, PrimitiveTopology, ProvokingVertex, Shader,
+    AdvancedBlend, AttachmentContents, LogicOperation, PrimitiveTopology, ProvokingVertex, Shader,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -105,7 +105,7 @@ fn every_logic_operation_is_told_from_every_other() {
             let codes = |name: &str| {
                 let attachment = case.scene.attachments.iter().find(|a| a.name == name);
                 match &attachment.expect("it is there").contents {
-                    Contents::Texels(codes) => codes.clone(),
+                    AttachmentContents::Texels(codes) => codes.clone(),
                     other => panic!("{other:?}"),
                 }
             };
@@ -135,7 +135,7 @@ fn advanced_blends_meet_premultiplied_colours_of_every_kind() {
     for case in cases {
         let mut uploads = 0;
         for attachment in &case.scene.attachments {
-            let Contents::Texels(codes) = &attachment.contents else {
+            let AttachmentContents::Texels(codes) = &attachment.contents else {
                 continue;
             };
             uploads += 1;

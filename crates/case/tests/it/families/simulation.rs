@@ -2,8 +2,8 @@
 
 use etalon_frame::{ChannelEncoding, TextureFormat};
 use etalon_scene::{
-    BlendComponent, BlendFactor, BlendOperation, CompareFunction, Contents, CullMode, Draw,
-    EarlyTests, FrontFace, Pass, PolygonMode, PrimitiveVertices, Scene, Shader, StencilFace,
+    AttachmentContents, BlendComponent, BlendFactor, BlendOperation, CompareFunction, CullMode,
+    Draw, EarlyTests, FrontFace, Pass, PolygonMode, PrimitiveVertices, Scene, Shader, StencilFace,
     StencilOperation,
 };
 
@@ -63,7 +63,7 @@ pub(crate) fn knows(scene: &Scene) -> bool {
     let formats = scene.attachments.iter().enumerate().all(|(i, a)| {
         // Float attachments are only fetched from.
         let fetched = a.format == TextureFormat::Rgba32Float
-            && matches!(a.contents, Contents::Texels(_))
+            && matches!(a.contents, AttachmentContents::Texels(_))
             && scene.passes.iter().all(|p| !p.color.contains(&i));
         let color = a.format == TextureFormat::Rgba8Unorm || fetched;
         a.samples == 1 && (!a.format.is_color() || color)
@@ -137,16 +137,16 @@ pub(crate) fn simulate(scene: &Scene, observe: &mut dyn FnMut(Event<'_>)) -> Vec
     for a in &scene.attachments {
         let texels = a.size[0] as usize * a.size[1] as usize;
         frame.push(match &a.contents {
-            Contents::Color(color) => Plain {
+            AttachmentContents::Color(color) => Plain {
                 color: vec![store(color.map(f64::from), a.format); texels],
                 ..Plain::default()
             },
-            Contents::DepthStencil { depth, stencil } => Plain {
+            AttachmentContents::DepthStencil { depth, stencil } => Plain {
                 color: Vec::new(),
                 depth: vec![f64::from(*depth); if a.format.has_depth() { texels } else { 0 }],
                 stencil: vec![*stencil; if a.format.has_stencil() { texels } else { 0 }],
             },
-            Contents::Texels(codes) => Plain {
+            AttachmentContents::Texels(codes) => Plain {
                 color: codes
                     .chunks_exact(4)
                     .map(|c| std::array::from_fn(|i| value(a.format.color_channels()[i], c[i])))

@@ -2,7 +2,7 @@
 
 use crate::counted::counted;
 use crate::failure::{Failure, INCOMPLETE, USAGE};
-use crate::flags::Format;
+use crate::flags::OutputFormat;
 use crate::history_file::{DatabaseArguments, LabelArguments, failure};
 use crate::output::{print_json, say, summarize};
 use crate::saved_run::UnpackArguments;
@@ -40,7 +40,7 @@ pub(crate) struct Arguments {
     pub(crate) unpack: UnpackArguments,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
-    pub(crate) format: Format,
+    pub(crate) format: OutputFormat,
 }
 
 /// A run, and whether it was added.
@@ -85,12 +85,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
                 is_new,
             };
             match arguments.format {
-                Format::Text => summarize(&line.line()),
-                Format::Json => added.push(line.json()),
+                OutputFormat::Text => summarize(&line.line()),
+                OutputFormat::Json => added.push(line.json()),
             }
         }
     }
-    if arguments.format == Format::Json {
+    if arguments.format == OutputFormat::Json {
         print_json(&added)?;
     }
     Ok([USAGE, INCOMPLETE]

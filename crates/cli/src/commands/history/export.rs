@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::history_file::{self, DatabaseArguments};
 use crate::output::say;
 use clap::{Args, ValueEnum};
-use etalon_export::{ExportError, Format, Selection};
+use etalon_export::{ExportError, ExportFormat, RunChoice};
 use etalon_history::{History, parse_time};
 use std::path::PathBuf;
 
@@ -48,12 +48,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         })?),
     };
     let format = match arguments.format {
-        FormatName::Parquet => Format::Parquet,
-        FormatName::Openmetrics => Format::OpenMetrics,
-        FormatName::Bencher => Format::Bencher,
-        FormatName::GithubActionBenchmark => Format::ActionBenchmark,
+        FormatName::Parquet => ExportFormat::Parquet,
+        FormatName::Openmetrics => ExportFormat::OpenMetrics,
+        FormatName::Bencher => ExportFormat::Bencher,
+        FormatName::GithubActionBenchmark => ExportFormat::ActionBenchmark,
     };
-    let selection = Selection {
+    let selection = RunChoice {
         since,
         last: arguments.runs,
     };

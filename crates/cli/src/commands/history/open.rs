@@ -10,7 +10,7 @@ use etalon_history::{
 };
 use etalon_record::Time;
 use etalon_report::plain;
-use etalon_stats::{Cause, Event};
+use etalon_stats::{Cause, VerdictEvent};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -77,7 +77,7 @@ pub(super) fn open_verdicts(
             let by_adapter = verdicts(history, &case, std::slice::from_ref(timeline), labels)?;
             let broken = by_adapter.first().and_then(|of_adapter| {
                 let mut events = of_adapter.happenings.iter().rev();
-                events.find(|h| matches!(h.event, Event::Broken | Event::Flaky))
+                events.find(|h| matches!(h.event, VerdictEvent::Broken | VerdictEvent::Flaky))
             });
             let first = by_adapter
                 .first()

@@ -6,12 +6,12 @@ use super::verdicts::is_meant;
 use crate::counted::counted;
 use clap::ValueEnum;
 use etalon_history::{
-    History, HistoryError, Labels, MachineId, RunId, SeriesKey, Step, Subject, TriageEntry,
-    TriageState, TriageStates,
+    History, HistoryError, Labels, MachineId, RunId, SeriesKey, TimeStep, TriageEntry, TriageState,
+    TriageStates, TriageSubject,
 };
 use etalon_record::Time;
 use etalon_report::plain;
-use etalon_stats::{Cause, ChangePoint, Changes, Drift, Point, Ratio, change_points};
+use etalon_stats::{Cause, ChangePoint, Changes, Drift, Ratio, TimedRun, change_points};
 use serde_json::{Value, json};
 
 /// The number of runs after a change for which the smallest visible change is given.
@@ -42,7 +42,7 @@ impl From<SeriesTime> for Time {
 }
 
 /// Frame times over runs that have the same ruler.
-pub(super) struct Series {
+pub(super) struct RulerSeries {
     /// The case, the timeline and the machine.
     pub(super) key: SeriesKey,
     /// The case's id.
@@ -52,7 +52,7 @@ pub(super) struct Series {
     /// The runs, oldest first; at least one.
     runs: Vec<RunId>,
     /// The times of the runs.
-    points: Vec<Point>,
+    points: Vec<TimedRun>,
     /// The change points.
     changes: Changes,
 }
@@ -64,7 +64,7 @@ pub(super) fn series_of(
     timeline: &str,
     time: Time,
     labels: &Labels,
-) -> Result<Vec<Series>, HistoryError> {
+) -> Result<Vec<RulerSeries>, HistoryError> {
     let Some(id) = history.case_id(case)? else {
         return Ok(Vec::new());
     };
@@ -94,14 +94,14 @@ pub(super) fn of_key(
     case: &str,
     time: Time,
     labels: &Labels,
-) -> Result<Vec<Series>, HistoryError> {
+) -> Result<Vec<RulerSeries>, HistoryError> {
     let mut found = Vec::new();
     for timed in history.series_by_ruler(key)?.into_values() {
         let meant = timed
             .into_iter()
             .filter(|timed| is_meant(history, timed.run, labels))
             .filter_map(|timed| Some((timed.run, timed.times.point(time)?)));
-        let (runs, points): (Vec<RunId>, Vec<Point>) = meant.unzip();
+        let (runs, points): (Vec<RunId>, Vec<TimedRun>) = meant.unzip();
         if points.is_empty() {
             continue;
         }
@@ -110,7 +110,7 @@ pub(super) fn of_key(
             let message = format!("the times of {case}: {error}");
             HistoryError::Damaged { path, message }
         })?;
-        found.push(Series {
+        found.push(RulerSeries {
             key: key.clone(),
             case: case.to_owned(),
             time,
@@ -142,7 +142,7 @@ fn milliseconds(seconds: f64) -> String {
     format!("{ms:.digits$} ms")
 }
 
-impl Series {
+impl RulerSeries {
     /// The change points.
     pub(super) fn changes(&self) -> &[ChangePoint] {
         &self.changes.points
@@ -183,10 +183,10 @@ impl Series {
         change: &ChangePoint,
     ) -> Option<&'s TriageEntry> {
         let entry = |run: RunId| {
-            states.get(&Subject {
+            states.get(&TriageSubject {
                 case: self.case.clone(),
                 timeline: self.key.timeline.to_string(),
-                step: Some(Step {
+                step: Some(TimeStep {
                     machine: self.key.machine,
                     time: self.time,
                     run,

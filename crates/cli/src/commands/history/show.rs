@@ -1,18 +1,18 @@
 //! `etalon history show`.
 
 use super::place::run_text;
-use super::series::{Series, SeriesTime, series_of, state_name, state_text};
+use super::series::{RulerSeries, SeriesTime, series_of, state_name, state_text};
 use super::sparkline;
 use super::verdicts::{Verdicts, verdicts};
 use crate::counted::counted;
 use crate::failure::Failure;
-use crate::flags::Format;
+use crate::flags::OutputFormat;
 use crate::history_file::{DatabaseArguments, OnlyArguments, failure};
 use crate::near::did_you_mean;
 use crate::output::{print, print_json};
 use clap::Args;
 use etalon_history::{
-    History, HistoryError, Labels, RunId, Subject, TriageEntry, TriageStates, format_time,
+    History, HistoryError, Labels, RunId, TriageEntry, TriageStates, TriageSubject, format_time,
 };
 use etalon_record::Standing;
 use etalon_report::plain;
@@ -37,7 +37,7 @@ pub(crate) struct Arguments {
     pub(crate) database: DatabaseArguments,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
-    pub(crate) format: Format,
+    pub(crate) format: OutputFormat,
 }
 
 /// Shows one case over all runs, or the runs.
@@ -67,8 +67,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         )));
     }
     match arguments.format {
-        Format::Text => print(&text(&history, case, &states, &lines))?,
-        Format::Json => {
+        OutputFormat::Text => print(&text(&history, case, &states, &lines))?,
+        OutputFormat::Json => {
             let adapters = lines.iter().map(|(of_adapter, series)| {
                 let entry = states.get(&subject(case, &of_adapter.timeline));
                 let mut value = of_adapter.json(&history);
@@ -90,7 +90,7 @@ fn list(
     history: &History,
     timelines: &[Rc<str>],
     labels: &Labels,
-    format: Format,
+    format: OutputFormat,
 ) -> Result<u8, Failure> {
     let mut text = String::new();
     let mut values = Vec::new();
@@ -100,7 +100,7 @@ fn list(
         if parts.is_empty() || !run.has_labels(labels) {
             continue;
         }
-        if format == Format::Json {
+        if format == OutputFormat::Json {
             values.push(json!({
                 "run": run.id.number(),
                 "digest": run.digest_text(),
@@ -135,8 +135,8 @@ fn list(
         ));
     }
     match format {
-        Format::Text => print(&text)?,
-        Format::Json => print_json(&values)?,
+        OutputFormat::Text => print(&text)?,
+        OutputFormat::Json => print_json(&values)?,
     }
     Ok(0)
 }
@@ -181,8 +181,8 @@ pub(super) fn known_timelines(
 }
 
 /// Returns the verdict of a case on an adapter, as a subject of triage.
-pub(super) fn subject(case: &str, timeline: &str) -> Subject {
-    Subject {
+pub(super) fn subject(case: &str, timeline: &str) -> TriageSubject {
+    TriageSubject {
         case: case.to_owned(),
         timeline: timeline.to_owned(),
         step: None,
@@ -193,7 +193,7 @@ fn text(
     history: &History,
     case: &str,
     states: &TriageStates,
-    by_adapter: &[(Verdicts, Vec<Series>)],
+    by_adapter: &[(Verdicts, Vec<RulerSeries>)],
 ) -> String {
     let mut lines = vec![plain(case, 400)];
     for (of_adapter, series) in by_adapter {

@@ -6,12 +6,13 @@ use super::show::{known_case, known_timelines, subject};
 use super::verdicts::verdicts;
 use crate::counted::counted;
 use crate::failure::Failure;
-use crate::flags::Format;
+use crate::flags::OutputFormat;
 use crate::history_file::{DatabaseArguments, OnlyArguments, failure};
 use crate::output::{print, print_json, summarize};
 use clap::{Args, ValueEnum};
 use etalon_history::{
-    History, Labels, MachineId, RunId, Step, Subject, TriageEntry, TriageState, Writer, format_time,
+    History, Labels, MachineId, RunId, TimeStep, TriageEntry, TriageState, TriageSubject, Writer,
+    format_time,
 };
 use etalon_report::plain;
 use serde_json::json;
@@ -71,7 +72,7 @@ pub(crate) struct Arguments {
     pub(crate) database: DatabaseArguments,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
-    pub(crate) format: Format,
+    pub(crate) format: OutputFormat,
 }
 
 /// Lists what is open, or adds entries.
@@ -103,11 +104,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         writer.triage(entry).map_err(failure)?;
     }
     match arguments.format {
-        Format::Text => {
+        OutputFormat::Text => {
             let lines = entries.iter().map(|entry| line(entry) + "\n");
             summarize(&lines.collect::<String>());
         }
-        Format::Json => print_json(&entries.iter().map(entry_json).collect::<Vec<_>>())?,
+        OutputFormat::Json => print_json(&entries.iter().map(entry_json).collect::<Vec<_>>())?,
     }
     Ok(0)
 }
@@ -127,7 +128,7 @@ fn subjects(
     arguments: &Arguments,
     history: &History,
     labels: &Labels,
-) -> Result<Vec<Subject>, Failure> {
+) -> Result<Vec<TriageSubject>, Failure> {
     let timelines = known_timelines(history, &arguments.adapters)?;
     let mut subjects = Vec::new();
     for case in &arguments.cases {
@@ -155,10 +156,10 @@ fn subjects(
 fn step(
     arguments: &Arguments,
     history: &History,
-    subject: &Subject,
+    subject: &TriageSubject,
     run: u32,
     labels: &Labels,
-) -> Result<Step, Failure> {
+) -> Result<TimeStep, Failure> {
     let time = arguments.time.into();
     let series_list =
         series_of(history, &subject.case, &subject.timeline, time, labels).map_err(failure)?;
@@ -184,7 +185,7 @@ fn step(
             plain(&subject.timeline, 100)
         )));
     };
-    Ok(Step { machine, time, run })
+    Ok(TimeStep { machine, time, run })
 }
 
 impl From<ChangeState> for TriageState {
@@ -200,7 +201,7 @@ impl From<ChangeState> for TriageState {
 
 /// Returns an entry in words.
 fn line(entry: &TriageEntry) -> String {
-    let Subject {
+    let TriageSubject {
         case,
         timeline,
         step,
@@ -239,7 +240,7 @@ fn list(arguments: &Arguments, history: &History, labels: &Labels) -> Result<u8,
     let time = arguments.time.into();
     let bad = open_verdicts(history, &timelines, labels, &states, settled).map_err(failure)?;
     let steps = open_steps(history, &timelines, labels, &states, time, settled).map_err(failure)?;
-    if arguments.format == Format::Json {
+    if arguments.format == OutputFormat::Json {
         let each = |entries: &[Open]| {
             entries
                 .iter()

@@ -1,6 +1,6 @@
 //! Compares two records of a case.
 
-use super::data::{Change, Detail};
+use super::data::{CaseChange, Detail};
 use super::pairs::Folder;
 use super::pixels;
 use crate::words::{channel_of, headline};
@@ -15,7 +15,7 @@ pub(super) fn change(
     folders: &[Folder<'_>; 2],
     adapter: [&str; 2],
     both: &[&Record; 2],
-) -> Option<Change> {
+) -> Option<CaseChange> {
     let [before, after] = *both;
     let details = details(before, after);
     let (frame, frame_error) = match pixels::compare(folders, both) {
@@ -41,7 +41,7 @@ pub(super) fn change(
             what.push(detail.what);
         }
     }
-    (!what.is_empty()).then(|| Change {
+    (!what.is_empty()).then(|| CaseChange {
         case: before.case.clone(),
         case_file: before.parts().file().to_owned(),
         adapter: adapter.map(str::to_owned),

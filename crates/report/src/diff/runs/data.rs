@@ -22,9 +22,9 @@ pub struct RunDiff {
     /// Adapters without a counterpart.
     pub unpaired: Vec<Unpaired>,
     /// The adapters that are compared.
-    pub pairs: Vec<Pair>,
+    pub pairs: Vec<AdapterPair>,
     /// Cases that changed, in the order worse, better, other, and within each group the most serious first.
-    pub changes: Vec<Change>,
+    pub changes: Vec<CaseChange>,
     /// Cases of paired adapters that only one run has.
     pub only: Vec<Only>,
     /// Seconds of drawing by adapter and area, as a rough indication only.
@@ -36,7 +36,9 @@ pub struct RunDiff {
 impl RunDiff {
     /// Returns true if anything is worse.
     pub fn worse(&self) -> bool {
-        self.count(Direction::Worse) > 0 || self.lost() > 0 || self.vanished().next().is_some()
+        self.count(ChangeDirection::Worse) > 0
+            || self.lost() > 0
+            || self.vanished().next().is_some()
     }
 
     /// Returns the adapters of the first run that the second lacks.
@@ -46,11 +48,11 @@ impl RunDiff {
 
     /// Returns true if something is better and nothing worse.
     pub fn only_better(&self) -> bool {
-        !self.worse() && self.count(Direction::Better) > 0
+        !self.worse() && self.count(ChangeDirection::Better) > 0
     }
 
     /// Returns the number of changes in this direction.
-    pub fn count(&self, direction: Direction) -> u64 {
+    pub fn count(&self, direction: ChangeDirection) -> u64 {
         let these = self.changes.iter().filter(|c| c.direction == direction);
         these.count() as u64
     }
@@ -69,7 +71,7 @@ impl RunDiff {
 /// The direction of a change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Direction {
+pub enum ChangeDirection {
     /// Worse.
     Worse,
     /// Better.
@@ -78,7 +80,7 @@ pub enum Direction {
     Other,
 }
 
-impl Direction {
+impl ChangeDirection {
     /// All directions, in the order of reports.
     pub const ALL: [Self; 3] = [Self::Worse, Self::Better, Self::Other];
 
@@ -92,7 +94,7 @@ impl Direction {
     }
 }
 
-impl From<etalon_record::Change> for Direction {
+impl From<etalon_record::Change> for ChangeDirection {
     fn from(change: etalon_record::Change) -> Self {
         match change {
             etalon_record::Change::Worse => Self::Worse,
@@ -105,7 +107,7 @@ impl From<etalon_record::Change> for Direction {
 /// One of the two runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Side {
+pub enum RunSide {
     /// The first run.
     Before,
     /// The second run.
@@ -134,7 +136,7 @@ impl Fact {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Unpaired {
     /// The run that has the adapter.
-    pub side: Side,
+    pub side: RunSide,
     /// The adapter's name.
     pub adapter: String,
     /// The number of the adapter's records.
@@ -145,7 +147,7 @@ pub struct Unpaired {
 
 /// Two adapters that are compared.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Pair {
+pub struct AdapterPair {
     /// The names of the two adapters.
     pub adapter: [String; 2],
     /// The facts of both adapters, side by side.
@@ -170,7 +172,7 @@ pub struct Pair {
     channels: [[u64; 2]; 2],
 }
 
-impl Pair {
+impl AdapterPair {
     pub(super) fn new(adapter: [&str; 2], facts: Vec<Fact>) -> Self {
         Self {
             adapter: adapter.map(str::to_owned),
@@ -207,11 +209,11 @@ impl Pair {
             .sort_by_key(|t| (std::cmp::Reverse(t.records), t.verdict));
     }
 
-    pub(super) fn count(&mut self, direction: Direction) {
+    pub(super) fn count(&mut self, direction: ChangeDirection) {
         match direction {
-            Direction::Worse => self.worse += 1,
-            Direction::Better => self.better += 1,
-            Direction::Other => self.other += 1,
+            ChangeDirection::Worse => self.worse += 1,
+            ChangeDirection::Better => self.better += 1,
+            ChangeDirection::Other => self.other += 1,
         }
     }
 
@@ -240,7 +242,7 @@ pub struct Transition {
 
 /// A case whose records differ in more than their times.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Change {
+pub struct CaseChange {
     /// The case.
     pub case: String,
     /// The case's id without axis values.
@@ -248,7 +250,7 @@ pub struct Change {
     /// The adapters.
     pub adapter: [String; 2],
     /// The direction.
-    pub direction: Direction,
+    pub direction: ChangeDirection,
     /// The parts that differ: `verdict`, `expectation`, `frame`, and the kinds of [`Detail::what`].
     pub what: Vec<&'static str>,
     /// The verdicts.
@@ -325,7 +327,7 @@ pub struct Only {
     /// The adapter that has the record.
     pub adapter: String,
     /// The run that has the record.
-    pub side: Side,
+    pub side: RunSide,
     /// The record's verdict.
     pub verdict: Verdict,
     /// True if the second run should have the record and lacks it.

@@ -1,6 +1,6 @@
 //! The comparison of two runs as a page.
 
-use super::data::{Change, Direction, Fact, RunDiff, both_names};
+use super::data::{CaseChange, ChangeDirection, Fact, RunDiff, both_names};
 use super::table::{area_table, method_table, pair_table};
 use super::times::STATEMENT;
 use super::{phrases, pixels};
@@ -45,7 +45,7 @@ fn page(diff: &RunDiff, folders: &[&Path; 2]) -> String {
     let main = html! {
         (head(diff))
         (pairs(diff))
-        @for direction in Direction::ALL { (section(diff, direction, folders, &mut budget)) }
+        @for direction in ChangeDirection::ALL { (section(diff, direction, folders, &mut budget)) }
         (only(diff))
         (times(diff))
         (methods(diff))
@@ -61,7 +61,7 @@ fn page(diff: &RunDiff, folders: &[&Path; 2]) -> String {
 }
 
 fn headline(diff: &RunDiff) -> String {
-    let [worse, better, other] = Direction::ALL.map(|d| diff.count(d));
+    let [worse, better, other] = ChangeDirection::ALL.map(|d| diff.count(d));
     format!(
         "{worse} worse, {better} better, {other} other{}",
         phrases::beside(diff)
@@ -90,7 +90,7 @@ fn head(diff: &RunDiff) -> Markup {
             }
             (facts(&diff.facts))
             nav {
-                @for direction in Direction::ALL {
+                @for direction in ChangeDirection::ALL {
                     @if diff.count(direction) > 0 {
                         @let [.., title] = phrases::look(direction);
                         a href={ "#" (direction.name()) } { (title) } " "
@@ -159,7 +159,7 @@ fn pairs(diff: &RunDiff) -> Markup {
 
 fn section(
     diff: &RunDiff,
-    direction: Direction,
+    direction: ChangeDirection,
     folders: &[&Path; 2],
     budget: &mut usize,
 ) -> Markup {
@@ -169,7 +169,7 @@ fn section(
     }
     // Chooses the first change of every kind before any second change, then groups the chosen changes by case
     // file.
-    let chosen: HashSet<*const Change> = phrases::spread(&diff.changes, direction)
+    let chosen: HashSet<*const CaseChange> = phrases::spread(&diff.changes, direction)
         .into_iter()
         .take(LISTED)
         .map(std::ptr::from_ref)
@@ -204,7 +204,7 @@ fn section(
     }
 }
 
-fn line(change: &Change) -> Markup {
+fn line(change: &CaseChange) -> Markup {
     let [sign, ..] = phrases::look(change.direction);
     html! {
         span class={ "chip " (change.direction.name()) } {
@@ -214,7 +214,7 @@ fn line(change: &Change) -> Markup {
     }
 }
 
-fn body(change: &Change, folders: &[&Path; 2], budget: &mut usize) -> Markup {
+fn body(change: &CaseChange, folders: &[&Path; 2], budget: &mut usize) -> Markup {
     let [old, new] = &change.adapter;
     let run = |adapter: &str| command::run(&change.case, adapter);
     let verdict = Both {

@@ -1,6 +1,6 @@
 //! Pairs of adapters and records of two runs to compare.
 
-use super::data::{Side, Unpaired};
+use super::data::{RunSide, Unpaired};
 use crate::error::ReportError;
 use etalon_record::{Record, Run};
 use std::collections::HashMap;
@@ -124,14 +124,14 @@ pub(super) fn unpaired(
     named: bool,
 ) -> Vec<Unpaired> {
     let mut found = Vec::new();
-    for (side, folder) in [(Side::Before, before), (Side::After, after)] {
+    for (side, folder) in [(RunSide::Before, before), (RunSide::After, after)] {
         let paired = |name: &str| pairs.iter().any(|pair| pair[side as usize] == name);
         let alone = folder.adapters.iter().filter(|name| !paired(name));
         found.extend(alone.map(|name| Unpaired {
             side,
             adapter: (*name).to_owned(),
             records: folder.count(name),
-            worse: !named && side == Side::Before && folder.count(name) > 0,
+            worse: !named && side == RunSide::Before && folder.count(name) > 0,
         }));
     }
     found

@@ -1,6 +1,8 @@
 //! Differences of runs in words, for the terminal and the page.
 
-use super::data::{Change, Detail, Direction, FrameChange, Only, Pair, RunDiff, Side};
+use super::data::{
+    AdapterPair, CaseChange, ChangeDirection, Detail, FrameChange, Only, RunDiff, RunSide,
+};
 use crate::lists;
 use crate::numbers::{change, count, trimmed};
 use crate::words::{name, plain};
@@ -10,16 +12,16 @@ use std::collections::BTreeMap;
 
 /// Returns a sign that distinguishes directions without colour, the colour on a terminal, and the title on a
 /// page.
-pub(super) fn look(direction: Direction) -> [&'static str; 3] {
+pub(super) fn look(direction: ChangeDirection) -> [&'static str; 3] {
     match direction {
-        Direction::Worse => ["✗", "31", "Worse"],
-        Direction::Better => ["✓", "32", "Better"],
-        Direction::Other => ["≠", "36", "Other changes"],
+        ChangeDirection::Worse => ["✗", "31", "Worse"],
+        ChangeDirection::Better => ["✓", "32", "Better"],
+        ChangeDirection::Other => ["≠", "36", "Other changes"],
     }
 }
 
 /// Returns `pass → fail (expected)`, or the unchanged verdict with the parts that differ.
-pub(super) fn verdicts(change: &Change) -> String {
+pub(super) fn verdicts(change: &CaseChange) -> String {
     let [before, after] = change.verdict;
     if before != after {
         let excused = after.is_bad() && !change.unexpected[1];
@@ -42,7 +44,7 @@ fn transition([before, after]: [Verdict; 2]) -> String {
 }
 
 /// Returns `2 pass → fail, 1 fail → pass`.
-pub(super) fn transitions(pair: &Pair) -> String {
+pub(super) fn transitions(pair: &AdapterPair) -> String {
     let each = pair
         .transitions
         .iter()
@@ -51,7 +53,7 @@ pub(super) fn transitions(pair: &Pair) -> String {
 }
 
 /// Returns the change of the expectations, if it alone decides the direction.
-pub(super) fn expectation(change: &Change) -> Option<&'static str> {
+pub(super) fn expectation(change: &CaseChange) -> Option<&'static str> {
     match change.unexpected {
         [false, true] if !change.verdict[0].is_bad() => None,
         [false, true] => Some("expected before, and not after"),
@@ -149,9 +151,9 @@ pub(super) fn frame(frame: &FrameChange) -> Vec<String> {
 
 /// Returns the changes of one direction. The first change of each kind comes first, then the others in their
 /// order.
-pub(super) fn spread(changes: &[Change], direction: Direction) -> Vec<&Change> {
+pub(super) fn spread(changes: &[CaseChange], direction: ChangeDirection) -> Vec<&CaseChange> {
     let these = changes.iter().filter(|c| c.direction == direction);
-    let mut these: Vec<&Change> = these.collect();
+    let mut these: Vec<&CaseChange> = these.collect();
     lists::spread(&mut these, |c| {
         (&c.case_file, &c.adapter, c.verdict, &c.what)
     });
@@ -167,7 +169,7 @@ pub(super) fn only_by_file(only: &[Only]) -> Vec<(&Only, u64)> {
             !feature.worse,
             feature.case_file.as_str(),
             feature.adapter.as_str(),
-            feature.side == Side::After,
+            feature.side == RunSide::After,
         );
         found.entry(key).or_insert((feature, 0)).1 += 1;
     }
@@ -175,10 +177,10 @@ pub(super) fn only_by_file(only: &[Only]) -> Vec<(&Only, u64)> {
 }
 
 /// Returns `before only` or `after only`.
-pub(super) fn side(side: Side) -> &'static str {
+pub(super) fn side(side: RunSide) -> &'static str {
     match side {
-        Side::Before => "before only",
-        Side::After => "after only",
+        RunSide::Before => "before only",
+        RunSide::After => "after only",
     }
 }
 

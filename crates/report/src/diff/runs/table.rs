@@ -1,6 +1,6 @@
 //! The comparison of two runs for a terminal.
 
-use super::data::{AreaTime, Direction, MethodTime, Pair, RunDiff, both_names};
+use super::data::{AdapterPair, AreaTime, ChangeDirection, MethodTime, RunDiff, both_names};
 use super::phrases;
 use super::times::STATEMENT;
 use crate::numbers::{count, duration, percent};
@@ -10,10 +10,10 @@ use crate::terminal::TableOptions;
 use crate::words::{name, plain};
 
 /// The maximum number of changes of a direction that the table lists.
-const LISTED: [(Direction, usize); 3] = [
-    (Direction::Worse, 20),
-    (Direction::Better, 10),
-    (Direction::Other, 10),
+const LISTED: [(ChangeDirection, usize); 3] = [
+    (ChangeDirection::Worse, 20),
+    (ChangeDirection::Better, 10),
+    (ChangeDirection::Other, 10),
 ];
 /// The maximum number of lines of cases in one run only, and of methods.
 const LINES: usize = 10;
@@ -82,9 +82,9 @@ fn fact_line(name: &str, what: &str, before: &str, after: &str) -> String {
 }
 
 /// Returns a table with a row per pair of adapters.
-pub(super) fn pair_table<'a>() -> Table<'a, &'a Pair> {
+pub(super) fn pair_table<'a>() -> Table<'a, &'a AdapterPair> {
     Table::new("")
-        .head("adapter", |pair: &&Pair| adapter(&pair.name()))
+        .head("adapter", |pair: &&AdapterPair| adapter(&pair.name()))
         .number("compared", |pair| some(pair.compared))
         .number("same", |pair| some(pair.same))
         .number("worse", |pair| some(pair.worse))
@@ -104,7 +104,7 @@ pub(super) fn pair_table<'a>() -> Table<'a, &'a Pair> {
         .only_on_page()
 }
 
-fn transitions(text: &mut String, pairs: &[Pair]) {
+fn transitions(text: &mut String, pairs: &[AdapterPair]) {
     for pair in pairs.iter().filter(|p| !p.transitions.is_empty()) {
         let changes = phrases::transitions(pair);
         *text += &format!("{}: {changes}\n", plain(&pair.name(), 120));
@@ -114,7 +114,7 @@ fn transitions(text: &mut String, pairs: &[Pair]) {
 fn changes(
     text: &mut String,
     diff: &RunDiff,
-    direction: Direction,
+    direction: ChangeDirection,
     most: usize,
     options: TableOptions,
 ) {
@@ -133,7 +133,7 @@ fn changes(
         let mut lines: Vec<String> = Vec::new();
         if change.verdict[0] != change.verdict[1] {
             // The headline of the worse record gives the reason.
-            lines.push(change.headline[usize::from(direction != Direction::Better)].clone());
+            lines.push(change.headline[usize::from(direction != ChangeDirection::Better)].clone());
         }
         lines.extend(phrases::expectation(change).map(str::to_owned));
         if let Some(frame) = &change.frame {
@@ -253,7 +253,7 @@ fn methods(times: &[MethodTime], options: TableOptions) -> String {
 
 /// Returns the last line, in the colour of its conclusion: green only if everything could be decided.
 fn sum(diff: &RunDiff, options: TableOptions) -> String {
-    let [worse, better, other] = Direction::ALL.map(|d| diff.count(d));
+    let [worse, better, other] = ChangeDirection::ALL.map(|d| diff.count(d));
     let same: u64 = diff.pairs.iter().map(|p| p.same).sum();
     let color = match (diff.worse(), diff.untold.is_empty()) {
         (true, _) => "31",

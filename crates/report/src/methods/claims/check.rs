@@ -1,10 +1,10 @@
 //! Checks a claim against the records of a run, from the claim's data alone.
 
-use super::outcome::{Figure, Holds, Unit};
+use super::outcome::{CaseFigure, Holds, Unit};
 use crate::methods::breaks::{self, Break, LIMIT};
-use crate::methods::data::{Methods, SceneSeries, Series, SeriesPoint, Setting, usable};
+use crate::methods::data::{MethodSeries, Methods, SceneSeries, SceneSetting, SeriesPoint, usable};
 use crate::numbers::{digits, share};
-use etalon_methods::{Claim, Condition, Quantity, Test, Values};
+use etalon_methods::{Claim, ClaimedValues, FigureCondition, Quantity, Test};
 
 /// Half a step between two 8-bit codes.
 const HALF_CODE: f64 = 0.5 / 255.0;
@@ -15,7 +15,7 @@ const ALIKE: f64 = 1.5;
 /// A claim and what the records show about it.
 pub(super) struct Checked<'a> {
     pub(super) claim: &'static Claim,
-    pub(super) figures: Vec<Figure>,
+    pub(super) figures: Vec<CaseFigure>,
     /// Adapters that count fragments before the depth test, for claims that depend on it.
     pub(super) blind: Vec<&'a str>,
 }
@@ -67,7 +67,7 @@ struct On<'s, 'a> {
 }
 
 /// A figure and its setting; `None` for a figure of a whole curve.
-type Found<'a> = (Option<Setting<'a>>, Figure);
+type Found<'a> = (Option<SceneSetting<'a>>, CaseFigure);
 
 impl<'a> On<'_, 'a> {
     fn figures(&self) -> Vec<Found<'a>> {
@@ -126,7 +126,7 @@ impl<'a> On<'_, 'a> {
     }
 
     /// Returns true if the depth test lowers the adapter's count at a setting.
-    fn counts(&self, setting: &Setting<'a>) -> bool {
+    fn counts(&self, setting: &SceneSetting<'a>) -> bool {
         let Some([less, more]) = self.claim.fewer else {
             return true;
         };
@@ -136,16 +136,16 @@ impl<'a> On<'_, 'a> {
 
     fn counted(&self, value: Option<f64>) -> bool {
         match (self.claim.values, value) {
-            (Values::All, _) => true,
-            (Values::Between(low, high), Some(v)) => (low..=high).contains(&v),
-            (Values::Between(..), None) => false,
+            (ClaimedValues::All, _) => true,
+            (ClaimedValues::Between(low, high), Some(v)) => (low..=high).contains(&v),
+            (ClaimedValues::Between(..), None) => false,
         }
     }
 
     /// Returns the figure at each setting that counts, if it has one.
     fn at_settings(
         &self,
-        figure: impl Fn(&Setting<'a>) -> Option<(Unit, f64, [f64; 2], Condition)>,
+        figure: impl Fn(&SceneSetting<'a>) -> Option<(Unit, f64, [f64; 2], FigureCondition)>,
     ) -> Vec<Found<'a>> {
         let settings = self.scene.settings().into_iter();
         let counted = settings.filter(|s| self.counted(s.parameter.map(|(_, value)| value)));
@@ -164,7 +164,7 @@ impl<'a> On<'_, 'a> {
     fn per_series(
         &self,
         method: &str,
-        figure: impl Fn(&Series<'a>) -> Option<Figure>,
+        figure: impl Fn(&MethodSeries<'a>) -> Option<CaseFigure>,
     ) -> Vec<Found<'a>> {
         let series = self.scene.series.iter().filter(|s| s.method == method);
         series.filter_map(|s| Some((None, figure(s)?))).collect()
@@ -176,9 +176,9 @@ impl<'a> On<'_, 'a> {
         unit: Unit,
         value: f64,
         interval: [f64; 2],
-        holds: Condition,
-    ) -> Figure {
-        Figure {
+        holds: FigureCondition,
+    ) -> CaseFigure {
+        CaseFigure {
             scene: self.scene.name.to_owned(),
             setting: setting.to_owned(),
             adapter: self.name.to_owned(),
@@ -189,20 +189,20 @@ impl<'a> On<'_, 'a> {
         }
     }
 
-    fn told(&self, setting: &str, text: String, holds: bool) -> Figure {
-        Figure {
+    fn told(&self, setting: &str, text: String, holds: bool) -> CaseFigure {
+        CaseFigure {
             holds: holds.into(),
             ..self.figure(
                 setting,
                 Unit::Text(text),
                 0.0,
                 [0.0; 2],
-                Condition::AtMost(0.0),
+                FigureCondition::AtMost(0.0),
             )
         }
     }
 
-    fn point(&self, setting: &Setting<'a>, method: &str) -> Option<&SeriesPoint<'a>> {
+    fn point(&self, setting: &SceneSetting<'a>, method: &str) -> Option<&SeriesPoint<'a>> {
         let series = self.scene.series.iter().filter(|s| s.method == method);
         let mut points = series.flat_map(|s| s.on(self.adapter).map(move |p| (s, p)));
         points.find_map(|(s, p)| (s.setting(p) == *setting).then_some(p))
@@ -210,7 +210,7 @@ impl<'a> On<'_, 'a> {
 
     fn quantity(
         &self,
-        setting: &Setting<'a>,
+        setting: &SceneSetting<'a>,
         method: &str,
         quantity: Quantity,
     ) -> Option<(f64, [f64; 2])> {
@@ -220,7 +220,7 @@ impl<'a> On<'_, 'a> {
     /// Returns a sum over methods, or `None` unless all of them were measured.
     fn sum(
         &self,
-        setting: &Setting<'a>,
+        setting: &SceneSetting<'a>,
         terms: &[(&str, f64)],
         quantity: Quantity,
     ) -> Option<(f64, [f64; 2])> {
@@ -240,7 +240,7 @@ impl<'a> On<'_, 'a> {
     }
 
     /// Returns the points of a curve that count, in order.
-    fn points<'p>(&self, series: &'p Series<'a>) -> Vec<&'p SeriesPoint<'a>> {
+    fn points<'p>(&self, series: &'p MethodSeries<'a>) -> Vec<&'p SeriesPoint<'a>> {
         let times = series.on(self.adapter);
         times
             .filter(|p| p.value.is_some() && self.counted(p.value))
@@ -315,7 +315,7 @@ impl<'a> On<'_, 'a> {
 
     /// Returns the first value after which a curve stays within the limit, `Some(None)` if it never does, and
     /// `None` if it has too few points to decide.
-    fn resolved(&self, series: &Series<'a>) -> Option<Option<f64>> {
+    fn resolved(&self, series: &MethodSeries<'a>) -> Option<Option<f64>> {
         let curve = series.curve(self.adapter);
         let ratio = curve.last()?.0 / curve.first()?.0;
         match breaks::find(&curve, ratio >= 20.0)? {
@@ -331,7 +331,7 @@ impl<'a> On<'_, 'a> {
         &self,
         narrow: &'static str,
         wide: &'static str,
-        holds: Condition,
+        holds: FigureCondition,
     ) -> Vec<Found<'a>> {
         let curves = |method: &'static str| {
             let series = self.scene.series.iter();
@@ -365,7 +365,7 @@ impl<'a> On<'_, 'a> {
         found
     }
 
-    fn levels(&self, series: &Series<'a>, samples: u32) -> Option<Figure> {
+    fn levels(&self, series: &MethodSeries<'a>, samples: u32) -> Option<CaseFigure> {
         let curve = series.curve(self.adapter);
         let range = |halves: bool| {
             let among = move |v: f64| {

@@ -4,7 +4,7 @@ use crate::numbers::{digits, share};
 
 /// The figure of one case.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Figure {
+pub(super) struct CaseFigure {
     /// The family of cases.
     pub(super) scene: String,
     /// The setting; empty if the figure is of a whole curve.
@@ -66,7 +66,7 @@ impl From<bool> for Holds {
     }
 }
 
-impl Figure {
+impl CaseFigure {
     /// Returns the text of a figure without a number. Figures with equal texts can be reported together.
     pub(super) fn text(&self) -> Option<&str> {
         match &self.unit {
@@ -127,7 +127,7 @@ pub(super) enum Reproduction {
 }
 
 impl Reproduction {
-    pub(super) fn of(figures: &[Figure]) -> Self {
+    pub(super) fn of(figures: &[CaseFigure]) -> Self {
         let count = |holds| figures.iter().filter(|f| f.holds == holds).count();
         match (count(Holds::Yes), count(Holds::No), figures.len()) {
             (_, _, 0) => Self::NotMeasured,

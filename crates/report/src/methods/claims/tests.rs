@@ -1,14 +1,14 @@
 use super::*;
 use crate::methods::tests::made::{Made, run};
-use etalon_methods::{Claim, Condition, Quantity, Test, Values};
+use etalon_methods::{Claim, ClaimedValues, FigureCondition, Quantity, Test};
 
 /// Checks the claim whose title begins like this against a run.
-fn outcome(title: &str, made: &[Made]) -> (Reproduction, Vec<Figure>, Vec<String>) {
+fn outcome(title: &str, made: &[Made]) -> (Reproduction, Vec<CaseFigure>, Vec<String>) {
     let claim = claims().find(|c| c.title.starts_with(title)).unwrap();
     of(claim, made)
 }
 
-fn of(claim: &'static Claim, made: &[Made]) -> (Reproduction, Vec<Figure>, Vec<String>) {
+fn of(claim: &'static Claim, made: &[Made]) -> (Reproduction, Vec<CaseFigure>, Vec<String>) {
     let run = run(made);
     let methods = Methods::of(&run).unwrap();
     let checked = check(claim, &methods);
@@ -16,7 +16,7 @@ fn of(claim: &'static Claim, made: &[Made]) -> (Reproduction, Vec<Figure>, Vec<S
     (Reproduction::of(&checked.figures), checked.figures, blind)
 }
 
-fn told(figures: &[Figure]) -> Vec<String> {
+fn told(figures: &[CaseFigure]) -> Vec<String> {
     let texts = together(figures);
     texts
         .into_iter()
@@ -25,11 +25,13 @@ fn told(figures: &[Figure]) -> Vec<String> {
 }
 
 /// Returns a figure that meets a condition, and a figure that does not.
-fn figures(condition: Condition) -> [f64; 2] {
+fn figures(condition: FigureCondition) -> [f64; 2] {
     match condition {
-        Condition::Below(limit) | Condition::AtMost(limit) => [limit * 0.8, limit * 1.5],
-        Condition::Above(limit) => [limit * 1.5, limit * 0.8],
-        Condition::Between(low, high) => [f64::midpoint(low, high), high * 2.0],
+        FigureCondition::Below(limit) | FigureCondition::AtMost(limit) => {
+            [limit * 0.8, limit * 1.5]
+        }
+        FigureCondition::Above(limit) => [limit * 1.5, limit * 0.8],
+        FigureCondition::Between(low, high) => [f64::midpoint(low, high), high * 2.0],
     }
 }
 
@@ -37,8 +39,8 @@ fn figures(condition: Condition) -> [f64; 2] {
 fn place(claim: &Claim) -> (String, [f64; 2]) {
     let family = claim.families.first().copied().unwrap_or("scene");
     let values = match claim.values {
-        Values::All => [1.0, 2.0],
-        Values::Between(low, high) => [low, (low + 1.0).min(high)],
+        ClaimedValues::All => [1.0, 2.0],
+        ClaimedValues::Between(low, high) => [low, (low + 1.0).min(high)],
     };
     (format!("{}/{family}", claim.question), values)
 }

@@ -2,7 +2,7 @@
 
 use crate::methods::name::title;
 use crate::numbers::digits;
-use etalon_methods::{Claim, Condition, Test, Values};
+use etalon_methods::{Claim, ClaimedValues, FigureCondition, Test};
 
 /// Returns the comparison, its cases and its condition.
 pub(super) fn compared(claim: &Claim) -> String {
@@ -74,11 +74,11 @@ pub(super) fn compared(claim: &Claim) -> String {
     };
     text += &format!(". Cases: {families}");
     match claim.values {
-        Values::All => {}
-        Values::Between(low, high) if high.is_infinite() => {
+        ClaimedValues::All => {}
+        ClaimedValues::Between(low, high) if high.is_infinite() => {
             text += &format!(" from {} on", digits(low, 3));
         }
-        Values::Between(low, high) => {
+        ClaimedValues::Between(low, high) => {
             text += &format!(" from {} to {}", digits(low, 3), digits(high, 3));
         }
     }
@@ -98,7 +98,7 @@ fn share_of(quantity: etalon_methods::Quantity) -> bool {
     matches!(quantity, Quantity::Rmse | Quantity::Largest)
 }
 
-fn condition(condition: Condition, share: bool) -> String {
+fn condition(condition: FigureCondition, share: bool) -> String {
     let text = |v: f64| {
         if share {
             crate::numbers::share(v)
@@ -107,11 +107,11 @@ fn condition(condition: Condition, share: bool) -> String {
         }
     };
     match condition {
-        Condition::Below(limit) => format!("below {}", text(limit)),
-        Condition::Above(limit) => format!("above {}", text(limit)),
-        Condition::AtMost(limit) => format!("up to {}", text(limit)),
-        Condition::Between(low, high) if low == high => format!("at {}", text(low)),
-        Condition::Between(low, high) => format!("from {} to {}", text(low), text(high)),
+        FigureCondition::Below(limit) => format!("below {}", text(limit)),
+        FigureCondition::Above(limit) => format!("above {}", text(limit)),
+        FigureCondition::AtMost(limit) => format!("up to {}", text(limit)),
+        FigureCondition::Between(low, high) if low == high => format!("at {}", text(low)),
+        FigureCondition::Between(low, high) => format!("from {} to {}", text(low), text(high)),
     }
 }
 

@@ -2,14 +2,14 @@
 
 use crate::lists::grouped;
 use crate::numbers::{percent, percent_of, thousands};
-use crate::run::grid::{AreaFiles, Grid};
+use crate::run::grid::{AreaFiles, RunGrid};
 use crate::table::{Cell, Table};
 use etalon_frame::{Aspect, CounterKind};
 use etalon_record::Assertion;
 use maud::{Markup, html};
 use std::collections::BTreeMap;
 
-pub(crate) fn section(grid: &Grid<'_>) -> Markup {
+pub(crate) fn section(grid: &RunGrid<'_>) -> Markup {
     let rows: Vec<SharedFigures<'_>> = grid.areas.iter().flat_map(|a| figures(grid, a)).collect();
     html! {
         section id="asserted" {
@@ -32,7 +32,7 @@ pub(crate) fn section(grid: &Grid<'_>) -> Markup {
 
 /// The counters that were read back, that were asserted, and that had exactly one legal value: per area and
 /// kind, over all adapters.
-fn counters(grid: &Grid<'_>) -> Markup {
+fn counters(grid: &RunGrid<'_>) -> Markup {
     let mut rows: BTreeMap<(usize, CounterKind), [u64; 3]> = BTreeMap::new();
     for (number, area) in grid.areas.iter().enumerate() {
         let records = (0..grid.adapters.len()).flat_map(|column| area.on(column));
@@ -72,7 +72,7 @@ struct SharedFigures<'a> {
 
 /// Grouped by the figures as they are shown: an adapter that lacks a case or two does not stand
 /// apart for that.
-fn figures<'a>(grid: &Grid<'a>, area: &AreaFiles<'a>) -> Vec<SharedFigures<'a>> {
+fn figures<'a>(grid: &RunGrid<'a>, area: &AreaFiles<'a>) -> Vec<SharedFigures<'a>> {
     let mut sums: BTreeMap<(Aspect, usize), Assertion> = BTreeMap::new();
     for column in 0..grid.adapters.len() {
         for assertion in area.on(column).flat_map(|i| &grid.record(i).assertions) {
@@ -111,7 +111,7 @@ fn shown(sum: &Assertion) -> [String; 6] {
     ]
 }
 
-fn asserted<'a>(grid: &'a Grid<'a>) -> Table<'a, SharedFigures<'a>> {
+fn asserted<'a>(grid: &'a RunGrid<'a>) -> Table<'a, SharedFigures<'a>> {
     let mut table = Table::<SharedFigures<'_>>::new("figures")
         .spoken("What was asserted of channels, by area and aspect")
         .head("Area", |f| f.area)

@@ -3,12 +3,12 @@
 use super::consensus::{Consensus, Votes};
 use crate::numbers::count;
 use crate::page::adapter::breakable;
-use crate::run::grid::{Grid, VerdictTally};
+use crate::run::grid::{RunGrid, VerdictTally};
 use crate::words;
 use etalon_record::Verdict;
 use maud::{Markup, html};
 
-pub(crate) fn section(grid: &Grid<'_>, scripts: &[(String, String)]) -> Markup {
+pub(crate) fn section(grid: &RunGrid<'_>, scripts: &[(String, String)]) -> Markup {
     html! {
         section id="cases" aria-labelledby="cases-title" {
             h2 id="cases-title" { "All cases" }
@@ -72,7 +72,7 @@ pub(crate) fn view() -> Markup {
     html! { article id="case" aria-labelledby="case-title" hidden {} }
 }
 
-fn controls(grid: &Grid<'_>) -> Markup {
+fn controls(grid: &RunGrid<'_>) -> Markup {
     let tally = VerdictTally::of(&grid.run.records);
     let mut verdicts: Vec<Verdict> = tally.entries().map(|(v, _, _)| v).collect();
     verdicts.sort_by_key(|v| std::cmp::Reverse(v.severity()));
@@ -137,7 +137,7 @@ fn select(id: &str, label: &str, nothing: &str, options: Vec<(String, String)>) 
 }
 
 /// The number of cases that differ on each adapter only, and the number that the adapters disagree on.
-fn odd(grid: &Grid<'_>) -> (Vec<u64>, u64) {
+fn odd(grid: &RunGrid<'_>) -> (Vec<u64>, u64) {
     let mut odd = vec![0; grid.adapters.len()];
     let mut apart = 0;
     for case in grid.cases() {

@@ -4,10 +4,10 @@
 //! A hundred red rows are a dozen bugs. Nothing here knows a bug: the groups come from records alone.
 
 use crate::mark::{class, mark};
-use crate::news::News;
+use crate::news::RunNews;
 use crate::numbers::count;
 use crate::page::link;
-use crate::run::grid::Grid;
+use crate::run::grid::RunGrid;
 use crate::words::{self, Tone};
 use etalon_diagnose::{Condition, Symptom};
 use etalon_record::{Record, Verdict};
@@ -32,7 +32,7 @@ struct ListedCause<'a> {
 }
 
 /// Returns the section; empty if no record is unexpected.
-pub(crate) fn section(grid: &Grid<'_>, news: Option<&News>) -> Markup {
+pub(crate) fn section(grid: &RunGrid<'_>, news: Option<&RunNews>) -> Markup {
     let causes = causes(grid);
     let verdicts: usize = causes.iter().map(|c| c.records).sum();
     html! {
@@ -91,7 +91,7 @@ fn entry(cause: &ListedCause<'_>) -> Markup {
     }
 }
 
-fn causes<'a>(grid: &Grid<'a>) -> Vec<ListedCause<'a>> {
+fn causes<'a>(grid: &RunGrid<'a>) -> Vec<ListedCause<'a>> {
     let mut found: BTreeMap<(usize, Symptom), BTreeMap<&'a str, Vec<&'a Record>>> = BTreeMap::new();
     let mut drawn: BTreeMap<(usize, &str), Vec<&str>> = BTreeMap::new();
     for file in grid.files() {

@@ -2,7 +2,7 @@
 
 use crate::lists::{self, grouped};
 use crate::mark::mark;
-use crate::news::{News, NewsEntry};
+use crate::news::{NewsEntry, RunNews};
 use crate::page::adapter::adapter;
 use crate::page::link;
 use crate::table::Table;
@@ -14,7 +14,7 @@ use maud::{Markup, html};
 const ROWS: usize = 500;
 
 /// The section: what broke, what was fixed, and the runs that this one was compared with.
-pub(super) fn section(news: &News) -> Markup {
+pub(super) fn section(news: &RunNews) -> Markup {
     let runs = news
         .since
         .iter()

@@ -8,7 +8,7 @@
 //! More than half of the votes are the consensus, and the adapters of the other side are odd. If both sides
 //! have the same number of votes, no adapter is odd. A single vote makes no consensus.
 
-use crate::run::grid::{CaseRow, Grid};
+use crate::run::grid::{CaseRow, RunGrid};
 use crate::words;
 use etalon_record::Verdict;
 use std::cmp::Reverse;
@@ -54,7 +54,7 @@ pub(crate) struct Consensus {
 
 impl Consensus {
     /// Returns the consensus on one case of a grid.
-    pub(crate) fn of(grid: &Grid<'_>, case: &CaseRow<'_>) -> Self {
+    pub(crate) fn of(grid: &RunGrid<'_>, case: &CaseRow<'_>) -> Self {
         let mut is_due = false;
         let mut votes = Vec::new();
         for (column, index) in case.records.iter().enumerate() {

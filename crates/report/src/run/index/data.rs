@@ -9,7 +9,7 @@ use super::facts::{self, Label};
 use super::findings::{FindingPlan, kind};
 use crate::lists::Interner;
 use crate::mark::class;
-use crate::run::grid::{Grid, VerdictTally};
+use crate::run::grid::{RunGrid, VerdictTally};
 use crate::words::{self, Tone};
 use etalon_record::Verdict;
 use maud::{Markup, PreEscaped, html};
@@ -68,7 +68,11 @@ struct ListedFile<'a> {
 struct ListedCase<'a>(&'a str, String, usize, Vec<u64>, Vec<usize>);
 
 /// The block, ready to be put into a page.
-pub(crate) fn block(grid: &Grid<'_>, plan: &FindingPlan, scripts: &[(String, String)]) -> Markup {
+pub(crate) fn block(
+    grid: &RunGrid<'_>,
+    plan: &FindingPlan,
+    scripts: &[(String, String)],
+) -> Markup {
     let mut data = data(grid, plan);
     data.scripts = scripts;
     let json = serde_json::to_string(&data);
@@ -78,7 +82,7 @@ pub(crate) fn block(grid: &Grid<'_>, plan: &FindingPlan, scripts: &[(String, Str
     html! { script type="application/json" id="data" { (PreEscaped(json)) } }
 }
 
-fn data<'a>(grid: &'a Grid<'_>, plan: &FindingPlan) -> Data<'a> {
+fn data<'a>(grid: &'a RunGrid<'_>, plan: &FindingPlan) -> Data<'a> {
     let (facts, facts_of, texts, labels) = facts_of_all(grid);
     let (cells, signs) = cells(grid);
     let mut consensus = Interner::default();
@@ -130,7 +134,7 @@ fn data<'a>(grid: &'a Grid<'_>, plan: &FindingPlan) -> Data<'a> {
 }
 
 /// The kinds of cells that the run has, the most serious first, with the sign of each.
-fn cells(grid: &Grid<'_>) -> (Vec<CellLook>, HashMap<(Verdict, Tone), char>) {
+fn cells(grid: &RunGrid<'_>) -> (Vec<CellLook>, HashMap<(Verdict, Tone), char>) {
     let tally = VerdictTally::of(&grid.run.records);
     let mut signs = HashMap::new();
     let cells = tally
@@ -162,7 +166,7 @@ type FactLists = (
     Interner<Label>,
 );
 
-fn facts_of_all(grid: &Grid<'_>) -> FactLists {
+fn facts_of_all(grid: &RunGrid<'_>) -> FactLists {
     let records = &grid.run.records;
     let mut texts: Interner<String> = Interner::default();
     let mut labels = Interner::default();
@@ -217,7 +221,7 @@ mod tests {
 
     fn block_of(records: Vec<Record>) -> String {
         let run = run(records);
-        let grid = Grid::new(&run);
+        let grid = RunGrid::new(&run);
         block(&grid, &FindingPlan::new(&grid), &[]).into_string()
     }
 

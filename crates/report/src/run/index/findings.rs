@@ -5,7 +5,7 @@ use super::detail::{self, DetailBudget, DrawnFrame};
 use crate::mark::{class, mark};
 use crate::numbers::count;
 use crate::page::link;
-use crate::run::grid::{AreaFiles, Grid, GridFile, VerdictTally};
+use crate::run::grid::{AreaFiles, GridFile, RunGrid, VerdictTally};
 use crate::threads::on_threads;
 use crate::words::{self, Tone};
 use etalon_record::{Record, Verdict};
@@ -32,7 +32,7 @@ pub(crate) struct FindingPlan {
 }
 
 impl FindingPlan {
-    pub(crate) fn new(grid: &Grid<'_>) -> Self {
+    pub(crate) fn new(grid: &RunGrid<'_>) -> Self {
         // The first of every case file and adapter go before any second one, and what is
         // unexpected before what is not.
         let mut lines = Vec::new();
@@ -96,7 +96,7 @@ pub(crate) fn kind(record: &Record) -> usize {
 }
 
 /// Returns the records of a case file on one adapter that get an entry, the most serious kind first.
-fn listed(grid: &Grid<'_>, file: &GridFile<'_>, column: usize) -> Vec<usize> {
+fn listed(grid: &RunGrid<'_>, file: &GridFile<'_>, column: usize) -> Vec<usize> {
     let worth = |i: &usize| {
         let r = grid.record(*i);
         r.unexpected() || r.verdict.is_bad() || r.verdict == Verdict::Imprecise
@@ -108,7 +108,7 @@ fn listed(grid: &Grid<'_>, file: &GridFile<'_>, column: usize) -> Vec<usize> {
 
 /// Returns the frames of all records that are shown whole, by record. They are most of a page's cost and
 /// independent of each other.
-fn drawn(folder: &Path, grid: &Grid<'_>, plan: &FindingPlan) -> HashMap<usize, DrawnFrame> {
+fn drawn(folder: &Path, grid: &RunGrid<'_>, plan: &FindingPlan) -> HashMap<usize, DrawnFrame> {
     let complete: Vec<usize> = plan
         .bodies
         .keys()
@@ -120,7 +120,7 @@ fn drawn(folder: &Path, grid: &Grid<'_>, plan: &FindingPlan) -> HashMap<usize, D
     drawn.filter_map(|(i, drawn)| Some((i, drawn?))).collect()
 }
 
-pub(crate) fn section(folder: &Path, grid: &Grid<'_>, plan: &FindingPlan) -> Markup {
+pub(crate) fn section(folder: &Path, grid: &RunGrid<'_>, plan: &FindingPlan) -> Markup {
     let mut section = Section {
         grid,
         plan,
@@ -152,7 +152,7 @@ pub(crate) fn section(folder: &Path, grid: &Grid<'_>, plan: &FindingPlan) -> Mar
 
 /// The section that is being written.
 struct Section<'a> {
-    grid: &'a Grid<'a>,
+    grid: &'a RunGrid<'a>,
     plan: &'a FindingPlan,
     drawn: HashMap<usize, DrawnFrame>,
     budget: DetailBudget,
@@ -222,7 +222,7 @@ impl Section<'_> {
 }
 
 /// Returns the cases that the adapter cannot draw, counted by what is missing.
-fn not_supported(grid: &Grid<'_>, area: &AreaFiles<'_>, column: usize) -> Markup {
+fn not_supported(grid: &RunGrid<'_>, area: &AreaFiles<'_>, column: usize) -> Markup {
     let mut reasons: BTreeMap<String, u64> = BTreeMap::new();
     for index in area.on(column) {
         let record = grid.record(index);

@@ -4,7 +4,7 @@ use crate::lists::grouped;
 use crate::mark::class;
 use crate::page::adapter::breakable;
 use crate::page::link;
-use crate::run::grid::{Grid, VerdictTally};
+use crate::run::grid::{RunGrid, VerdictTally};
 use crate::words::{Tone, api_name, name};
 use etalon_frame::AdapterName;
 use etalon_record::Record;
@@ -19,7 +19,7 @@ const LYING: usize = 8;
 type ColumnGroup<'a> = (&'a str, Vec<usize>);
 
 /// The section: areas and their case files by API, then areas by driver.
-pub(crate) fn section(grid: &Grid<'_>) -> Markup {
+pub(crate) fn section(grid: &RunGrid<'_>) -> Markup {
     let columns = || grid.adapters.iter().enumerate();
     let api_of = |name: &str| match grid.run.header.adapter(name) {
         Some(adapter) => api_name(adapter.limits.api),
@@ -52,7 +52,7 @@ pub(crate) fn section(grid: &Grid<'_>) -> Markup {
     }
 }
 
-fn table(grid: &Grid<'_>, groups: &[ColumnGroup<'_>], caption: &str, files: bool) -> Markup {
+fn table(grid: &RunGrid<'_>, groups: &[ColumnGroup<'_>], caption: &str, files: bool) -> Markup {
     let columns: Vec<usize> = groups.iter().flat_map(|(_, c)| c).copied().collect();
     // The first column of each group has an edge.
     let edges: Vec<usize> = groups

@@ -3,7 +3,7 @@
 use crate::mark::mark;
 use crate::numbers::count;
 use crate::run::dead::meaning;
-use crate::run::reasons::{Reason, known as known_reasons, total, undrawn};
+use crate::run::reasons::{ReasonRecords, known as known_reasons, total, undrawn};
 use crate::table::Table;
 use crate::words::{Tone, plain};
 use etalon_record::{Dead, Run};
@@ -46,9 +46,9 @@ pub(super) fn not_drawn(run: &Run) -> Markup {
     }
 }
 
-fn table(caption: &str, reasons: &[Reason]) -> Markup {
-    let shown: Vec<&Reason> = reasons.iter().take(ROWS).collect();
-    let table = Table::<&Reason>::new("reasons stacked")
+fn table(caption: &str, reasons: &[ReasonRecords]) -> Markup {
+    let shown: Vec<&ReasonRecords> = reasons.iter().take(ROWS).collect();
+    let table = Table::<&ReasonRecords>::new("reasons stacked")
         .spoken(caption)
         .head("Reason", |reason| {
             html! { (mark(reason.verdict, Tone::Plain)) ": " (plain(&reason.text, 300)) }
@@ -64,7 +64,7 @@ fn table(caption: &str, reasons: &[Reason]) -> Markup {
 }
 
 /// The adapters of a reason; many of them behind their number.
-fn adapters(reason: &Reason) -> Markup {
+fn adapters(reason: &ReasonRecords) -> Markup {
     let list = reason.each().join(", ");
     html! {
         @if reason.adapters.len() > 3 {
