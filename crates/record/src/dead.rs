@@ -204,6 +204,10 @@ impl Expectations {
         left: &Cell<u64>,
     ) -> HashMap<usize, Vec<usize>> {
         let firsts: BTreeSet<usize> = reaches.iter().flatten().map(|reach| reach.first).collect();
+        if firsts.is_empty() {
+            // Nobody asks for the ids.
+            return HashMap::new();
+        }
         let firsts: Vec<usize> = firsts.into_iter().collect();
         // Both are in the order of the ids.
         let named = Ids::new(firsts.iter().map(|first| &ids.sorted[*first]));
