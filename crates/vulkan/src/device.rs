@@ -72,12 +72,12 @@ pub(crate) fn identify(instance: &Instance, physical: vk::PhysicalDevice) -> Ide
     let properties = unsafe { instance.raw().get_physical_device_properties(physical) };
     let mut driver = vk::PhysicalDeviceDriverProperties::default();
     if properties.api_version >= vk::API_VERSION_1_2 {
-        let mut both = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
+        let mut chain = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
         // SAFETY: the chained structure is part of Vulkan 1.2.
         unsafe {
             instance
                 .raw()
-                .get_physical_device_properties2(physical, &mut both);
+                .get_physical_device_properties2(physical, &mut chain);
         }
     }
     let text = |c: Result<&CStr, _>| {
@@ -220,12 +220,12 @@ fn singles(
     let clips = has_extension(api, physical, ash::ext::depth_clip_enable::NAME);
     let mut offered = vk::PhysicalDeviceExtendedDynamicState3FeaturesEXT::default();
     let mut clip = vk::PhysicalDeviceDepthClipEnableFeaturesEXT::default();
-    let mut both = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
+    let mut chain = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
     if clips {
-        both = both.push_next(&mut clip);
+        chain = chain.push_next(&mut clip);
     }
     // SAFETY: the chained structures are of extensions that the device has.
-    unsafe { api.get_physical_device_features2(physical, &mut both) };
+    unsafe { api.get_physical_device_features2(physical, &mut chain) };
     let has_both = |state: &SingleState| match state {
         SingleState::Samples => true,
         SingleState::AlphaToOne => enabled.alpha_to_one != vk::FALSE,
@@ -244,9 +244,9 @@ fn has_extended(api: &ash::Instance, physical: vk::PhysicalDevice) -> bool {
         return false;
     }
     let mut offered = vk::PhysicalDeviceExtendedDynamicState3FeaturesEXT::default();
-    let mut both = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
+    let mut chain = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
     // SAFETY: the chained structure is of an extension that the device has.
-    unsafe { api.get_physical_device_features2(physical, &mut both) };
+    unsafe { api.get_physical_device_features2(physical, &mut chain) };
     has_all(&offered)
 }
 
@@ -262,9 +262,9 @@ fn has_dynamic_logic(
         return false;
     }
     let mut offered = vk::PhysicalDeviceExtendedDynamicState2FeaturesEXT::default();
-    let mut both = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
+    let mut chain = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
     // SAFETY: the chained structure is of an extension that the device has.
-    unsafe { api.get_physical_device_features2(physical, &mut both) };
+    unsafe { api.get_physical_device_features2(physical, &mut chain) };
     offered.extended_dynamic_state2_logic_op != vk::FALSE
 }
 
@@ -272,9 +272,9 @@ fn has_dynamic_logic(
 /// dynamically.
 fn has_dynamic_logic_enable(api: &ash::Instance, physical: vk::PhysicalDevice) -> bool {
     let mut offered = vk::PhysicalDeviceExtendedDynamicState3FeaturesEXT::default();
-    let mut both = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
+    let mut chain = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
     // SAFETY: the chained structure is of an extension that the device has.
-    unsafe { api.get_physical_device_features2(physical, &mut both) };
+    unsafe { api.get_physical_device_features2(physical, &mut chain) };
     offered.extended_dynamic_state3_logic_op_enable != vk::FALSE
 }
 
@@ -285,9 +285,9 @@ fn has_indirect_count(
     limits: &vk::PhysicalDeviceLimits,
 ) -> bool {
     let mut offered = vk::PhysicalDeviceVulkan12Features::default();
-    let mut both = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
+    let mut chain = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
     // SAFETY: the chained structure is part of Vulkan 1.2, and devices have 1.3.
-    unsafe { api.get_physical_device_features2(physical, &mut both) };
+    unsafe { api.get_physical_device_features2(physical, &mut chain) };
     offered.draw_indirect_count != vk::FALSE && limits.max_draw_indirect_count >= MOST_COUNTED
 }
 
@@ -297,9 +297,9 @@ fn advanced_blend(api: &ash::Instance, physical: vk::PhysicalDevice) -> Option<b
         return None;
     }
     let mut offered = vk::PhysicalDeviceBlendOperationAdvancedFeaturesEXT::default();
-    let mut both = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
+    let mut chain = vk::PhysicalDeviceFeatures2::default().push_next(&mut offered);
     // SAFETY: the chained structure is of an extension that the device has.
-    unsafe { api.get_physical_device_features2(physical, &mut both) };
+    unsafe { api.get_physical_device_features2(physical, &mut chain) };
     Some(offered.advanced_blend_coherent_operations != vk::FALSE)
 }
 
@@ -310,10 +310,10 @@ const SHADES_ANYWHERE: u32 = vk::make_api_version(0, 1, 3, 217);
 /// maintenance5 if the device has it.
 fn promises(api: &ash::Instance, physical: vk::PhysicalDevice) -> BTreeSet<Property> {
     let mut clipping = vk::PhysicalDevicePointClippingProperties::default();
-    let mut both = vk::PhysicalDeviceProperties2::default().push_next(&mut clipping);
+    let mut chain = vk::PhysicalDeviceProperties2::default().push_next(&mut clipping);
     // SAFETY: a device of Vulkan 1.0 leaves the chained structure as it is.
-    unsafe { api.get_physical_device_properties2(physical, &mut both) };
-    let properties = both.properties;
+    unsafe { api.get_physical_device_properties2(physical, &mut chain) };
+    let properties = chain.properties;
     let fills = properties.api_version >= vk::API_VERSION_1_1;
     let mut promises = BTreeSet::new();
     if fills && clipping.point_clipping_behavior == vk::PointClippingBehavior::ALL_CLIP_PLANES {
@@ -329,9 +329,9 @@ fn promises(api: &ash::Instance, physical: vk::PhysicalDevice) -> BTreeSet<Prope
         return promises;
     }
     let mut raw = vk::PhysicalDeviceMaintenance5PropertiesKHR::default();
-    let mut both = vk::PhysicalDeviceProperties2::default().push_next(&mut raw);
+    let mut chain = vk::PhysicalDeviceProperties2::default().push_next(&mut raw);
     // SAFETY: the chained structure is of an extension that the device has.
-    unsafe { api.get_physical_device_properties2(physical, &mut both) };
+    unsafe { api.get_physical_device_properties2(physical, &mut chain) };
     let promised = [
         (
             Property::CoverageAfterCounting,
@@ -364,9 +364,9 @@ pub(crate) struct Resolves {
 impl Resolves {
     fn of(api: &ash::Instance, physical: vk::PhysicalDevice) -> Self {
         let mut raw = vk::PhysicalDeviceDepthStencilResolveProperties::default();
-        let mut both = vk::PhysicalDeviceProperties2::default().push_next(&mut raw);
+        let mut chain = vk::PhysicalDeviceProperties2::default().push_next(&mut raw);
         // SAFETY: the chained structure is part of Vulkan 1.2, and devices have 1.3.
-        unsafe { api.get_physical_device_properties2(physical, &mut both) };
+        unsafe { api.get_physical_device_properties2(physical, &mut chain) };
         Self {
             depth: raw.supported_depth_resolve_modes,
             stencil: raw.supported_stencil_resolve_modes,
@@ -394,13 +394,13 @@ impl Provoking {
             };
         }
         let mut features = vk::PhysicalDeviceProvokingVertexFeaturesEXT::default();
-        let mut both = vk::PhysicalDeviceFeatures2::default().push_next(&mut features);
+        let mut chain = vk::PhysicalDeviceFeatures2::default().push_next(&mut features);
         // SAFETY: the chained structure is of an extension that the device has.
-        unsafe { api.get_physical_device_features2(physical, &mut both) };
+        unsafe { api.get_physical_device_features2(physical, &mut chain) };
         let mut properties = vk::PhysicalDeviceProvokingVertexPropertiesEXT::default();
-        let mut both = vk::PhysicalDeviceProperties2::default().push_next(&mut properties);
+        let mut chain = vk::PhysicalDeviceProperties2::default().push_next(&mut properties);
         // SAFETY: as above.
-        unsafe { api.get_physical_device_properties2(physical, &mut both) };
+        unsafe { api.get_physical_device_properties2(physical, &mut chain) };
         let last = features.provoking_vertex_last != vk::FALSE;
         Self {
             last,

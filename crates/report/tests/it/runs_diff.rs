@@ -22,15 +22,15 @@ fn planted(change: impl FnOnce(&mut Record)) -> Option<CaseChange> {
     change(&mut new[2]);
     record_all(&two.before(), &one_adapter(5), &old);
     record_all(&two.after(), &one_adapter(5), &new);
-    let found = two.diff();
-    assert!(found.only.is_empty() && found.unpaired.is_empty());
-    assert_eq!(found.compared(), 5);
-    assert!(found.changes.len() <= 1, "none but the planted one");
-    let changed = found.changes.len() as u64;
-    assert_eq!(found.pairs[0].same, 5 - changed);
+    let difference = two.diff();
+    assert!(difference.only.is_empty() && difference.unpaired.is_empty());
+    assert_eq!(difference.compared(), 5);
+    assert!(difference.changes.len() <= 1, "none but the planted one");
+    let changed = difference.changes.len() as u64;
+    assert_eq!(difference.pairs[0].same, 5 - changed);
     // Only the changed case is listed; each method has a line about its times.
-    let text = table(&found, TableOptions::default());
-    let page = two.page(&found);
+    let text = table(&difference, TableOptions::default());
+    let page = two.page(&difference);
     let listed = |start: &str| text.lines().filter(|l| l.starts_with(start)).count();
     assert_eq!(
         ["✗ ", "✓ ", "≠ "].map(listed).iter().sum::<usize>(),
@@ -41,7 +41,7 @@ fn planted(change: impl FnOnce(&mut Record)) -> Option<CaseChange> {
         assert!(text.contains("  gl:a  blend/f/case=2\n"), "{text}");
         assert!(page.contains("<code>blend/f/case=2</code>"));
     }
-    found.changes.into_iter().next()
+    difference.changes.into_iter().next()
 }
 
 fn kinds(change: Option<CaseChange>) -> (ChangeDirection, Vec<&'static str>) {
@@ -164,16 +164,16 @@ fn frames_are_compared_texel_by_texel_and_shown() {
         codes[5] ^= 0x01;
         codes[8] ^= 0x04;
     });
-    let found = two.diff();
-    let [change] = found.changes.as_slice() else {
-        panic!("{:?}", found.changes)
+    let difference = two.diff();
+    let [change] = difference.changes.as_slice() else {
+        panic!("{:?}", difference.changes)
     };
     assert_eq!(change.what, ["frame"]);
     assert_eq!(change.direction, ChangeDirection::Other);
     let images = &change.frame.as_ref().unwrap().images;
     assert_eq!((images[0].differ, images[0].largest), (2, 16));
     assert_eq!((images[1].differ, images[1].largest), (0, 0));
-    let page = two.page(&found);
+    let page = two.page(&difference);
     for label in ["before", "after", "difference"] {
         assert!(
             page.contains(&format!("<figcaption>{label}</figcaption>")),
@@ -181,7 +181,7 @@ fn frames_are_compared_texel_by_texel_and_shown() {
         );
     }
     assert!(page.contains("2 of 256 samples differ, by up to 16 codes"));
-    let text = table(&found, TableOptions::default());
+    let text = table(&difference, TableOptions::default());
     assert!(text.contains("2 of 256 samples differ"), "{text}");
 }
 
@@ -195,47 +195,47 @@ fn frames_that_cannot_be_read_are_told_and_stop_nothing() {
     worse.texels.wrong += 1;
     worse.frame = Some("frames/x.json".to_owned());
     record_all(&two.after(), &one_adapter(1), &[worse]);
-    let found = two.diff();
+    let difference = two.diff();
     assert!(
-        found.changes[0]
+        difference.changes[0]
             .frame_error
             .as_ref()
             .unwrap()
             .contains("frames/x.json")
     );
     assert!(
-        found.warnings[0].contains("1 pair of frames"),
+        difference.warnings[0].contains("1 pair of frames"),
         "{:?}",
-        found.warnings
+        difference.warnings
     );
-    assert!(two.page(&found).contains("No pictures"));
+    assert!(two.page(&difference).contains("No pictures"));
 }
 
 #[test]
 fn the_same_run_twice_is_no_change() {
     let two = Two::new();
     synthetic::write(&two.before(), 1);
-    let found = diff(&two.before(), &two.before(), None).unwrap();
-    assert!(found.changes.is_empty() && found.only.is_empty());
-    assert!(found.warnings.is_empty(), "{:?}", found.warnings);
-    assert!(!found.facts.iter().any(|f| f.differs()));
+    let difference = diff(&two.before(), &two.before(), None).unwrap();
+    assert!(difference.changes.is_empty() && difference.only.is_empty());
+    assert!(difference.warnings.is_empty(), "{:?}", difference.warnings);
+    assert!(!difference.facts.iter().any(|f| f.differs()));
     assert!(
-        found
+        difference
             .pairs
             .iter()
             .all(|p| p.facts.iter().all(|f| !f.differs()))
     );
-    assert_eq!(found.pairs.len(), 8);
+    assert_eq!(difference.pairs.len(), 8);
     assert_eq!(
-        found.compared(),
+        difference.compared(),
         Run::read(&two.before()).unwrap().records.len() as u64
     );
-    assert!(!found.worse() && !found.only_better());
-    let text = table(&found, TableOptions::default());
+    assert!(!difference.worse() && !difference.only_better());
+    let text = table(&difference, TableOptions::default());
     assert!(text.contains("0 worse, 0 better, 0 other"), "{text}");
     let folders = [two.before(), two.before()];
     let path = two.folder.path().join("d.html");
-    write_page(&path, &found, [&folders[0], &folders[1]]).unwrap();
+    write_page(&path, &difference, [&folders[0], &folders[1]]).unwrap();
     assert!(
         fs::read_to_string(path)
             .unwrap()
@@ -253,34 +253,37 @@ fn cases_in_one_run_only_are_worse_when_the_second_was_to_have_them() {
     let two = Two::new();
     record_all(&two.before(), &header, &records);
     record_all(&two.after(), &header, &records[..1]);
-    let found = two.diff();
-    assert!(found.worse());
-    assert_eq!(found.lost(), 2);
+    let difference = two.diff();
+    assert!(difference.worse());
+    assert_eq!(difference.lost(), 2);
     assert_eq!(
-        found.warnings,
+        difference.warnings,
         ["The second run is incomplete: 2 of 3 records are missing."]
     );
-    let text = table(&found, TableOptions::default());
+    let text = table(&difference, TableOptions::default());
     assert!(text.starts_with("! The second run is incomplete"), "{text}");
     assert!(
         text.contains("✗ before only  gl:a  2 cases of a/f"),
         "{text}"
     );
-    assert!(two.page(&found).contains("The second run is incomplete"));
+    assert!(
+        two.page(&difference)
+            .contains("The second run is incomplete")
+    );
 
     // The other way round nothing is lost.
-    let found = diff(&two.after(), &two.before(), None).unwrap();
-    assert_eq!((found.lost(), found.only.len()), (0, 2));
-    assert!(found.only.iter().all(|o| o.side == RunSide::After));
+    let difference = diff(&two.after(), &two.before(), None).unwrap();
+    assert_eq!((difference.lost(), difference.only.len()), (0, 2));
+    assert!(difference.only.iter().all(|o| o.side == RunSide::After));
 
     // Nor if fewer cases were selected.
     let mut fewer = one_adapter(1);
     fewer.settings.selection = selection_digest(["a/f/c=0"]);
     record_all(&two.after(), &fewer, &records[..1]);
-    let found = two.diff();
-    assert!(!found.worse());
-    assert_eq!(found.only.len(), 2);
-    assert!(found.warnings[0].contains("different selections"));
+    let difference = two.diff();
+    assert!(!difference.worse());
+    assert_eq!(difference.only.len(), 2);
+    assert!(difference.warnings[0].contains("different selections"));
 }
 
 /// A run of this selection and shard with a passing record of each of these cases.
@@ -302,14 +305,14 @@ fn a_case_that_both_select_and_the_second_lacks_is_worse() {
     selected(&two.before(), &["a", "b", "c"], None, &["a", "b", "c"]);
     // The second run selects other cases, too, and lacks one that both select.
     selected(&two.after(), &["a", "b", "d"], None, &["a", "d"]);
-    let found = two.diff();
-    let worse: Vec<(&str, bool)> = found
+    let difference = two.diff();
+    let worse: Vec<(&str, bool)> = difference
         .only
         .iter()
         .map(|o| (o.case.as_str(), o.worse))
         .collect();
     assert_eq!(worse, [("b", true), ("c", false), ("d", false)]);
-    assert!(found.worse());
+    assert!(difference.worse());
     // A shard must not draw a case of another shard.
     let index = 3 - shard_of("b", 2);
     let shard = Some(Shard { index, count: 2 });
@@ -327,16 +330,16 @@ fn what_could_not_be_told_is_not_green() {
         &one_adapter(1),
         &[Record::new("a", "gl:a", Verdict::Pass)],
     );
-    let found = two.diff();
+    let difference = two.diff();
     assert!(
-        !found.worse() && found.untold.len() == 1,
+        !difference.worse() && difference.untold.len() == 1,
         "{:?}",
-        found.untold
+        difference.untold
     );
-    let page = two.page(&found);
+    let page = two.page(&difference);
     assert!(!page.contains("state good"), "{page}");
     assert!(page.contains("Nothing is shown to be worse"));
-    let text = table(&found, TableOptions::default());
+    let text = table(&difference, TableOptions::default());
     assert!(
         text.contains("cannot tell: 1 record of the first run alone"),
         "{text}"
@@ -358,11 +361,11 @@ fn an_adapter_that_vanished_is_worse_and_one_that_came_is_not() {
     };
     run(&two.before(), &["gl:x", "gl:y"]);
     run(&two.after(), &["gl:x"]);
-    let found = two.diff();
-    assert!(found.worse() && !found.only_better());
-    assert!(two.page(&found).contains("vanished: gl:y"));
-    assert!(!two.page(&found).contains("state good"));
-    assert!(table(&found, TableOptions::default()).contains("vanished: gl:y"));
+    let difference = two.diff();
+    assert!(difference.worse() && !difference.only_better());
+    assert!(two.page(&difference).contains("vanished: gl:y"));
+    assert!(!two.page(&difference).contains("state good"));
+    assert!(table(&difference, TableOptions::default()).contains("vanished: gl:y"));
     let named = diff(&two.before(), &two.after(), Some(["gl:x", "gl:x"])).unwrap();
     assert!(!named.worse(), "the other was left out on purpose");
     let back = diff(&two.after(), &two.before(), None).unwrap();
@@ -378,12 +381,12 @@ fn a_run_that_was_cut_off_is_told() {
     let path = two.after().join("run.jsonl");
     let text = fs::read_to_string(&path).unwrap();
     fs::write(&path, &text[..text.len() - 9]).unwrap();
-    let found = two.diff();
+    let difference = two.diff();
     assert_eq!(
-        found.warnings,
+        difference.warnings,
         ["The second run is incomplete: 1 of 3 records are missing."]
     );
-    assert_eq!(found.lost(), 1);
+    assert_eq!(difference.lost(), 1);
     // A line that is damaged in the middle prevents the comparison.
     fs::write(&path, text.replacen("\"case\"", "\"cas\"", 1)).unwrap();
     let error = diff(&two.before(), &two.after(), None)
@@ -405,26 +408,26 @@ fn adapters_are_matched_by_name_or_alone_or_as_named() {
     let two = Two::new();
     run(&two.before(), &["gl:x"], Verdict::Pass);
     run(&two.after(), &["vulkan:y"], Verdict::Fail);
-    let found = two.diff();
-    assert_eq!(found.pairs[0].adapter, ["gl:x", "vulkan:y"]);
-    assert_eq!(found.count(ChangeDirection::Worse), 1);
-    assert!(table(&found, TableOptions::default()).contains("gl:x → vulkan:y"));
+    let difference = two.diff();
+    assert_eq!(difference.pairs[0].adapter, ["gl:x", "vulkan:y"]);
+    assert_eq!(difference.count(ChangeDirection::Worse), 1);
+    assert!(table(&difference, TableOptions::default()).contains("gl:x → vulkan:y"));
 
     run(&two.after(), &["vulkan:y", "gl:x", "gl:z"], Verdict::Fail);
-    let found = two.diff();
-    assert_eq!(found.pairs.len(), 1);
-    assert_eq!(found.pairs[0].adapter, ["gl:x", "gl:x"]);
-    assert_eq!(found.unpaired.len(), 2);
+    let difference = two.diff();
+    assert_eq!(difference.pairs.len(), 1);
+    assert_eq!(difference.pairs[0].adapter, ["gl:x", "gl:x"]);
+    assert_eq!(difference.unpaired.len(), 2);
     assert!(
-        found
+        difference
             .unpaired
             .iter()
             .all(|u| u.side == RunSide::After && u.records == 1)
     );
 
     let named = |names| diff(&two.before(), &two.after(), Some(names));
-    let found = named(["gl:x", "gl:z"]).unwrap();
-    assert_eq!(found.pairs[0].adapter, ["gl:x", "gl:z"]);
+    let difference = named(["gl:x", "gl:z"]).unwrap();
+    assert_eq!(difference.pairs[0].adapter, ["gl:x", "gl:z"]);
     let error = named(["gl:x", "gl:q"]).unwrap_err();
     assert!(matches!(error, ReportError::NoAdapter { .. }));
     assert!(
@@ -452,15 +455,15 @@ fn headers_stand_side_by_side() {
     new.adapters[0].limits.features.clear();
     record_all(&two.before(), &one_adapter(1), &[rich("a/b")]);
     record_all(&two.after(), &new, &[rich("a/b")]);
-    let found = two.diff();
-    let differ: Vec<_> = found
+    let difference = two.diff();
+    let differ: Vec<_> = difference
         .facts
         .iter()
         .filter(|f| f.differs())
         .map(|f| f.name)
         .collect();
     assert_eq!(differ, ["commit", "cores", "settings"]);
-    let differ: Vec<_> = found.pairs[0]
+    let differ: Vec<_> = difference.pairs[0]
         .facts
         .iter()
         .filter(|f| f.differs())
@@ -468,8 +471,8 @@ fn headers_stand_side_by_side() {
     let names: Vec<_> = differ.iter().map(|f| f.name).collect();
     assert_eq!(names, ["driver", "features that only one has"]);
     assert_eq!(differ[0].after, "Mesa 26.1");
-    assert!(found.warnings[0].contains("machines differ"));
-    let text = table(&found, TableOptions::default());
+    assert!(difference.warnings[0].contains("machines differ"));
+    let text = table(&difference, TableOptions::default());
     assert!(text.contains("commit: 0123abc → 9999999"), "{text}");
     assert!(
         text.contains("gl:a driver: Mesa 25.0.7 → Mesa 26.1"),
@@ -495,17 +498,17 @@ fn times_are_told_and_decide_nothing() {
     }
     record_all(&two.before(), &one_adapter(3), &records);
     record_all(&two.after(), &one_adapter(3), &slow);
-    let found = two.diff();
-    assert!(!found.worse() && found.changes.is_empty());
-    let time = &found.times[0];
+    let difference = two.diff();
+    assert!(!difference.worse() && difference.changes.is_empty());
+    let time = &difference.times[0];
     assert_eq!((time.area.as_str(), time.cases), ("a", 3));
     assert!((time.sum[1] / time.sum[0] - 3.0).abs() < 1e-9);
     assert!((time.median[0] - 0.01).abs() < 1e-12);
-    assert_eq!(found.methods.len(), 3);
-    let text = table(&found, TableOptions::default());
+    assert_eq!(difference.methods.len(), 3);
+    let text = table(&difference, TableOptions::default());
     assert!(text.contains("×3.00") && text.contains("×2.00"), "{text}");
     assert!(text.contains("Only `etalon bench`"), "{text}");
-    assert!(two.page(&found).contains("Only `etalon bench`"));
+    assert!(two.page(&difference).contains("Only `etalon bench`"));
 }
 
 #[test]
@@ -513,13 +516,17 @@ fn runs_of_methods_are_compared() {
     let two = Two::new();
     let records = synthetic::methods::write(&two.before());
     synthetic::methods::write(&two.after());
-    let found = two.diff();
-    assert!(found.changes.is_empty());
-    assert_eq!(found.compared(), records as u64);
-    assert!(found.methods.len() > 20, "{}", found.methods.len());
-    let text = table(&found, TableOptions::default());
+    let difference = two.diff();
+    assert!(difference.changes.is_empty());
+    assert_eq!(difference.compared(), records as u64);
+    assert!(
+        difference.methods.len() > 20,
+        "{}",
+        difference.methods.len()
+    );
+    let text = table(&difference, TableOptions::default());
     assert!(text.contains("that changed less"), "{text}");
-    assert!(two.page(&found).contains("Frame times of methods"));
+    assert!(two.page(&difference).contains("Frame times of methods"));
 }
 
 #[test]
@@ -587,12 +594,12 @@ fn hostile_names_stay_text() {
     record_all(&two.before(), &header, &[old, gone]);
     header.provenance.commit = Some(hostile.to_owned());
     record_all(&two.after(), &header, &[new]);
-    let found = two.diff();
-    assert_eq!(found.changes.len(), 1);
-    let page = two.page(&found);
+    let difference = two.diff();
+    assert_eq!(difference.changes.len(), 1);
+    let page = two.page(&difference);
     assert!(!page.contains("<script") && !page.contains("<i class='x'"));
     assert!(!page.contains("http://") && !page.contains("https://"));
-    let text = table(&found, TableOptions::default());
+    let text = table(&difference, TableOptions::default());
     assert!(!text.contains(['\u{1b}', '\u{7}']), "{text:?}");
 }
 
@@ -610,18 +617,25 @@ fn large_differences_stay_small() {
         }
         writer.append(&record).unwrap();
     }
-    let found = two.diff();
-    assert!(found.changes.len() > 1000, "{}", found.changes.len());
-    let sum: u64 = ChangeDirection::ALL.iter().map(|d| found.count(*d)).sum();
-    assert_eq!(sum, found.changes.len() as u64);
-    let order: Vec<_> = found.changes.iter().map(|c| c.direction).collect();
+    let difference = two.diff();
+    assert!(
+        difference.changes.len() > 1000,
+        "{}",
+        difference.changes.len()
+    );
+    let sum: u64 = ChangeDirection::ALL
+        .iter()
+        .map(|d| difference.count(*d))
+        .sum();
+    assert_eq!(sum, difference.changes.len() as u64);
+    let order: Vec<_> = difference.changes.iter().map(|c| c.direction).collect();
     assert!(order.is_sorted());
-    let page = two.page(&found);
+    let page = two.page(&difference);
     assert!(page.len() < 8 << 20, "{}", page.len());
-    let text = table(&found, TableOptions::default());
+    let text = table(&difference, TableOptions::default());
     assert!(text.lines().count() < 400, "{}", text.lines().count());
     for width in [40, 80] {
-        let narrow = table(&found, TableOptions { width, color: true });
+        let narrow = table(&difference, TableOptions { width, color: true });
         assert!(narrow.contains("\u{1b}[31m"));
     }
 }
@@ -676,15 +690,15 @@ proptest! {
         let unchanged = diff(&two.before(), &two.before(), None).unwrap();
         prop_assert!(unchanged.changes.is_empty() && unchanged.only.is_empty() && unchanged.unpaired.is_empty());
         prop_assert!(!unchanged.worse() && !unchanged.only_better());
-        let found = two.diff();
-        for pair in &found.pairs {
+        let difference = two.diff();
+        for pair in &difference.pairs {
             prop_assert_eq!(pair.compared, pair.same + pair.worse + pair.better + pair.other);
         }
         let better_back = diff(&two.after(), &two.before(), None).unwrap();
-        prop_assert_eq!(found.changes.len(), better_back.changes.len());
-        prop_assert_eq!(found.compared(), better_back.compared());
-        let text = table(&found, TableOptions::default());
+        prop_assert_eq!(difference.changes.len(), better_back.changes.len());
+        prop_assert_eq!(difference.compared(), better_back.compared());
+        let text = table(&difference, TableOptions::default());
         prop_assert!(text.ends_with('\n'));
-        prop_assert!(two.page(&found).contains("</html>"));
+        prop_assert!(two.page(&difference).contains("</html>"));
     }
 }

@@ -44,30 +44,33 @@ fn a_picture_has_no_distance_from_itself() {
         let [r, g, b] = expected.rgb[(y * SIZE[0] + x) as usize];
         vec![r, g, b, 0.3]
     };
-    let found = distance(&expected, &image(TextureFormat::Rgba32Float, value_at)).unwrap();
-    assert!(found.rmse < 1e-7 && found.max < 1e-7, "{found:?}");
+    let measured = distance(&expected, &image(TextureFormat::Rgba32Float, value_at)).unwrap();
+    assert!(measured.rmse < 1e-7 && measured.max < 1e-7, "{measured:?}");
     assert_eq!(
-        (found.flip, found.wrong, found.truth_error),
+        (measured.flip, measured.wrong, measured.truth_error),
         (0.0, 0.0, 0.0)
     );
     // 8 bits: at most half a code, uniformly distributed.
-    let found = distance(&expected, &image(TextureFormat::Rgba8Unorm, value_at)).unwrap();
+    let measured = distance(&expected, &image(TextureFormat::Rgba8Unorm, value_at)).unwrap();
     assert!(
-        found.max <= 0.5 / 255.0 + 1e-12 && found.rmse > 0.0,
-        "{found:?}"
+        measured.max <= 0.5 / 255.0 + 1e-12 && measured.rmse > 0.0,
+        "{measured:?}"
     );
-    assert_eq!((found.flip, found.wrong), (0.0, 0.0));
+    assert_eq!((measured.flip, measured.wrong), (0.0, 0.0));
 }
 
 #[test]
 fn black_is_as_far_from_white_as_can_be() {
-    let found = distance(
+    let measured = distance(
         &plain([1.0; 3]),
         &image(TextureFormat::Rgba8Unorm, |_, _| vec![0.0; 4]),
     );
-    let found = found.unwrap();
-    assert_eq!((found.rmse, found.max, found.wrong), (1.0, 1.0, 1.0));
-    assert!(found.flip > 0.9 && found.flip <= 1.0, "{found:?}");
+    let measured = measured.unwrap();
+    assert_eq!(
+        (measured.rmse, measured.max, measured.wrong),
+        (1.0, 1.0, 1.0)
+    );
+    assert!(measured.flip > 0.9 && measured.flip <= 1.0, "{measured:?}");
 }
 
 #[test]
@@ -78,15 +81,15 @@ fn differences_are_counted_texel_by_texel() {
         (4, 2) => vec![0.2, 0.2 + 2.0 / 255.0, 0.2, 1.0],
         _ => vec![0.2, 0.2, 0.2, 0.0],
     });
-    let found = distance(&plain([0.2; 3]), &picture).unwrap();
+    let measured = distance(&plain([0.2; 3]), &picture).unwrap();
     let squares: f64 = 0.4 * 0.4 + (2.0 / 255.0_f64).powi(2);
     assert!(
-        (found.rmse - (squares / 384.0).sqrt()).abs() < 1e-12,
-        "{found:?}"
+        (measured.rmse - (squares / 384.0).sqrt()).abs() < 1e-12,
+        "{measured:?}"
     );
-    assert!((found.max - 0.4).abs() < 1e-12);
-    assert_eq!(found.wrong, 1.0 / 128.0);
-    assert!(found.flip > 0.0 && found.flip < 0.1, "{found:?}");
+    assert!((measured.max - 0.4).abs() < 1e-12);
+    assert_eq!(measured.wrong, 1.0 / 128.0);
+    assert!(measured.flip > 0.0 && measured.flip < 0.1, "{measured:?}");
 }
 
 #[test]
@@ -94,20 +97,23 @@ fn codes_stand_for_linear_values_and_missing_channels_for_nothing() {
     let srgb = image(TextureFormat::Rgba8UnormSrgb, |_, _| {
         vec![0.5, 0.25, 0.125, 1.0]
     });
-    let found = distance(&plain([0.5, 0.25, 0.125]), &srgb).unwrap();
-    assert!(found.max < 0.005, "{found:?}");
+    let measured = distance(&plain([0.5, 0.25, 0.125]), &srgb).unwrap();
+    assert!(measured.max < 0.005, "{measured:?}");
     let red = image(TextureFormat::R8Unorm, |_, _| vec![1.0]);
-    let found = distance(&plain([1.0, 0.0, 0.0]), &red).unwrap();
+    let measured = distance(&plain([1.0, 0.0, 0.0]), &red).unwrap();
     assert_eq!(
-        (found.rmse, found.max, found.flip, found.wrong),
+        (measured.rmse, measured.max, measured.flip, measured.wrong),
         (0.0, 0.0, 0.0, 0.0)
     );
-    let found = distance(&plain([1.0, 0.5, 0.0]), &red).unwrap();
-    assert_eq!((found.max, found.wrong), (0.5, 1.0));
+    let measured = distance(&plain([1.0, 0.5, 0.0]), &red).unwrap();
+    assert_eq!((measured.max, measured.wrong), (0.5, 1.0));
     // Values beyond 1 are not clamped, except for FLIP.
     let bright = image(TextureFormat::Rgba16Float, |_, _| vec![3.0, 1.0, 1.0, 1.0]);
-    let found = distance(&plain([1.0; 3]), &bright).unwrap();
-    assert_eq!((found.max, found.flip, found.wrong), (2.0, 0.0, 1.0));
+    let measured = distance(&plain([1.0; 3]), &bright).unwrap();
+    assert_eq!(
+        (measured.max, measured.flip, measured.wrong),
+        (2.0, 0.0, 1.0)
+    );
 }
 
 #[test]
@@ -119,10 +125,10 @@ fn values_that_are_not_finite_differ_by_one() {
     ] {
         let mut picture = image(TextureFormat::Rgba32Float, |_, _| vec![1.0; 4]);
         picture.codes[4 * 40 + 1] = bits;
-        let found = distance(&plain([1.0; 3]), &picture).unwrap();
-        assert_eq!((found.max, found.wrong), (1.0, 1.0 / 128.0));
-        assert!((found.rmse - (1.0 / 384.0_f64).sqrt()).abs() < 1e-12);
-        assert_eq!(found.flip > 0.0, flips, "{found:?}");
+        let measured = distance(&plain([1.0; 3]), &picture).unwrap();
+        assert_eq!((measured.max, measured.wrong), (1.0, 1.0 / 128.0));
+        assert!((measured.rmse - (1.0 / 384.0_f64).sqrt()).abs() < 1e-12);
+        assert_eq!(measured.flip > 0.0, flips, "{measured:?}");
     }
 }
 
@@ -179,8 +185,8 @@ fn two_known_pictures_have_the_flip_that_pages_must_find() {
         let [r, g, b] = picture(x, y).map(|c| f64::from(c) / 255.0);
         vec![r, g, b, 1.0]
     });
-    let found = distance(&expected, &drawn).unwrap();
-    assert!((found.flip - 0.7392).abs() < 5e-5, "{}", found.flip);
+    let measured = distance(&expected, &drawn).unwrap();
+    assert!((measured.flip - 0.7392).abs() < 5e-5, "{}", measured.flip);
 }
 
 #[test]
@@ -223,10 +229,10 @@ fn flip_is_that_of_its_authors() {
             codes: picture.iter().map(|code| u32::from(*code)).collect(),
             ..image(TextureFormat::Rgba8Unorm, |_, _| vec![0.0; 4])
         };
-        let found = distance(&truth, &drawn).unwrap().flip;
+        let measured = distance(&truth, &drawn).unwrap().flip;
         assert!(
-            (found - expected).abs() < 1e-5,
-            "{size:?}: {found}, {expected}"
+            (measured - expected).abs() < 1e-5,
+            "{size:?}: {measured}, {expected}"
         );
     }
 }
