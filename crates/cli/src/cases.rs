@@ -3,11 +3,11 @@
 use crate::check::check;
 use crate::failure::Failure;
 use crate::flags::CaseArguments;
-use crate::near::did_you_mean;
 use crate::output::say;
 use crate::processors::processors;
 use etalon_case::{Case, CaseError, CaseFile, CaseRef, Library, Profile};
 use etalon_frame::threads::each;
+use etalon_glob::did_you_mean;
 use std::collections::{BTreeSet, HashSet};
 use std::path::PathBuf;
 

@@ -32,7 +32,6 @@ mod interruption;
 mod known_look;
 mod match_text;
 mod named_files;
-mod near;
 mod news;
 mod out_folder;
 mod output;

@@ -12,13 +12,17 @@
 //! `**` is the same as `*`, except that `**/` as a whole part of a path also matches nothing.
 //!
 //! Matching takes time in proportion to the lengths of glob and text, whatever the glob.
+//!
+//! [`did_you_mean`] suggests names for one that matches nothing.
 
 mod glob;
 mod index;
 mod matching;
+mod near;
 mod parsing;
 mod step;
 
 pub use glob::{Glob, escape};
 pub use index::GlobIndex;
+pub use near::did_you_mean;
 pub use parsing::GlobError;

@@ -8,9 +8,9 @@ use crate::counted::counted;
 use crate::failure::Failure;
 use crate::flags::OutputFormat;
 use crate::history_file::{DatabaseArguments, OnlyArguments, failure};
-use crate::near::did_you_mean;
 use crate::output::{print, print_json};
 use clap::Args;
+use etalon_glob::did_you_mean;
 use etalon_history::{
     History, HistoryError, Labels, RunId, TriageEntry, TriageStates, TriageSubject, format_time,
 };

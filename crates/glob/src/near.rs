@@ -4,7 +4,7 @@
 const PROPOSED: usize = 3;
 
 /// Returns `; did you mean …?` with the nearest known words; empty if no word is near.
-pub(crate) fn did_you_mean<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+pub fn did_you_mean<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> String {
     let most = (word.chars().count() / 3).clamp(1, 8);
     let distances = known
         .into_iter()
