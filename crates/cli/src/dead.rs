@@ -50,7 +50,7 @@ pub(crate) fn of_run(
 
 /// Returns the names of all adapters that are described.
 fn names(adapter_file: Option<&Path>) -> Result<Vec<String>, Failure> {
-    let mut names = described_names(adapter_file)?;
+    let mut names = described_names(adapter_file).map_err(Failure::usage)?;
     names.extend(hardware_names());
     Ok(names)
 }

@@ -1,7 +1,8 @@
 //! A case that fails on an adapter, as a user names both.
 
-use crate::adapters::{Query, discover, refuse_absent};
+use crate::adapters::Query;
 use crate::cases::{find, library};
+use crate::discovery::{discover, refuse_absent};
 use crate::failure::{Failure, INCOMPLETE, NOTHING, UNEXPECTED, USAGE};
 use crate::flags::{AdapterFileArguments, OutputFormat, parse_timeout};
 use clap::Args;

@@ -1,7 +1,8 @@
 //! `etalon worker`, the child process: it opens one backend, or lists the devices of a backend.
 
-use crate::adapters::{BackendName, FROM_INPUT, Faulty, HardwareDevice, Open};
+use crate::adapters::{BackendName, FROM_INPUT, HardwareDevice, Open, guard};
 use crate::failure::Failure;
+use crate::faulty::Faulty;
 use clap::Args;
 use etalon_backend::{Backend, Unavailable};
 use etalon_browser::PageSource;
@@ -90,17 +91,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(0),
         served => Ok(served.map(|()| 0)?),
     }
-}
-
-/// Returns the command of a guard, without the words of its program.
-pub(crate) fn guard(input: bool) -> io::Result<Command> {
-    let mut guard = Command::new(std::env::current_exe()?);
-    guard.arg("worker");
-    if !input {
-        guard.arg("--no-input");
-    }
-    guard.arg("--guard");
-    Ok(guard)
 }
 
 /// Guards a program, and ends as it ends.

@@ -4,14 +4,14 @@ use super::backend_name::BackendName;
 use super::cache;
 use super::description::{Description, Resolved, Unresolved};
 use super::devices::HardwareDevice;
+use super::error::AdapterError;
+use super::guard::guard;
 use super::open::{FROM_INPUT, Open};
 use super::origin::Origin;
 use super::query::Query;
 use super::runtime_folder::default_runtime_folder;
-use crate::output::say;
-use crate::worker;
-use etalon_backend::Fault;
-use etalon_frame::{AdapterInfo, Api};
+use etalon_backend::{AdapterInfo, Fault};
+use etalon_frame::Api;
 use etalon_record::AbsentAdapter;
 use etalon_runner::{Launch, Launcher, START_TIMEOUT, StartError, Worker};
 use std::path::{Path, PathBuf};
@@ -54,7 +54,7 @@ pub(super) enum NoStart {
     /// A built-in entry needs a variable that is not set.
     NotEnabled(AbsentAdapter),
     /// The user's file describes something that does not exist.
-    Wrong(String),
+    Wrong(AdapterError),
 }
 
 fn open(name: &str, backend: BackendName) -> Open {
@@ -131,13 +131,17 @@ impl Candidate {
     }
 
     /// Starts the worker and checks that the driver is the one described.
-    pub(super) fn start(&self, query: &Query<'_>) -> Result<Started, NoStart> {
+    pub(super) fn start(
+        &self,
+        query: &Query<'_>,
+        invite: &dyn Fn(&str, &str),
+    ) -> Result<Started, NoStart> {
         let resolved = self.resolve()?;
         let launch = self
             .launch(&resolved, query)
             .map_err(|reason| NoStart::Absent(self.absent(reason, self.remedy())))?;
         if let Some(listen) = &resolved.listen {
-            say!("{}: {}", self.name(), listen.invitation());
+            invite(self.name(), &listen.invitation());
         }
         // A driver that fails quickly gets a second attempt; one that hangs does not.
         let begun = Instant::now();
@@ -163,7 +167,11 @@ impl Candidate {
                     Self::Described(_, Some(file)) => file.display().to_string(),
                     _ => "the built-in adapters.json".to_owned(),
                 };
-                NoStart::Wrong(format!("{file}: entry `{}`: {reason}", self.name()))
+                NoStart::Wrong(AdapterError::UnusableEntry {
+                    file,
+                    name: self.name().to_owned(),
+                    reason,
+                })
             }
             StartError::Broken(reason) => {
                 let backend = self.open(&resolved, query).backend;
@@ -209,11 +217,11 @@ impl Candidate {
                 (_, remedy) => remedy.to_owned(),
             };
             match (file, &why) {
-                (Some(file), _) => NoStart::Wrong(format!(
-                    "{}: entry `{}`: {why}; {remedy}",
-                    file.display(),
-                    description.name
-                )),
+                (Some(file), _) => NoStart::Wrong(AdapterError::UnusableEntry {
+                    file: file.display().to_string(),
+                    name: description.name.clone(),
+                    reason: format!("{why}; {remedy}"),
+                }),
                 (None, Unresolved::Variable(_)) => NoStart::NotEnabled(self.absent(why, &remedy)),
                 (None, _) => NoStart::Absent(self.absent(why, &remedy)),
             }
@@ -317,7 +325,7 @@ impl Candidate {
 
 /// Returns the words of a launcher behind those of a guard, which ends what the launcher starts.
 fn guarded(launcher: &[String]) -> Vec<String> {
-    let guard = worker::guard(true).ok().filter(|_| cfg!(unix));
+    let guard = guard(true).ok().filter(|_| cfg!(unix));
     let words = guard.iter().flat_map(|guard| {
         let program = std::iter::once(guard.get_program());
         program.chain(guard.get_args())

@@ -1,9 +1,9 @@
 //! Files that describe adapters, built in or given by `--adapters`.
 
 use super::backend_name::BackendName;
+use super::error::AdapterError;
 use super::listen::Listen;
 use super::names::{MAX_NAME, is_name};
-use crate::failure::Failure;
 use etalon_backend::Fault;
 use etalon_browser::Browser;
 use etalon_case::parse_json;
@@ -122,7 +122,7 @@ pub(super) enum Unresolved {
 }
 
 /// Returns the entries of the built-in file.
-pub(super) fn built_in() -> Result<Vec<Description>, Failure> {
+pub(super) fn built_in() -> Result<Vec<Description>, AdapterError> {
     parse(
         include_str!("../../adapters.json"),
         "the built-in adapters.json",
@@ -130,7 +130,7 @@ pub(super) fn built_in() -> Result<Vec<Description>, Failure> {
 }
 
 /// Returns the names of the adapters that the built-in file and another one describe.
-pub(crate) fn described_names(file: Option<&Path>) -> Result<Vec<String>, Failure> {
+pub(crate) fn described_names(file: Option<&Path>) -> Result<Vec<String>, AdapterError> {
     let mut descriptions = built_in()?;
     if let Some(file) = file {
         descriptions.append(&mut read(file)?);
@@ -145,7 +145,7 @@ pub(crate) fn described_names(file: Option<&Path>) -> Result<Vec<String>, Failur
 pub(crate) fn releases_of(
     file: Option<&Path>,
     line: &str,
-) -> Result<Vec<(String, Release)>, Failure> {
+) -> Result<Vec<(String, Release)>, AdapterError> {
     let entries = match file {
         Some(file) => read(file)?,
         None => built_in()?,
@@ -162,28 +162,24 @@ pub(crate) fn releases_of(
         .collect();
     releases.sort_by_key(|(_, release)| version_key(&release.version));
     if let Some(pair) = releases.windows(2).find(|pair| pair[0].1 == pair[1].1) {
-        return Err(Failure::usage(format!(
-            "{what}: `{}` and `{}` are both version {} of {line}; give one of them a line of its own",
-            pair[0].0, pair[1].0, pair[0].1.version
-        )));
+        return Err(AdapterError::SameVersion {
+            file: what,
+            names: [pair[0].0.clone(), pair[1].0.clone()],
+            version: pair[0].1.version.clone(),
+            line: line.to_owned(),
+        });
     }
     if releases.len() < 2 {
-        let lines: BTreeSet<&str> = described_releases
-            .iter()
-            .map(|(_, r)| r.line.as_str())
+        let lines: BTreeSet<String> = described_releases
+            .into_iter()
+            .map(|(_, release)| release.line)
             .collect();
-        let known = match lines.len() {
-            0 => "none; --adapters takes a file whose entries have `line` and `version`".to_owned(),
-            _ => lines.into_iter().collect::<Vec<_>>().join(", "),
-        };
-        return Err(Failure::usage(format!(
-            "{what}: {} of the line `{}`, and a search needs two; its lines are: {known}",
-            match releases.len() {
-                0 => "no release",
-                _ => "one release",
-            },
-            line.escape_default()
-        )));
+        return Err(AdapterError::TooFewReleases {
+            file: what,
+            line: line.escape_default().to_string(),
+            releases: releases.len(),
+            lines: lines.into_iter().collect(),
+        });
     }
     Ok(releases)
 }
@@ -195,12 +191,11 @@ fn version_key(version: &str) -> Vec<u64> {
 }
 
 /// Reads the entries of a file.
-pub(super) fn read(path: &Path) -> Result<Vec<Description>, Failure> {
+pub(super) fn read(path: &Path) -> Result<Vec<Description>, AdapterError> {
     let what = path.display().to_string();
-    let unreadable = |e: std::io::Error| {
-        Failure::usage(format!(
-            "{what}: {e}; --adapters takes a JSON file with the format of crates/cli/adapters.json"
-        ))
+    let unreadable = |source| AdapterError::Unreadable {
+        file: what.clone(),
+        source,
     };
     let file = File::open(path).map_err(unreadable)?;
     let mut bytes = Vec::new();
@@ -208,40 +203,46 @@ pub(super) fn read(path: &Path) -> Result<Vec<Description>, Failure> {
         .read_to_end(&mut bytes)
         .map_err(unreadable)?;
     if bytes.len() as u64 > MAX_BYTES {
-        return Err(Failure::usage(format!("{what}: longer than 1 MiB")));
+        return Err(AdapterError::TooLong { file: what });
     }
-    let text =
-        String::from_utf8(bytes).map_err(|e| Failure::usage(format!("{what}: not UTF-8: {e}")))?;
+    let text = String::from_utf8(bytes).map_err(|source| AdapterError::NotText {
+        file: what.clone(),
+        source,
+    })?;
     parse(&text, &what)
 }
 
 /// Parses entries from a text; `what` names the text in messages.
-fn parse(text: &str, what: &str) -> Result<Vec<Description>, Failure> {
+fn parse(text: &str, what: &str) -> Result<Vec<Description>, AdapterError> {
     let text = without_mark(text);
-    let wrong = |e: serde_json::Error| {
-        Failure::usage(format!(
-            "{what}: {e}; a file of adapters is a JSON array of objects with name and backend"
-        ))
+    let wrong = |source| AdapterError::NotAList {
+        file: what.to_owned(),
+        source,
     };
     let entries: Vec<Description> = serde_json::from_str(text).map_err(wrong)?;
     // serde would silently use the last value of a repeated key; this parser refuses it.
     parse_json(text).map_err(wrong)?;
     if entries.len() > MAX_ENTRIES {
-        return Err(Failure::usage(format!(
-            "{what}: {} entries, at most {MAX_ENTRIES} are allowed; split the file",
-            entries.len()
-        )));
+        return Err(AdapterError::TooManyEntries {
+            file: what.to_owned(),
+            entries: entries.len(),
+            limit: MAX_ENTRIES,
+        });
     }
     let mut names = BTreeSet::new();
     for (index, entry) in entries.iter().enumerate() {
-        let refused = |why: &str| {
+        let refused = |reason: String| AdapterError::WrongEntry {
+            file: what.to_owned(),
+            number: index + 1,
             // Control characters must not reach the terminal.
-            let name = entry.name.escape_default();
-            Failure::usage(format!("{what}: entry {} (`{name}`): {why}", index + 1))
+            name: entry.name.escape_default().to_string(),
+            reason,
         };
-        entry.check().map_err(|why| refused(&why))?;
+        entry.check().map_err(refused)?;
         if !names.insert(entry.name.as_str()) {
-            return Err(refused("an entry before it has the same name; rename one"));
+            return Err(refused(
+                "an entry before it has the same name; rename one".to_owned(),
+            ));
         }
     }
     Ok(entries)
@@ -536,7 +537,6 @@ fn is_variable(name: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::failure::USAGE;
 
     fn variable(name: &str) -> Option<String> {
         match name {
@@ -657,14 +657,7 @@ mod tests {
             ),
             (&long, "at most 64"),
         ] {
-            let error = parse(text, "mine.json").map(|_| ()).unwrap_err();
-            let Failure {
-                code: USAGE,
-                message,
-            } = error
-            else {
-                panic!("{text}: {error:?}");
-            };
+            let message = parse(text, "mine.json").unwrap_err().to_string();
             assert!(message.contains(word), "{text}: {message}");
             assert!(message.contains("mine.json"), "{message}");
         }

@@ -5,11 +5,9 @@ use super::backend_name::BackendName;
 use super::candidate::{Candidate, NoStart, Started};
 use super::description;
 use super::devices::{self, BACKENDS, HardwareDevice, enumerate};
+use super::error::AdapterError;
 use super::origin::Origin;
 use super::query::Query;
-use crate::failure::Failure;
-use crate::interruption::Opening;
-use crate::output::say;
 use etalon_backend::Fault;
 use etalon_frame::threads::each;
 use etalon_glob::did_you_mean;
@@ -32,12 +30,15 @@ pub(crate) struct Adapters {
     pub(crate) origins: BTreeMap<String, Origin>,
 }
 
-/// Finds adapters and starts their workers.
+/// Finds adapters and starts their workers. If somebody must open an adapter's page in a browser, `invite` gets the
+/// adapter's name and the invitation.
 ///
 /// # Errors
 /// If a name is unknown, or the user's file is invalid or describes something that does not exist.
-pub(crate) fn discover(query: &Query<'_>) -> Result<Adapters, Failure> {
-    let _opening = OpeningGuard::begin();
+pub(crate) fn discover(
+    query: &Query<'_>,
+    invite: &(dyn Fn(&str, &str) + Sync),
+) -> Result<Adapters, AdapterError> {
     let mut adapters = Adapters {
         ready: Vec::new(),
         absent: Vec::new(),
@@ -47,8 +48,9 @@ pub(crate) fn discover(query: &Query<'_>) -> Result<Adapters, Failure> {
     };
     let chosen = chosen(query, &mut adapters.absent)?;
     // In parallel: most of the time goes into loading drivers.
-    let started: Vec<Result<Started, NoStart>> =
-        each(chosen.len(), &chosen, |candidate| candidate.start(query));
+    let started: Vec<Result<Started, NoStart>> = each(chosen.len(), &chosen, |candidate| {
+        candidate.start(query, invite)
+    });
     for result in started {
         match result {
             Ok(started) => {
@@ -66,7 +68,7 @@ pub(crate) fn discover(query: &Query<'_>) -> Result<Adapters, Failure> {
                 adapters.not_enabled.push(absent);
             }
             Err(NoStart::NotEnabled(absent)) => adapters.absent.push(absent),
-            Err(NoStart::Wrong(message)) => return Err(Failure::usage(message)),
+            Err(NoStart::Wrong(error)) => return Err(error),
         }
     }
     Ok(adapters)
@@ -74,7 +76,10 @@ pub(crate) fn discover(query: &Query<'_>) -> Result<Adapters, Failure> {
 
 /// Returns the adapters to start. Enumerates devices only if no name is given, or if a name is missing from
 /// the files.
-fn chosen(query: &Query<'_>, absent: &mut Vec<AbsentAdapter>) -> Result<Vec<Candidate>, Failure> {
+fn chosen(
+    query: &Query<'_>,
+    absent: &mut Vec<AbsentAdapter>,
+) -> Result<Vec<Candidate>, AdapterError> {
     let mut candidates = described(query.file)?;
     let is_known =
         |candidates: &[Candidate], name: &str| candidates.iter().any(|c| c.name() == name);
@@ -99,12 +104,11 @@ fn chosen(query: &Query<'_>, absent: &mut Vec<AbsentAdapter>) -> Result<Vec<Cand
     for name in query.names {
         if !is_known(&candidates, name) {
             let known: Vec<&str> = candidates.iter().map(Candidate::name).collect();
-            return Err(Failure::usage(format!(
-                "there is no adapter `{}`{}; known are: {}",
-                name.escape_default(),
-                did_you_mean(name, known.iter().copied()),
-                known.join(", ")
-            )));
+            return Err(AdapterError::Unknown {
+                name: name.escape_default().to_string(),
+                suggestion: did_you_mean(name, known.iter().copied()),
+                known: known.into_iter().map(str::to_owned).collect(),
+            });
         }
     }
     if !query.names.is_empty() {
@@ -115,7 +119,7 @@ fn chosen(query: &Query<'_>, absent: &mut Vec<AbsentAdapter>) -> Result<Vec<Cand
 }
 
 /// Returns the built-in descriptions and the user's, which replace built-in ones with the same name.
-fn described(file: Option<&Path>) -> Result<Vec<Candidate>, Failure> {
+fn described(file: Option<&Path>) -> Result<Vec<Candidate>, AdapterError> {
     let built_in = description::built_in()?;
     let mut candidates: Vec<Candidate> = built_in
         .into_iter()
@@ -159,28 +163,4 @@ fn hardware(taken: &BTreeSet<String>, absent: &mut Vec<AbsentAdapter>) -> Vec<Ca
         }
     }
     ready
-}
-
-/// Prints the adapters that are absent.
-///
-/// # Errors
-/// If an adapter that was named is absent.
-pub(crate) fn refuse_absent(named: &[String], absent: &[AbsentAdapter]) -> Result<(), Failure> {
-    if !named.is_empty()
-        && let Some(absent) = absent.first()
-    {
-        return Err(Failure::usage(format!(
-            "adapter {} cannot be used: {}; {}",
-            absent.name, absent.reason, absent.remedy
-        )));
-    }
-    for absent in absent {
-        say!(
-            "unavailable: {}: {}; {}",
-            absent.name,
-            absent.reason,
-            absent.remedy
-        );
-    }
-    Ok(())
 }

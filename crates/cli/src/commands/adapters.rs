@@ -1,6 +1,7 @@
 //! `etalon adapters`.
 
-use crate::adapters::{Origin, Query, discover};
+use crate::adapters::{Origin, Query};
+use crate::discovery::discover;
 use crate::failure::Failure;
 use crate::flags::{AdapterFileArguments, OutputFormat};
 use crate::output::{print, print_json};

@@ -1,7 +1,8 @@
 //! `etalon bench`.
 
-use crate::adapters::{Adapters, Query, cache, discover, refuse_absent};
+use crate::adapters::{Adapters, Query, cache};
 use crate::cases::chosen;
+use crate::discovery::{discover, refuse_absent};
 use crate::failure::{Failure, UNEXPECTED};
 use crate::flags::{AdapterFileArguments, CaseArguments, OutputFormat, parse_timeout};
 use crate::out_folder::Out;

@@ -1,7 +1,8 @@
 //! `etalon bisect`.
 
-use crate::adapters::{Adapters, Query, discover, releases_of};
+use crate::adapters::{Adapters, Query, releases_of};
 use crate::cases::{chosen, round_trips};
+use crate::discovery::discover;
 use crate::failure::{Failure, INCOMPLETE};
 use crate::flags::{CaseArguments, CaseProfile, OutputFormat};
 use crate::interruption::listen;
@@ -77,7 +78,8 @@ struct ReleaseSearch<'a> {
 
 /// Draws cases with releases of one driver until it is known which releases draw each case wrong.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let mut releases = releases_of(arguments.adapter_file.as_deref(), &arguments.line)?;
+    let mut releases =
+        releases_of(arguments.adapter_file.as_deref(), &arguments.line).map_err(Failure::usage)?;
     let names: Vec<String> = releases.iter().map(|(name, _)| name.clone()).collect();
     let cases = selected(arguments)?;
     let claim = Out {

@@ -1,7 +1,8 @@
 //! `etalon bundle`.
 
-use crate::adapters::{Query, discover, releases_of};
+use crate::adapters::{Query, releases_of};
 use crate::built_program::{ProgramRun, built_and_run};
+use crate::discovery::discover;
 use crate::expectations;
 use crate::failure::{Failure, NOTHING, UNEXPECTED};
 use crate::flags::OutputFormat;
@@ -573,7 +574,7 @@ impl Bundled<'_> {
     /// Returns the newest release of a line, and whether it draws the case wrong.
     fn newest(&self, line: &str, driver: ReadyDriver<'_>) -> Result<(String, bool), Failure> {
         let file = self.arguments.failing.adapter_file();
-        let mut releases = releases_of(file, line)?;
+        let mut releases = releases_of(file, line).map_err(Failure::usage)?;
         let Some((name, release)) = releases.pop() else {
             return Err(Failure::usage(format!("line {line} has no release")));
         };

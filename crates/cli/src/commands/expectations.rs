@@ -1,7 +1,8 @@
 //! `etalon expectations`.
 
-use crate::adapters::{Query, discover, refuse_absent};
+use crate::adapters::Query;
 use crate::cases::ids;
+use crate::discovery::{discover, refuse_absent};
 use crate::expectations::{ExpectArguments, write};
 use crate::failure::Failure;
 use crate::flags::AdapterFileArguments;

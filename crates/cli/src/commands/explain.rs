@@ -1,7 +1,8 @@
 //! `etalon explain`.
 
-use crate::adapters::{Query, discover, refuse_absent};
+use crate::adapters::Query;
 use crate::cases::{find, library};
+use crate::discovery::{discover, refuse_absent};
 use crate::failure::{Failure, UNEXPECTED};
 use crate::flags::AdapterFileArguments;
 use crate::output::print;

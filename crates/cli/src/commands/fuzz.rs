@@ -3,9 +3,10 @@
 //! Scenes are made, drawn and judged in batches. Failing scenes are reduced in order, so that the groups do
 //! not depend on the number of workers.
 
-use crate::adapters::{Query, discover, refuse_absent};
+use crate::adapters::Query;
 use crate::cases::library;
 use crate::counted::counted;
+use crate::discovery::{discover, refuse_absent};
 use crate::expectations::ExpectArguments;
 use crate::failure::{Failure, INCOMPLETE, UNEXPECTED};
 use crate::failure_groups::{FailingScenes, FailureGroup};

@@ -1,9 +1,10 @@
 //! `etalon run`.
 
-use crate::adapters::{Adapters, Query, cache, discover, refuse_absent, take_unstarted};
+use crate::adapters::{Adapters, Query, cache, take_unstarted};
 use crate::blessing::{bless, to_bless};
 use crate::cases::{chosen, leave_measured, left_out, library, round_trips};
-use crate::catalogue::{CataloguePictures, catalogue};
+use crate::catalogue::{Pictures, catalogue};
+use crate::discovery::{discover, refuse_absent};
 use crate::expectations::{ExpectArguments, counting};
 use crate::failure::{Failure, IMPROVED, INCOMPLETE, UNEXPECTED};
 use crate::flags::{AdapterFileArguments, CaseArguments, OutputFormat, parse_timeout};
