@@ -1,8 +1,8 @@
 //! Builds and runs the program of a bundle, as the recipient of the bundle will.
 
-use crate::adapters::guard;
 use crate::failure::Failure;
 use crate::output::say;
+use etalon_adapters::guard;
 use etalon_bundle::{File, Language, Program};
 use etalon_process::ProcessGroup;
 use etalon_runner::Launch;

@@ -1,9 +1,9 @@
 //! The dead expectations of a run.
 
-use crate::adapters::{described_names, hardware_names};
 use crate::cases::ids_of;
 use crate::failure::Failure;
 use crate::output::say;
+use etalon_adapters::{described_names, hardware_names};
 use etalon_case::Library;
 use etalon_findings::is_built_in;
 use etalon_record::beside::WORKER_END;

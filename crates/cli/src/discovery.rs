@@ -1,9 +1,9 @@
 //! Discovery for commands: prints what the user must know of adapters, and lets an interruption end the process.
 
-use crate::adapters::{self, Adapters, Query};
 use crate::failure::Failure;
 use crate::interruption::Opening;
 use crate::output::say;
+use etalon_adapters::{Adapters, Query};
 use etalon_record::AbsentAdapter;
 
 /// Finds adapters and starts their workers.
@@ -13,7 +13,7 @@ use etalon_record::AbsentAdapter;
 pub(crate) fn discover(query: &Query<'_>) -> Result<Adapters, Failure> {
     let _opening = Opening::begin();
     let invite = |adapter: &str, invitation: &str| say!("{adapter}: {invitation}");
-    adapters::discover(query, &invite).map_err(Failure::usage)
+    etalon_adapters::discover(query, &invite).map_err(Failure::usage)
 }
 
 /// Prints the adapters that are absent.

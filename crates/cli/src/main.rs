@@ -11,7 +11,6 @@
     expect(clippy::unwrap_used, reason = "a test that panics has failed")
 )]
 
-mod adapters;
 mod blessing;
 mod built_program;
 mod cases;

@@ -1,11 +1,11 @@
 //! A case that fails on an adapter, as a user names both.
 
-use crate::adapters::Query;
 use crate::cases::{find, library};
 use crate::discovery::{discover, refuse_absent};
 use crate::failure::{Failure, INCOMPLETE, NOTHING, UNEXPECTED, USAGE};
 use crate::flags::{AdapterFileArguments, OutputFormat, parse_timeout};
 use clap::Args;
+use etalon_adapters::Query;
 use etalon_case::build;
 use etalon_explore::Candidate;
 use etalon_report::message;

@@ -1,9 +1,9 @@
 //! `etalon worker`, the child process: it opens one backend, or lists the devices of a backend.
 
-use crate::adapters::{BackendName, FROM_INPUT, HardwareDevice, Open, guard};
 use crate::failure::Failure;
 use crate::faulty::Faulty;
 use clap::Args;
+use etalon_adapters::{BackendName, FROM_INPUT, HardwareDevice, Open, guard};
 use etalon_backend::{Backend, Unavailable};
 use etalon_browser::PageSource;
 use etalon_cpu::CpuBackend;

@@ -9,7 +9,7 @@ use std::io::{BufReader, stdin};
 use std::process::Command;
 
 /// The browsers as `etalon` starts them.
-const ADAPTERS: &str = include_str!("../../../cli/adapters.json");
+const ADAPTERS: &str = include_str!("../../../adapters/adapters.json");
 
 /// The software driver below Firefox.
 const LAVAPIPE: &str = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json";

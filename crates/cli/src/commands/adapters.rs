@@ -1,11 +1,11 @@
 //! `etalon adapters`.
 
-use crate::adapters::{Origin, Query};
 use crate::discovery::discover;
 use crate::failure::Failure;
 use crate::flags::{AdapterFileArguments, OutputFormat};
 use crate::output::{print, print_json};
 use clap::Args;
+use etalon_adapters::{Origin, Query};
 use etalon_frame::Api;
 use etalon_record::{AbsentAdapter, AdapterRecord};
 use etalon_report::api_name;

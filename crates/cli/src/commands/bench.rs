@@ -1,6 +1,5 @@
 //! `etalon bench`.
 
-use crate::adapters::{Adapters, Query, cache};
 use crate::cases::chosen;
 use crate::discovery::{discover, refuse_absent};
 use crate::failure::{Failure, UNEXPECTED};
@@ -10,6 +9,7 @@ use crate::output::{print_json, say, summarize, table_options};
 use crate::progress::progress;
 use crate::{expectations, provenance, shard};
 use clap::Args;
+use etalon_adapters::{Adapters, Query, cache};
 use etalon_case::Case;
 use etalon_record::{
     BENCH_FORMAT, Bench, BenchHeader, BenchSettings, FolderKind, ProcessorLimits, Shard, beside,

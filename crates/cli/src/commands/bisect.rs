@@ -1,6 +1,5 @@
 //! `etalon bisect`.
 
-use crate::adapters::{Adapters, Query, releases_of};
 use crate::cases::{chosen, round_trips};
 use crate::discovery::discover;
 use crate::failure::{Failure, INCOMPLETE};
@@ -12,6 +11,7 @@ use crate::processors::processors;
 use crate::progress::progress;
 use crate::{expectations, provenance};
 use clap::Args;
+use etalon_adapters::{Adapters, Query, releases_of};
 use etalon_case::Case;
 use etalon_record::{
     AbsentAdapter, AdapterRecord, CaseVersions, Expectation, Expectations, FolderKind, Header,

@@ -1,6 +1,5 @@
 //! `etalon bundle`.
 
-use crate::adapters::{Query, releases_of};
 use crate::built_program::{ProgramRun, built_and_run};
 use crate::discovery::discover;
 use crate::expectations;
@@ -16,7 +15,8 @@ use crate::reducing::{Failing, FailingArguments, started};
 use crate::saved_recording::saved_recording;
 use crate::saved_run::UnpackArguments;
 use clap::Args;
-use etalon_backend::Recording;
+use etalon_adapters::{Query, releases_of};
+use etalon_backend::{AdapterInfo, Recording};
 use etalon_bundle::{
     BadReleases, Checks, Due, DueChannel, DueCounter, DueTexel, File, Head, Language, Program,
     Report, Trim, Written, WrongValue,

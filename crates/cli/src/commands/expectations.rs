@@ -1,6 +1,5 @@
 //! `etalon expectations`.
 
-use crate::adapters::Query;
 use crate::cases::ids;
 use crate::discovery::{discover, refuse_absent};
 use crate::expectations::{ExpectArguments, write};
@@ -9,6 +8,7 @@ use crate::flags::AdapterFileArguments;
 use crate::named_files::NamedFiles;
 use crate::output::{say, summarize};
 use clap::{Args, Subcommand};
+use etalon_adapters::Query;
 use etalon_record::{About, AdapterRecord, Entry, Expectations, Imported, ListKind};
 use std::collections::HashSet;
 use std::fs;

@@ -1,6 +1,5 @@
 //! `etalon explain`.
 
-use crate::adapters::Query;
 use crate::cases::{find, library};
 use crate::discovery::{discover, refuse_absent};
 use crate::failure::{Failure, UNEXPECTED};
@@ -9,6 +8,7 @@ use crate::output::print;
 use crate::recorded_frame::recorded_frame;
 use crate::saved_run::UnpackArguments;
 use clap::Args;
+use etalon_adapters::Query;
 use etalon_backend::Backend;
 use etalon_case::Case;
 use etalon_cpu::CpuBackend;

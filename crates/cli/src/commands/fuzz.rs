@@ -3,7 +3,6 @@
 //! Scenes are made, drawn and judged in batches. Failing scenes are reduced in order, so that the groups do
 //! not depend on the number of workers.
 
-use crate::adapters::Query;
 use crate::cases::library;
 use crate::counted::counted;
 use crate::discovery::{discover, refuse_absent};
@@ -22,6 +21,7 @@ use crate::progress::progress;
 use crate::provenance;
 use crate::reducing::TIMEOUT;
 use clap::Args;
+use etalon_adapters::Query;
 use etalon_case::{Case, Library};
 use etalon_diagnose::Match;
 use etalon_explore::{Fuzzer, RandomScene, Space};

@@ -1,6 +1,5 @@
 //! `etalon run`.
 
-use crate::adapters::{Adapters, Query, cache, take_unstarted};
 use crate::blessing::{bless, to_bless};
 use crate::cases::{chosen, leave_measured, left_out, library, round_trips};
 use crate::catalogue::{Pictures, catalogue};
@@ -18,6 +17,7 @@ use crate::progress::progress;
 use crate::worth::sort_by_worth;
 use crate::{dead, idle, provenance, shard};
 use clap::{Args, ValueEnum};
+use etalon_adapters::{Adapters, Query, cache, take_unstarted};
 use etalon_case::Case;
 use etalon_history::FrameTimes;
 use etalon_record::{

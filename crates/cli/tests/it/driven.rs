@@ -14,7 +14,7 @@ use std::{fs, thread};
 use tungstenite::{Message, WebSocket};
 
 /// The descriptions of the built-in adapters.
-const ADAPTERS: &str = include_str!("../../adapters.json");
+const ADAPTERS: &str = include_str!("../../../adapters/adapters.json");
 /// The time limit of one answer.
 const ANSWER: Duration = Duration::from_secs(120);
 

@@ -12,7 +12,7 @@ use std::process::Command;
 use std::sync::OnceLock;
 
 /// The adapters as `etalon` starts them.
-const ADAPTERS: &str = include_str!("../../../cli/adapters.json");
+const ADAPTERS: &str = include_str!("../../../adapters/adapters.json");
 
 /// The server of virgl, which ends with this process.
 static SERVED: OnceLock<Served> = OnceLock::new();

@@ -22,7 +22,7 @@ pub(crate) fn disable() -> impl Iterator<Item = (String, Option<String>)> {
 }
 
 /// Returns the state of the caches: cold if the workers or the environment disable them.
-pub(crate) fn state(cold: bool) -> ShaderCache {
+pub fn state(cold: bool) -> ShaderCache {
     if cold || is_disabled() {
         ShaderCache::Cold
     } else {

@@ -1,7 +1,7 @@
 //! The run-time folder of drivers.
 
 /// Returns a value for `XDG_RUNTIME_DIR` if it is not set; drivers print warnings without it.
-pub(super) fn default_runtime_folder() -> Option<(String, String)> {
+pub(crate) fn default_runtime_folder() -> Option<(String, String)> {
     let name = "XDG_RUNTIME_DIR";
     match std::env::var_os(name) {
         Some(_) => None,

@@ -1,15 +1,15 @@
 //! Starts the worker of an adapter that might be usable.
 
-use super::backend_name::BackendName;
-use super::cache;
-use super::description::{Description, Resolved, Unresolved};
-use super::devices::HardwareDevice;
-use super::error::AdapterError;
-use super::guard::guard;
-use super::open::{FROM_INPUT, Open};
-use super::origin::Origin;
-use super::query::Query;
-use super::runtime_folder::default_runtime_folder;
+use crate::backend_name::BackendName;
+use crate::cache;
+use crate::description::{Description, Resolved, Unresolved};
+use crate::devices::HardwareDevice;
+use crate::error::AdapterError;
+use crate::guard::guard;
+use crate::open::{FROM_INPUT, Open};
+use crate::origin::Origin;
+use crate::query::Query;
+use crate::runtime_folder::default_runtime_folder;
 use etalon_backend::{AdapterInfo, Fault};
 use etalon_frame::Api;
 use etalon_record::AbsentAdapter;
@@ -31,7 +31,7 @@ const LIBRARY_PATH: &str = if cfg!(windows) {
 const SEE_LOG: &str = "see the driver's own log";
 
 /// An adapter that might be usable.
-pub(super) enum Candidate {
+pub(crate) enum Candidate {
     /// An entry of this file; `None` is the built-in one.
     Described(Box<Description>, Option<PathBuf>),
     /// A device that a backend enumerated.
@@ -39,14 +39,14 @@ pub(super) enum Candidate {
 }
 
 /// A usable adapter.
-pub(super) struct Started {
-    pub(super) launch: Launch,
-    pub(super) worker: Worker,
-    pub(super) origin: Origin,
+pub(crate) struct Started {
+    pub(crate) launch: Launch,
+    pub(crate) worker: Worker,
+    pub(crate) origin: Origin,
 }
 
 /// The reason why an adapter did not start.
-pub(super) enum NoStart {
+pub(crate) enum NoStart {
     /// The adapter cannot be used.
     Absent(AbsentAdapter),
     /// The adapter's driver is installed, but crashes or hangs while it starts.
@@ -73,11 +73,11 @@ fn open(name: &str, backend: BackendName) -> Open {
 }
 
 impl Candidate {
-    pub(super) fn described(description: Description, file: Option<&Path>) -> Self {
+    pub(crate) fn described(description: Description, file: Option<&Path>) -> Self {
         Self::Described(Box::new(description), file.map(Path::to_owned))
     }
 
-    pub(super) fn enumerated(device: HardwareDevice, backend: BackendName) -> Self {
+    pub(crate) fn enumerated(device: HardwareDevice, backend: BackendName) -> Self {
         Self::Enumerated(Box::new(Open {
             device: Some(device.device),
             ..open(&device.name, backend)
@@ -86,7 +86,7 @@ impl Candidate {
 
     /// Returns the adapter with a planted fault, under the given name; `None` if its backend cannot have this
     /// fault.
-    pub(super) fn with_fault(&self, name: &str, fault: Fault) -> Option<Self> {
+    pub(crate) fn with_fault(&self, name: &str, fault: Fault) -> Option<Self> {
         match self {
             Self::Described(description, file) if fits(fault, description.backend) => {
                 let mut description = description.clone();
@@ -108,7 +108,7 @@ impl Candidate {
         }
     }
 
-    pub(super) fn name(&self) -> &str {
+    pub(crate) fn name(&self) -> &str {
         match self {
             Self::Described(description, _) => &description.name,
             Self::Enumerated(open) => &open.name,
@@ -131,7 +131,7 @@ impl Candidate {
     }
 
     /// Starts the worker and checks that the driver is the one described.
-    pub(super) fn start(
+    pub(crate) fn start(
         &self,
         query: &Query<'_>,
         invite: &dyn Fn(&str, &str),

@@ -7,7 +7,7 @@ use std::process::Command;
 ///
 /// # Errors
 /// If the system does not tell the path of this program.
-pub(crate) fn guard(input: bool) -> io::Result<Command> {
+pub fn guard(input: bool) -> io::Result<Command> {
     let mut guard = Command::new(std::env::current_exe()?);
     guard.arg("worker");
     if !input {

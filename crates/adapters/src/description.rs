@@ -1,9 +1,9 @@
 //! Files that describe adapters, built in or given by `--adapters`.
 
-use super::backend_name::BackendName;
-use super::error::AdapterError;
-use super::listen::Listen;
-use super::names::{MAX_NAME, is_name};
+use crate::backend_name::BackendName;
+use crate::error::AdapterError;
+use crate::listen::Listen;
+use crate::names::{MAX_NAME, is_name};
 use etalon_backend::Fault;
 use etalon_browser::Browser;
 use etalon_case::parse_json;
@@ -38,10 +38,10 @@ const MANIFEST_FOLDERS: [&str; 6] = [
 /// replaced by an environment variable; a relative path with a `/` is relative to the folder of the file.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Description {
+pub(crate) struct Description {
     /// The adapter's name: ASCII letters, digits, `:`, `-`, `_`, `.` and `@`, at most [`MAX_NAME`].
-    pub(super) name: String,
-    pub(super) backend: BackendName,
+    pub(crate) name: String,
+    pub(crate) backend: BackendName,
     /// Environment variables of the worker; `null` removes a variable.
     #[serde(default)]
     environment: BTreeMap<String, Option<String>>,
@@ -63,18 +63,18 @@ pub(super) struct Description {
     profile: BTreeMap<String, String>,
     /// The address at which a browser, possibly on another machine, opens the worker's page, for the backend
     /// `webgpu`.
-    pub(super) listen: Option<SocketAddr>,
+    pub(crate) listen: Option<SocketAddr>,
     /// The server that the driver sends its commands to.
     server: Option<Server>,
     /// The index of the device in the backend's order. By default the first device; in OpenGL the device that
     /// the environment selects.
-    pub(super) device: Option<usize>,
+    pub(crate) device: Option<usize>,
     /// A word that the name of the device or driver must contain: if the driver that the environment selects
     /// is missing, a different driver answers.
-    pub(super) answers: Option<String>,
+    pub(crate) answers: Option<String>,
     /// A planted fault; files cannot set it.
     #[serde(skip)]
-    pub(super) fault: Option<Fault>,
+    pub(crate) fault: Option<Fault>,
     /// The words of a command that starts the worker elsewhere: in another userland, in a container, on
     /// another machine. Paths then refer to that system and are not checked.
     #[serde(default)]
@@ -87,29 +87,29 @@ pub(super) struct Description {
     version: Option<String>,
     /// Instructions to get the driver.
     #[serde(default)]
-    pub(super) remedy: String,
+    pub(crate) remedy: String,
 }
 
 /// An entry with paths and variables resolved on this machine.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Resolved {
+pub(crate) struct Resolved {
     /// The words of the launcher; empty if the worker runs on this machine.
-    pub(super) launcher: Vec<String>,
+    pub(crate) launcher: Vec<String>,
     /// The path of etalon where the launcher starts it, if it differs.
-    pub(super) program: Option<PathBuf>,
-    pub(super) environment: Vec<(String, Option<String>)>,
-    pub(super) manifest: Option<PathBuf>,
-    pub(super) egl: Option<PathBuf>,
-    pub(super) library_path: Vec<PathBuf>,
-    pub(super) browser: Option<Browser>,
-    pub(super) server: Option<Server>,
+    pub(crate) program: Option<PathBuf>,
+    pub(crate) environment: Vec<(String, Option<String>)>,
+    pub(crate) manifest: Option<PathBuf>,
+    pub(crate) egl: Option<PathBuf>,
+    pub(crate) library_path: Vec<PathBuf>,
+    pub(crate) browser: Option<Browser>,
+    pub(crate) server: Option<Server>,
     /// The address of the page, with a token of this run.
-    pub(super) listen: Option<Listen>,
+    pub(crate) listen: Option<Listen>,
 }
 
 /// The reason why an entry cannot be used on this machine.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-pub(super) enum Unresolved {
+pub(crate) enum Unresolved {
     /// An environment variable is not set.
     #[error("the variable {0} is not set")]
     Variable(String),
@@ -122,15 +122,15 @@ pub(super) enum Unresolved {
 }
 
 /// Returns the entries of the built-in file.
-pub(super) fn built_in() -> Result<Vec<Description>, AdapterError> {
+pub(crate) fn built_in() -> Result<Vec<Description>, AdapterError> {
     parse(
-        include_str!("../../adapters.json"),
+        include_str!("../adapters.json"),
         "the built-in adapters.json",
     )
 }
 
 /// Returns the names of the adapters that the built-in file and another one describe.
-pub(crate) fn described_names(file: Option<&Path>) -> Result<Vec<String>, AdapterError> {
+pub fn described_names(file: Option<&Path>) -> Result<Vec<String>, AdapterError> {
     let mut descriptions = built_in()?;
     if let Some(file) = file {
         descriptions.append(&mut read(file)?);
@@ -142,7 +142,7 @@ pub(crate) fn described_names(file: Option<&Path>) -> Result<Vec<String>, Adapte
 ///
 /// # Errors
 /// If there are fewer than two releases, or two have the same version.
-pub(crate) fn releases_of(
+pub fn releases_of(
     file: Option<&Path>,
     line: &str,
 ) -> Result<Vec<(String, Release)>, AdapterError> {
@@ -191,7 +191,7 @@ fn version_key(version: &str) -> Vec<u64> {
 }
 
 /// Reads the entries of a file.
-pub(super) fn read(path: &Path) -> Result<Vec<Description>, AdapterError> {
+pub(crate) fn read(path: &Path) -> Result<Vec<Description>, AdapterError> {
     let what = path.display().to_string();
     let unreadable = |source| AdapterError::Unreadable {
         file: what.clone(),
@@ -363,7 +363,7 @@ impl Description {
     }
 
     /// Returns the driver release that the entry names.
-    pub(super) fn release(&self) -> Option<Release> {
+    pub(crate) fn release(&self) -> Option<Release> {
         let (Some(line), Some(version)) = (&self.line, &self.version) else {
             return None;
         };
@@ -374,7 +374,7 @@ impl Description {
     }
 
     /// Resolves the entry on this machine; `folder` is the folder of its file.
-    pub(super) fn resolve(
+    pub(crate) fn resolve(
         &self,
         folder: &Path,
         variable: &dyn Fn(&str) -> Option<String>,

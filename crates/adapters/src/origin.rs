@@ -6,19 +6,19 @@ use std::path::PathBuf;
 
 /// The description of an adapter and the environment of its worker.
 #[derive(Clone, Debug, Serialize)]
-pub(crate) struct Origin {
+pub struct Origin {
     /// `built-in`, `found` by enumeration, or the path of the user's file.
-    pub(crate) described_in: String,
+    pub described_in: String,
     /// The words of the launcher; empty if the worker runs on this machine.
-    pub(crate) launcher: Vec<String>,
+    pub launcher: Vec<String>,
     /// Environment variables of the worker; `null` removes a variable.
-    pub(crate) environment: BTreeMap<String, Option<String>>,
+    pub environment: BTreeMap<String, Option<String>>,
     /// The manifest of the Vulkan driver, if one was chosen.
-    pub(crate) manifest: Option<PathBuf>,
+    pub manifest: Option<PathBuf>,
     /// The EGL library, if it is not the system's.
-    pub(crate) egl: Option<PathBuf>,
+    pub egl: Option<PathBuf>,
     /// Folders searched for libraries before those of the system.
-    pub(crate) library_path: Vec<PathBuf>,
+    pub library_path: Vec<PathBuf>,
     /// The index of the device in the backend's order, if one was chosen.
-    pub(crate) device_index: Option<usize>,
+    pub device_index: Option<usize>,
 }

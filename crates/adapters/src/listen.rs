@@ -9,22 +9,23 @@ const ELSEWHERE: (Ipv4Addr, u16) = (Ipv4Addr::new(192, 0, 2, 1), 9);
 
 /// The address of a page.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct Listen {
-    pub(crate) address: SocketAddr,
+pub struct Listen {
+    /// The address at which the worker listens.
+    pub address: SocketAddr,
     /// The first part of the page's path, a secret.
-    pub(crate) token: String,
+    pub token: String,
 }
 
 impl Listen {
     /// Makes an address with a new token. All workers of a run share it, so that a page finds the next
     /// worker.
-    pub(super) fn new(address: SocketAddr) -> Self {
+    pub(crate) fn new(address: SocketAddr) -> Self {
         let token = etalon_keeper::token();
         Self { address, token }
     }
 
     /// Returns a text with the page's URL, and its QR code if standard error is a terminal.
-    pub(super) fn invitation(&self) -> String {
+    pub(crate) fn invitation(&self) -> String {
         let host = SocketAddr::new(reached(self.address.ip()), self.address.port());
         let url = format!("http://{host}/{}/", self.token);
         let text = format!("open {url} in the browser to test");

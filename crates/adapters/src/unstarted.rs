@@ -1,14 +1,14 @@
 //! Drivers that are installed but do not start.
 
-use super::backend_name::BackendName;
-use super::discovery::Adapters;
-use etalon_frame::{AdapterInfo, Api, Limits};
+use crate::backend_name::BackendName;
+use crate::discovery::Adapters;
+use etalon_frame::{Api, Limits};
 use etalon_record::{AbsentAdapter, AdapterRecord};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Removes the adapters whose drivers do not start from the absent ones. Returns each with a mostly empty
 /// record, and the reason.
-pub(crate) fn take_unstarted(adapters: &mut Adapters) -> Vec<(AdapterRecord, String)> {
+pub fn take_unstarted(adapters: &mut Adapters) -> Vec<(AdapterRecord, String)> {
     let record = |(backend, absent): (BackendName, AbsentAdapter)| {
         let (backend, api) = match backend {
             BackendName::Cpu => ("cpu", Api::Vulkan),

@@ -1,10 +1,10 @@
 //! The names of adapters.
 
 /// The maximum length of a name in characters.
-pub(super) const MAX_NAME: usize = 64;
+pub(crate) const MAX_NAME: usize = 64;
 
 /// Returns true if a text is a valid name.
-pub(super) fn is_name(text: &str) -> bool {
+pub(crate) fn is_name(text: &str) -> bool {
     let inside = |c: char| c.is_ascii_alphanumeric() || [':', '-', '_', '.', '@'].contains(&c);
     text.len() <= MAX_NAME
         && text.starts_with(|c: char| c.is_ascii_alphanumeric())
@@ -12,7 +12,7 @@ pub(super) fn is_name(text: &str) -> bool {
 }
 
 /// Returns a driver's own name as a valid name that leaves room for a number.
-pub(super) fn sanitized(name: &str) -> String {
+pub(crate) fn sanitized(name: &str) -> String {
     let plain: String = name
         .chars()
         .map(|c| {

@@ -1,13 +1,13 @@
 //! Discovers adapters: software drivers from the built-in file, hardware by enumeration, others from the
 //! user's file. Each worker starts immediately, since only an answer shows that a driver works.
 
-use super::backend_name::BackendName;
-use super::candidate::{Candidate, NoStart, Started};
-use super::description;
-use super::devices::{self, BACKENDS, HardwareDevice, enumerate};
-use super::error::AdapterError;
-use super::origin::Origin;
-use super::query::Query;
+use crate::backend_name::BackendName;
+use crate::candidate::{Candidate, NoStart, Started};
+use crate::description;
+use crate::devices::{self, BACKENDS, HardwareDevice, enumerate};
+use crate::error::AdapterError;
+use crate::origin::Origin;
+use crate::query::Query;
 use etalon_backend::Fault;
 use etalon_frame::threads::each;
 use etalon_glob::did_you_mean;
@@ -17,17 +17,17 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// The adapters that were found.
-pub(crate) struct Adapters {
+pub struct Adapters {
     /// Usable adapters, with running workers.
-    pub(crate) ready: Vec<(Launch, Worker)>,
+    pub ready: Vec<(Launch, Worker)>,
     /// Adapters that cannot be used, with reasons.
-    pub(crate) absent: Vec<AbsentAdapter>,
+    pub absent: Vec<AbsentAdapter>,
     /// The absent adapters whose driver is installed, but crashes or hangs while it starts.
-    pub(crate) dead: Vec<(BackendName, AbsentAdapter)>,
+    pub dead: Vec<(BackendName, AbsentAdapter)>,
     /// Adapters that need a variable that is not set.
-    pub(crate) not_enabled: Vec<AbsentAdapter>,
+    pub not_enabled: Vec<AbsentAdapter>,
     /// The origin of each usable adapter, by name.
-    pub(crate) origins: BTreeMap<String, Origin>,
+    pub origins: BTreeMap<String, Origin>,
 }
 
 /// Finds adapters and starts their workers. If somebody must open an adapter's page in a browser, `invite` gets the
@@ -35,7 +35,7 @@ pub(crate) struct Adapters {
 ///
 /// # Errors
 /// If a name is unknown, or the user's file is invalid or describes something that does not exist.
-pub(crate) fn discover(
+pub fn discover(
     query: &Query<'_>,
     invite: &(dyn Fn(&str, &str) + Sync),
 ) -> Result<Adapters, AdapterError> {

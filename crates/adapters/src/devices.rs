@@ -1,10 +1,10 @@
 //! Enumeration of hardware devices. Each backend enumerates in its own process, since drivers can crash or
 //! hang.
 
-use super::backend_name::BackendName;
-use super::names::sanitized;
-use super::runtime_folder::default_runtime_folder;
-use etalon_process::ProcessGroup;
+use crate::backend_name::BackendName;
+use crate::names::sanitized;
+use crate::runtime_folder::default_runtime_folder;
+use etalon_process::Group;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::io::Read;
@@ -21,13 +21,15 @@ const MAX_BYTES: u64 = 1 << 20;
 /// A device that a backend enumerated. Its name need not be unique.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct HardwareDevice {
-    pub(crate) name: String,
-    pub(crate) device: usize,
+pub struct HardwareDevice {
+    /// The backend's prefix and the driver's name: `vulkan:radv`.
+    pub name: String,
+    /// The index of the device in the backend's order.
+    pub device: usize,
 }
 
 /// The backends that enumerate devices: argument of the worker, prefix of names, backend.
-pub(super) const BACKENDS: &[(&str, &str, BackendName)] = &[
+pub(crate) const BACKENDS: &[(&str, &str, BackendName)] = &[
     ("vulkan", "vulkan", BackendName::Vulkan),
     ("gl", "gl", BackendName::Gl),
     ("gl-es", "gl:es", BackendName::GlEs),
@@ -43,7 +45,7 @@ pub(super) const BACKENDS: &[(&str, &str, BackendName)] = &[
 const KNOWN_DRIVERS: [&str; 1] = ["nvidia"];
 
 /// Returns the names of the hardware adapters that have findings.
-pub(crate) fn hardware_names() -> impl Iterator<Item = String> {
+pub fn hardware_names() -> impl Iterator<Item = String> {
     BACKENDS.iter().flat_map(|(_, prefix, _)| {
         KNOWN_DRIVERS
             .iter()
@@ -55,7 +57,7 @@ pub(crate) fn hardware_names() -> impl Iterator<Item = String> {
 ///
 /// # Errors
 /// If the process fails; the message says how it ended.
-pub(super) fn enumerate(backend: &str) -> Result<Vec<HardwareDevice>, String> {
+pub(crate) fn enumerate(backend: &str) -> Result<Vec<HardwareDevice>, String> {
     let program = std::env::current_exe()
         .map_err(|e| format!("cannot find the program file of etalon: {e}"))?;
     let mut command = Command::new(program);
@@ -110,7 +112,7 @@ pub(super) fn enumerate(backend: &str) -> Result<Vec<HardwareDevice>, String> {
 
 /// Makes the names of devices unique: the second of a name gets `-2`, the third `-3`. `taken` are the names of described
 /// adapters.
-pub(super) fn unique_names(
+pub(crate) fn unique_names(
     taken: &BTreeSet<String>,
     found: Vec<HardwareDevice>,
 ) -> Vec<HardwareDevice> {
@@ -134,8 +136,8 @@ pub(super) fn unique_names(
 
 #[cfg(test)]
 mod tests {
-    use super::super::names::is_name;
     use super::*;
+    use crate::names::is_name;
 
     fn named(taken: &[&str], found: &[&str]) -> Vec<String> {
         let taken = taken.iter().map(|n| (*n).to_owned()).collect();

@@ -4,15 +4,15 @@ use std::path::Path;
 
 /// The adapters to find, and how their workers start.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Query<'a> {
+pub struct Query<'a> {
     /// The names to find; all if empty.
-    pub(crate) names: &'a [String],
+    pub names: &'a [String],
     /// The user's file with additional descriptions.
-    pub(crate) file: Option<&'a Path>,
+    pub file: Option<&'a Path>,
     /// True if validation layers and debug output are enabled.
-    pub(crate) validate: bool,
+    pub validate: bool,
     /// True if the calls of the first scene are recorded.
-    pub(crate) record: bool,
+    pub record: bool,
     /// True if the drivers' shader caches on disk are disabled.
-    pub(crate) cold: bool,
+    pub cold: bool,
 }

@@ -5,10 +5,10 @@ use thiserror::Error;
 
 /// The reason why adapters cannot be described or found.
 #[derive(Debug, Error)]
-pub(crate) enum AdapterError {
+pub enum AdapterError {
     /// A file of descriptions cannot be read.
     #[error(
-        "{file}: {source}; --adapters takes a JSON file with the format of crates/cli/adapters.json"
+        "{file}: {source}; --adapters takes a JSON file with the format of crates/adapters/adapters.json"
     )]
     Unreadable {
         /// The file.
