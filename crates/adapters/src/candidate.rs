@@ -10,8 +10,8 @@ use crate::open::{FROM_INPUT, Open};
 use crate::origin::Origin;
 use crate::query::Query;
 use crate::runtime_folder::default_runtime_folder;
-use etalon_backend::{AdapterInfo, Fault};
-use etalon_frame::Api;
+use etalon_backend::Fault;
+use etalon_frame::{AdapterInfo, Api};
 use etalon_record::AbsentAdapter;
 use etalon_runner::{Launch, Launcher, START_TIMEOUT, StartError, Worker};
 use std::path::{Path, PathBuf};
@@ -336,23 +336,16 @@ fn guarded(launcher: &[String]) -> Vec<String> {
 
 /// Returns true if a backend can have a fault.
 fn fits(fault: Fault, backend: BackendName) -> bool {
-    match (fault, backend) {
-        (Fault::Call(fault), BackendName::Vulkan) => fault.is_in(Api::Vulkan),
-        (Fault::Call(fault), BackendName::Gl | BackendName::GlEs) => fault.is_in(Api::OpenGl),
-        (
-            Fault::Call(fault),
-            BackendName::WgpuVulkan
-            | BackendName::WgpuGl
-            | BackendName::WgpuDx12
-            | BackendName::WgpuMetal
-            | BackendName::Webgpu,
-        ) => fault.is_in(Api::WebGpu),
-        (Fault::Call(_), BackendName::Cpu) => false,
-        (Fault::Read(_), backend) => backend != BackendName::Cpu,
-        (Fault::Process(..) | Fault::Limit(_) | Fault::Slower(_), backend) => {
-            backend == BackendName::Cpu
-        }
-    }
+    fault.fits(match backend {
+        BackendName::Cpu => None,
+        BackendName::Vulkan => Some(Api::Vulkan),
+        BackendName::Gl | BackendName::GlEs => Some(Api::OpenGl),
+        BackendName::WgpuVulkan
+        | BackendName::WgpuGl
+        | BackendName::WgpuDx12
+        | BackendName::WgpuMetal
+        | BackendName::Webgpu => Some(Api::WebGpu),
+    })
 }
 
 /// Returns true if the name of the device or driver contains the word, ignoring case.

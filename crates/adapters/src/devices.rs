@@ -4,7 +4,7 @@
 use crate::backend_name::BackendName;
 use crate::names::sanitized;
 use crate::runtime_folder::default_runtime_folder;
-use etalon_process::Group;
+use etalon_process::ProcessGroup;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::io::Read;

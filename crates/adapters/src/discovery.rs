@@ -83,18 +83,20 @@ fn chosen(
     let mut candidates = described(query.file)?;
     let is_known =
         |candidates: &[Candidate], name: &str| candidates.iter().any(|c| c.name() == name);
-    let all_known = query.names.iter().all(|name| {
-        is_known(
-            &candidates,
-            Fault::in_name(name).map_or(name.as_str(), |(driver, _)| driver),
-        )
+    let mut faults = Vec::new();
+    for name in query.names {
+        faults.push(Fault::in_name(name)?);
+    }
+    let all_known = query.names.iter().zip(&faults).all(|(name, fault)| {
+        let driver = fault.map_or(name.as_str(), |(driver, _)| driver);
+        is_known(&candidates, driver)
     });
     if query.names.is_empty() || !all_known {
         let taken = candidates.iter().map(|c| c.name().to_owned()).collect();
         candidates.extend(hardware(&taken, absent));
     }
-    for name in query.names {
-        if let Some((driver, fault)) = Fault::in_name(name)
+    for (name, fault) in query.names.iter().zip(faults) {
+        if let Some((driver, fault)) = fault
             && let Some(candidate) = candidates.iter().find(|c| c.name() == driver)
             && let Some(faulty) = candidate.with_fault(name, fault)
         {
@@ -163,4 +165,29 @@ fn hardware(taken: &BTreeSet<String>, absent: &mut Vec<AbsentAdapter>) -> Vec<Ca
         }
     }
     ready
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fault_is_planted_or_refused() {
+        let names = ["cpu:fault=abort".to_owned()];
+        let query = Query {
+            names: &names,
+            ..Query::default()
+        };
+        let chosen = chosen(&query, &mut Vec::new());
+        let chosen = chosen.map(|candidates| {
+            candidates
+                .iter()
+                .map(|c| c.name().to_owned())
+                .collect::<Vec<_>>()
+        });
+        match Fault::in_name(&names[0]) {
+            Ok(_) => assert_eq!(chosen.unwrap(), names.to_vec()),
+            Err(refused) => assert_eq!(chosen.unwrap_err().to_string(), refused.to_string()),
+        }
+    }
 }

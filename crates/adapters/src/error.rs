@@ -1,5 +1,6 @@
 //! Errors of descriptions and of discovery.
 
+use etalon_backend::NoFaults;
 use std::io;
 use thiserror::Error;
 
@@ -108,6 +109,9 @@ pub enum AdapterError {
         /// The lines of the file.
         lines: Vec<String>,
     },
+    /// A name has a planted fault, and this build has none.
+    #[error(transparent)]
+    NoFaults(#[from] NoFaults),
     /// No adapter has a name.
     #[error("there is no adapter `{name}`{suggestion}; known are: {}", known.join(", "))]
     Unknown {

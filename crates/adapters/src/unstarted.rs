@@ -2,7 +2,7 @@
 
 use crate::backend_name::BackendName;
 use crate::discovery::Adapters;
-use etalon_frame::{Api, Limits};
+use etalon_frame::{AdapterInfo, Api, Limits};
 use etalon_record::{AbsentAdapter, AdapterRecord};
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -15,16 +15,24 @@
 
 mod blits;
 pub mod codes;
+#[cfg(feature = "faults")]
 mod fault;
+#[cfg(not(feature = "faults"))]
+mod faultless;
 mod halves;
+mod no_faults;
 mod recording;
 
 pub use blits::{Blit, BlitPiece, Blits, doubled};
+#[cfg(feature = "faults")]
 pub use fault::{
     CallFault, DrawNumbers, Fault, FaultyCalls, FaultyScenes, LimitFault, OpenQuery, ProcessFault,
     ReadFault,
 };
+#[cfg(not(feature = "faults"))]
+pub use faultless::Fault;
 pub use halves::halves;
+pub use no_faults::NoFaults;
 pub use recording::{
     Argument, Constant, CounterPart, Member, NumberForm, Phase, RecordedCall, RecordedContext,
     RecordedCounter, RecordedImage, RecordedPlane, Recording, VulkanNeeds,

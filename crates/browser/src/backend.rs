@@ -112,9 +112,7 @@ impl Backend for BrowserBackend {
 
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
         let mut list = lower(&self.device, scene).map_err(BackendError::NotSupported)?;
-        if let Some(Fault::Call(fault)) = self.options.fault {
-            plant(fault, &mut list);
-        }
+        plant(self.options.fault, &mut list);
         let recorded = self.options.record.then(|| list.clone());
         let (places, contents) = take_contents(&mut list);
         Ok(Box::new(PageScene {
@@ -262,9 +260,9 @@ impl Prepared for PageScene<'_> {
         let frame = self.list.reading.frame(&bytes);
         let mut frame =
             frame.ok_or_else(|| BackendError::internal("the page's frame is too short"))?;
-        if let Some(Fault::Read(fault)) = self.backend.options.fault {
+        if let Some(fault) = self.backend.options.fault {
             for image in &mut frame.images {
-                fault.apply(&mut image.codes, image.size, image.samples, &image.channels);
+                fault.change_codes(&mut image.codes, image.size, image.samples, &image.channels);
             }
         }
         if let Some(list) = &self.recorded {

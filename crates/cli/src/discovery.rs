@@ -1,7 +1,7 @@
 //! Discovery for commands: prints what the user must know of adapters, and lets an interruption end the process.
 
 use crate::failure::Failure;
-use crate::interruption::Opening;
+use crate::interruption::OpeningGuard;
 use crate::output::say;
 use etalon_adapters::{Adapters, Query};
 use etalon_record::AbsentAdapter;
@@ -11,7 +11,7 @@ use etalon_record::AbsentAdapter;
 /// # Errors
 /// If a name is unknown, or the user's file is invalid or describes something that does not exist.
 pub(crate) fn discover(query: &Query<'_>) -> Result<Adapters, Failure> {
-    let _opening = Opening::begin();
+    let _opening = OpeningGuard::begin();
     let invite = |adapter: &str, invitation: &str| say!("{adapter}: {invitation}");
     etalon_adapters::discover(query, &invite).map_err(Failure::usage)
 }

@@ -24,6 +24,7 @@ mod discovery;
 mod expectations;
 mod failure;
 mod failure_groups;
+#[cfg(feature = "faults")]
 mod faulty;
 mod flags;
 mod group_text;
@@ -54,6 +55,12 @@ use failure::{Failure, INCOMPLETE, USAGE};
 use output::say;
 use std::io::ErrorKind;
 use std::process::ExitCode;
+
+#[cfg(not(feature = "faults"))]
+const _: () = assert!(
+    size_of::<Option<etalon_backend::Fault>>() == 0,
+    "another package of this build enables planted faults: build etalon alone"
+);
 
 fn main() -> ExitCode {
     etalon_process::report_large_files();

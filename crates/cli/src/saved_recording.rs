@@ -19,9 +19,8 @@ pub(crate) fn saved_recording(adapter: &AdapterRecord, scene: &Scene) -> Result<
     };
     let device = adapter::device(offer)?;
     let mut list = lower(&device, scene).map_err(|missing| missing.to_string())?;
-    if let Some((_, Fault::Call(fault))) = Fault::in_name(&adapter.info.name) {
-        plant(fault, &mut list);
-    }
+    let fault = Fault::in_name(&adapter.info.name).map_err(|e| e.to_string())?;
+    plant(fault.map(|(_, fault)| fault), &mut list);
     recording(
         &list,
         "webgpu",

@@ -1,7 +1,6 @@
 //! `etalon worker`, the child process: it opens one backend, or lists the devices of a backend.
 
 use crate::failure::Failure;
-use crate::faulty::Faulty;
 use clap::Args;
 use etalon_adapters::{BackendName, FROM_INPUT, HardwareDevice, Open, guard};
 use etalon_backend::{Backend, Unavailable};
@@ -179,10 +178,7 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
         etalon_wgpu::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
     };
     match what.backend {
-        BackendName::Cpu => Ok(match what.fault {
-            None => Box::new(CpuBackend::new(name)),
-            Some(fault) => Box::new(Faulty::new(name, fault, pipe)),
-        }),
+        BackendName::Cpu => Ok(rasterizer(what, pipe)),
         BackendName::Vulkan => {
             let options = etalon_vulkan::VulkanOptions {
                 device,
@@ -200,6 +196,20 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
         BackendName::WgpuMetal => wgpu(etalon_wgpu::Via::Metal),
         BackendName::Webgpu => browser(what),
     }
+}
+
+/// Opens the rasterizer. A planted fault can write to the pipe to the parent.
+#[cfg(feature = "faults")]
+fn rasterizer(what: &Open, pipe: File) -> Box<dyn Backend> {
+    match what.fault {
+        None => Box::new(CpuBackend::new(&what.name)),
+        Some(fault) => Box::new(crate::faulty::Faulty::new(&what.name, fault, pipe)),
+    }
+}
+
+#[cfg(not(feature = "faults"))]
+fn rasterizer(what: &Open, _pipe: File) -> Box<dyn Backend> {
+    Box::new(CpuBackend::new(&what.name))
 }
 
 /// Returns the command of a keeper.

@@ -5,7 +5,6 @@ use crate::egl::{self, ContextRequest};
 use crate::objects::Objects;
 use crate::options::{GlOptions, Profile, Tuning};
 use crate::path;
-use crate::planted;
 use crate::prepared::GlScene;
 use crate::probe::Probed;
 use crate::recording;
@@ -76,7 +75,8 @@ pub(crate) fn open_with(
     backend.context.messages();
     // Arms the fault after the probes. Otherwise the probes would deny the features that scenes must find
     // broken.
-    planted::arm(options.fault);
+    #[cfg(feature = "faults")]
+    crate::planted::arm(options.fault);
     Ok(backend)
 }
 

@@ -5,7 +5,6 @@ use crate::debug_output::{self, Log};
 use crate::egl::{EglContext, function_at};
 use crate::entry_points::EntryPoints;
 use crate::options::{GlOptions, Profile, Tuning};
-use crate::planted;
 use crate::recording;
 use crate::sanity;
 use etalon_backend::{BackendError, Fault, Unavailable};
@@ -45,7 +44,8 @@ impl Context {
         options: &GlOptions,
         tuning: Tuning,
     ) -> Result<Self, Unavailable> {
-        planted::plant(options.fault);
+        #[cfg(feature = "faults")]
+        crate::planted::plant(options.fault);
         recording::install(options.record);
         let names = Names::query(&egl)?;
         let es = options.profile == Profile::Es;

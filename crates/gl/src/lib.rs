@@ -28,6 +28,7 @@ mod format;
 mod objects;
 mod options;
 mod path;
+#[cfg(feature = "faults")]
 mod planted;
 mod pool;
 mod prepared;

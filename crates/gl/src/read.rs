@@ -10,7 +10,7 @@ use crate::state;
 use crate::support::{ReadBackPath, ShaderStencil};
 use crate::surface::{Storage, Surface, SurfaceKind};
 use etalon_backend::codes::code_of_float;
-use etalon_backend::{BackendError, BlitPiece, Blits, Fault, NumberForm, halves};
+use etalon_backend::{BackendError, BlitPiece, Blits, NumberForm, halves};
 use etalon_frame::{Aspect, ChannelEncoding, Image, PathEnd, ReadPath, TextureFormat};
 use glow::HasContext;
 
@@ -168,8 +168,8 @@ impl ReadObjects<'_> {
 
     /// Applies the fault that a test plants.
     fn plant(&self, source: &ReadSource<'_>, channels: &[ChannelEncoding], codes: &mut [u32]) {
-        if let Some(Fault::Read(fault)) = self.context.fault {
-            fault.apply(codes, source.size, source.surface.samples(), channels);
+        if let Some(fault) = self.context.fault {
+            fault.change_codes(codes, source.size, source.surface.samples(), channels);
         }
     }
 

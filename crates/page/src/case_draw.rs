@@ -66,9 +66,14 @@ impl CaseDraw {
             let frame = reading.frame(bytes);
             let short = || BackendError::internal("the page's frame is too short");
             let mut frame = frame.ok_or_else(short)?;
-            if let Some(Fault::Read(fault)) = fault {
+            if let Some(fault) = fault {
                 for image in &mut frame.images {
-                    fault.apply(&mut image.codes, image.size, image.samples, &image.channels);
+                    fault.change_codes(
+                        &mut image.codes,
+                        image.size,
+                        image.samples,
+                        &image.channels,
+                    );
                 }
             }
             frames.push(frame);
@@ -125,9 +130,7 @@ pub(crate) fn times(answer: &[u8]) -> Result<Vec<FrameSeconds>, BackendError> {
 
 fn lowered(scene: &Scene, device: &Device, fault: Option<Fault>) -> Result<CallList, BackendError> {
     let mut list = lower(device, scene).map_err(BackendError::NotSupported)?;
-    if let Some(Fault::Call(fault)) = fault {
-        plant(fault, &mut list);
-    }
+    plant(fault, &mut list);
     Ok(list)
 }
 

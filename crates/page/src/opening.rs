@@ -110,7 +110,8 @@ pub(crate) fn open(opening: Opening) -> Result<(Session, Opened), String> {
         driver: record.driver_text(),
         software: info.software,
     };
-    let fault = Fault::in_name(&name).map(|(_, fault)| fault);
+    let fault = Fault::in_name(&name).map_err(|error| error.to_string())?;
+    let fault = fault.map(|(_, fault)| fault);
     let today: String = opening.started.chars().take(10).collect();
     let expectations = etalon_findings::findings().map_err(|error| error.to_string())?;
     let expectations = expectations
@@ -161,6 +162,6 @@ mod tests {
         assert_eq!(name_of("Google Chrome", ""), "webgpu:chrome");
         assert_eq!(name_of("", ""), "webgpu:browser");
         let name = name_of("Firefox", "read-fault=off-by-one");
-        assert!(Fault::in_name(&name).is_some());
+        assert!(Fault::in_name(&name).is_ok_and(|fault| fault.is_some()));
     }
 }

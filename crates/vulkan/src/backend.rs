@@ -4,7 +4,6 @@ use crate::device::{Device, identify};
 use crate::error::unavailable;
 use crate::gpu::Gpu;
 use crate::instance::{INSTANCE_VERSION, Instance};
-use crate::planted;
 use crate::prepared::VulkanScene;
 use crate::recording;
 use etalon_backend::{Backend, BackendError, Fault, Phase, Prepared, Recording, Unavailable};
@@ -71,10 +70,9 @@ pub fn open(name: &str, options: &VulkanOptions) -> Result<VulkanBackend, Unavai
         ));
     };
     let identity = identify(&instance, physical);
-    let mut device = Device::new(instance, physical, &identity)?;
-    if let Some(Fault::Call(fault)) = options.fault {
-        planted::plant(&mut device, fault);
-    }
+    let device = Device::new(instance, physical, &identity)?;
+    #[cfg(feature = "faults")]
+    let device = crate::planted::plant(device, options.fault);
     Ok(VulkanBackend {
         info: AdapterInfo {
             name: name.to_owned(),

@@ -32,6 +32,7 @@ mod mask_array;
 mod path;
 mod pipeline;
 mod plan;
+#[cfg(feature = "faults")]
 mod planted;
 mod pool;
 mod prepared;

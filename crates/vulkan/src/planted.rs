@@ -8,7 +8,7 @@ use crate::spirv::{BUILT_IN, DECORATE, LOCATION};
 use crate::viewport::LAYER;
 use ash::ext::extended_dynamic_state3;
 use ash::vk::{self, Handle};
-use etalon_backend::{CallFault, DrawNumbers, FaultyCalls, OpenQuery};
+use etalon_backend::{CallFault, DrawNumbers, Fault, FaultyCalls, OpenQuery};
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::ffi::c_void;
@@ -73,8 +73,11 @@ struct Planted {
     formats: HashMap<vk::Image, vk::Format>,
 }
 
-/// Puts a fault into the function table of a device.
-pub(crate) fn plant(device: &mut Device, fault: CallFault) {
+/// Puts a fault of calls into the function table of a device.
+pub(crate) fn plant(mut device: Device, fault: Option<Fault>) -> Device {
+    let Some(Fault::Call(fault)) = fault else {
+        return device;
+    };
     let raw = &device.raw;
     let extended = device.extended.clone();
     let driver = Functions {
@@ -116,6 +119,7 @@ pub(crate) fn plant(device: &mut Device, fault: CallFault) {
         functions.v12,
         functions.v13,
     );
+    device
 }
 
 fn with<R>(call: impl FnOnce(&mut Planted) -> R) -> R {

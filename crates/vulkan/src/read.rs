@@ -152,8 +152,8 @@ impl ReadPlan {
                 *code = doubled(*encoding, *code);
             }
         }
-        if let Some(Fault::Read(fault)) = fault {
-            fault.apply(&mut codes, self.size, self.samples, &self.channels);
+        if let Some(fault) = fault {
+            fault.change_codes(&mut codes, self.size, self.samples, &self.channels);
         }
         let image = etalon_frame::Image {
             attachment: self.name.clone(),

@@ -4,11 +4,14 @@ use crate::calls::{
     Access, CallList, DrawCommand, EncoderCommand, Filled, PassCommand, RenderPass, TextureView,
 };
 use crate::pipeline_state::PipelineState;
-use etalon_backend::CallFault;
+use etalon_backend::{CallFault, Fault};
 
 /// Changes a list as a driver would that handles its calls wrongly. Some faults have no equivalent in a list
 /// ([`CallFault::is_in`]).
-pub fn plant(fault: CallFault, list: &mut CallList) {
+pub fn plant(fault: Option<Fault>, list: &mut CallList) {
+    let Some(Fault::Call(fault)) = fault else {
+        return;
+    };
     match fault {
         CallFault::LayerDropped => parts(list, |[level, _]| [level, 0]),
         CallFault::LevelDropped => parts(list, |[_, layer]| [0, layer]),

@@ -16,7 +16,10 @@ mod calls;
 mod counting;
 mod device;
 mod draw;
+#[cfg(feature = "faults")]
 mod fault;
+#[cfg(not(feature = "faults"))]
+mod faultless;
 mod fetch;
 mod format;
 mod lower;
@@ -42,7 +45,10 @@ pub use calls::{
 };
 pub use device::{Abilities, Device, SAMPLES, texture_usages};
 pub use etalon_scene::{BlendComponent, CullMode, PrimitiveTopology, Sampler, StencilFace};
+#[cfg(feature = "faults")]
 pub use fault::plant;
+#[cfg(not(feature = "faults"))]
+pub use faultless::plant;
 pub use format::{GpuFormat, is_known};
 pub use lower::lower;
 pub use offer::{DeviceLimits, Level, Offer, Uses, standard_formats};

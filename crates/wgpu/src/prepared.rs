@@ -5,7 +5,7 @@ use crate::clock::Clock;
 use crate::encode;
 use crate::gpu::Gpu;
 use crate::objects::CallObjects;
-use etalon_backend::{BackendError, Fault, FrameTime, Prepared};
+use etalon_backend::{BackendError, FrameTime, Prepared};
 use etalon_frame::Frame;
 use etalon_scene::Scene;
 use etalon_webgpu::{CallList, lower, plant};
@@ -22,9 +22,7 @@ pub(crate) struct WgpuScene<'a> {
 impl<'a> WgpuScene<'a> {
     pub(crate) fn new(gpu: &'a Gpu, scene: &Scene) -> Result<Self, BackendError> {
         let mut list = lower(&gpu.facts, scene).map_err(BackendError::NotSupported)?;
-        if let Some(Fault::Call(fault)) = gpu.fault {
-            plant(fault, &mut list);
-        }
+        plant(gpu.fault, &mut list);
         let objects = gpu.guard("preparing a scene", || {
             let mut objects = CallObjects::new(gpu, &list)?;
             objects.bundles = bundles(gpu, &objects, &list)?;
@@ -103,9 +101,9 @@ impl<'a> WgpuScene<'a> {
             frame.ok_or_else(|| BackendError::internal("a mapped buffer is too short"))?
         };
         output.unmap();
-        if let Some(Fault::Read(fault)) = self.gpu.fault {
+        if let Some(fault) = self.gpu.fault {
             for image in &mut frame.images {
-                fault.apply(&mut image.codes, image.size, image.samples, &image.channels);
+                fault.change_codes(&mut image.codes, image.size, image.samples, &image.channels);
             }
         }
         if let Some(recorded) = &self.gpu.recorded {

@@ -17,7 +17,8 @@ pub use limit::LimitFault;
 pub use process::{FaultyScenes, ProcessFault};
 pub use read::ReadFault;
 
-use etalon_frame::AdapterName;
+use crate::no_faults::NoFaults;
+use etalon_frame::{AdapterName, Api, ChannelEncoding};
 use serde::de::value::{Error, StrDeserializer};
 use serde::{Deserialize, Serialize};
 
@@ -39,7 +40,14 @@ pub enum Fault {
 
 impl Fault {
     /// Splits an adapter's name into the name of its driver and the fault that is planted in it.
-    pub fn in_name(name: &str) -> Option<(&str, Self)> {
+    ///
+    /// # Errors
+    /// If the name has a fault, and this build has no planted faults.
+    pub fn in_name(name: &str) -> Result<Option<(&str, Self)>, NoFaults> {
+        Ok(Self::parsed(name))
+    }
+
+    fn parsed(name: &str) -> Option<(&str, Self)> {
         let (driver, kind, fault) = AdapterName::new(name).fault()?;
         let fault = match kind {
             "call-fault" => Self::Call(named(fault)?),
@@ -62,6 +70,28 @@ impl Fault {
         };
         Some((driver, fault))
     }
+
+    /// Returns true if a backend for this API, or the rasterizer for `None`, can have the fault.
+    pub fn fits(self, api: Option<Api>) -> bool {
+        match self {
+            Self::Call(fault) => api.is_some_and(|api| fault.is_in(api)),
+            Self::Read(_) => api.is_some(),
+            Self::Process(..) | Self::Limit(_) | Self::Slower(_) => api.is_none(),
+        }
+    }
+
+    /// Changes the codes of an image that a backend reads back.
+    pub fn change_codes(
+        self,
+        codes: &mut [u32],
+        size: [u32; 2],
+        samples: u32,
+        channels: &[ChannelEncoding],
+    ) {
+        if let Self::Read(fault) = self {
+            fault.apply(codes, size, samples, channels);
+        }
+    }
 }
 
 /// Returns the fault of this name.
@@ -77,10 +107,10 @@ mod tests {
     fn every_fault_of_calls_is_found_by_its_name() {
         for fault in CallFault::ALL {
             let name = format!("gl:llvmpipe:call-fault={}", fault.name());
-            let found = Fault::in_name(&name);
+            let found = Fault::parsed(&name);
             assert_eq!(found, Some(("gl:llvmpipe", Fault::Call(*fault))));
         }
-        assert_eq!(Fault::in_name("gl:llvmpipe:call-fault=none"), None);
+        assert_eq!(Fault::parsed("gl:llvmpipe:call-fault=none"), None);
     }
 
     #[test]
@@ -109,23 +139,23 @@ mod tests {
         ] {
             let adapter = format!("cpu:fault={name}");
             let Some(("cpu", Fault::Process(fault, FaultyScenes::ByHash))) =
-                Fault::in_name(&adapter)
+                Fault::parsed(&adapter)
             else {
                 panic!("{name} is not a fault");
             };
             assert_eq!(format!("{fault:?}").to_lowercase(), name);
             let adapter = format!("{adapter}@scissor");
             let scissor = Fault::Process(fault, FaultyScenes::Scissor);
-            assert_eq!(Fault::in_name(&adapter), Some(("cpu", scissor)));
+            assert_eq!(Fault::parsed(&adapter), Some(("cpu", scissor)));
         }
         for other in ["cpu", "cpu:fault=", "cpu:fault=Abort", "cpu:fault=abort@"] {
-            assert_eq!(Fault::in_name(other), None, "{other}");
+            assert_eq!(Fault::parsed(other), None, "{other}");
         }
     }
 
     #[test]
     fn the_name_says_which_limit_is_reported() {
-        let limit = |name: &str| Fault::in_name(name).map(|(_, fault)| fault);
+        let limit = |name: &str| Fault::parsed(name).map(|(_, fault)| fault);
         for (name, fault) in [
             ("cpu:limit=sub-pixel-bits-64", LimitFault::SubPixelBits(64)),
             ("cpu:limit=sample-outside", LimitFault::SampleOutside),
@@ -139,7 +169,7 @@ mod tests {
     #[test]
     fn the_name_says_how_much_slower() {
         for (name, percent) in [("cpu:slower=5%", 5.0), ("cpu:slower=0.5%", 0.5)] {
-            assert_eq!(Fault::in_name(name), Some(("cpu", Fault::Slower(percent))));
+            assert_eq!(Fault::parsed(name), Some(("cpu", Fault::Slower(percent))));
         }
         for other in [
             "cpu:slower=5",
@@ -148,7 +178,7 @@ mod tests {
             "cpu:slower=NaN%",
             "cpu:slower=1e9%",
         ] {
-            assert_eq!(Fault::in_name(other), None, "{other}");
+            assert_eq!(Fault::parsed(other), None, "{other}");
         }
     }
 }

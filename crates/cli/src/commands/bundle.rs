@@ -16,7 +16,7 @@ use crate::saved_recording::saved_recording;
 use crate::saved_run::UnpackArguments;
 use clap::Args;
 use etalon_adapters::{Query, releases_of};
-use etalon_backend::{AdapterInfo, Recording};
+use etalon_backend::Recording;
 use etalon_bundle::{
     BadReleases, Checks, Due, DueChannel, DueCounter, DueTexel, File, Head, Language, Program,
     Report, Trim, Written, WrongValue,

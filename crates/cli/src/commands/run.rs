@@ -2,7 +2,7 @@
 
 use crate::blessing::{bless, to_bless};
 use crate::cases::{chosen, leave_measured, left_out, library, round_trips};
-use crate::catalogue::{Pictures, catalogue};
+use crate::catalogue::{CataloguePictures, catalogue};
 use crate::discovery::{discover, refuse_absent};
 use crate::expectations::{ExpectArguments, counting};
 use crate::failure::{Failure, IMPROVED, INCOMPLETE, UNEXPECTED};
