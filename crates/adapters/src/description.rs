@@ -574,7 +574,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_with_an_entry_is_said() {
+    fn errors_in_an_entry_are_named() {
         let long: Vec<String> = (0..=MAX_ENTRIES)
             .map(|n| format!(r#"{{"name":"n{n}","backend":"cpu"}}"#))
             .collect();

@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_driver_says_becomes_a_plain_name() {
+    fn names_of_drivers_become_plain_and_distinct() {
         let long = format!("vulkan:{}", "x".repeat(200));
         let names = named(&[], &["gl:<b>&", "", &long, &long, "-v", "gl:\u{1b}é"]);
         assert_eq!(names[0], "gl:-b--");

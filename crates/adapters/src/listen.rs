@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn a_code_is_square() {
+    fn a_qr_code_is_square() {
         let code = code("http://127.0.0.1:8080/").unwrap();
         let lines: Vec<usize> = code.lines().map(|line| line.chars().count()).collect();
         assert!(

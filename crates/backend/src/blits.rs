@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn halves_are_doubled() {
+    fn doubling_a_code_doubles_its_value() {
         let unorm = ChannelEncoding::Unorm(8);
         let found = [0, 127, 128, 64, 255].map(|code| doubled(unorm, code));
         assert_eq!(found, [0, 255, 255, 128, 128]);
@@ -214,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn each_way_moves_texels() {
+    fn every_kind_of_blit_moves_texels() {
         for end in ENDS {
             let blits = Blits::new(end, [5, 4]).expect("it moves texels");
             let pieces = blits.pieces(Aspect::Depth);

@@ -13,7 +13,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parts_cover_a_side() {
+    fn two_parts_cover_a_whole_side() {
         assert_eq!(halves(1), [(0, 1)]);
         assert_eq!(halves(2), [(0, 2)]);
         assert_eq!(halves(5), [(0, 2), (2, 3)]);

@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn a_head_that_has_not_come_whole_is_waited_for() {
+    fn an_incomplete_head_is_waited_for() {
         assert_eq!(RequestHead::parse(b"GET / HTTP/1.1\r\nHost:"), Ok(None));
         assert!(RequestHead::parse(b"\x16\x03\x01\0").is_err());
     }

@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bundle_replaces_another_only_when_told_and_nothing_else() {
+    fn a_bundle_replaces_only_another_bundle_and_only_when_asked() {
         let folder = tempfile::tempdir().unwrap();
         let case = r#"{ "about": "a", "scene": {} }"#;
         let files = |name: &str| {

@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_axis_value_causes_keeps_its_place() {
+    fn an_error_that_no_axis_value_causes_keeps_its_place() {
         let error = first_error("rgba8unorm", "null", "\"smaller\"");
         assert_eq!(error.key, "scene.passes[0].draws[0].depth.compare");
     }

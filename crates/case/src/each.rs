@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn an_item_stands_for_one_per_value_and_names_go_in_parallel() {
+    fn an_item_expands_once_per_value_and_its_names_go_in_parallel() {
         let list = json!([
             0,
             { "each": { "top": [0, 4], "clear": [{ "depth": 1 }, null] }, "rect": [0, "$top"], "clear": "$clear", "z": "$axis" },
@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_cannot_stand_for_any_number_of_items() {
+    fn a_file_cannot_expand_to_any_number_of_items() {
         let hundred: Vec<usize> = (0..100).collect();
         let mut list = json!([{ "each": { "n0": hundred }, "n": "$n0" }]);
         for level in 1..4 {

@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn a_short_index_may_be_the_greatest_in_a_list_alone() {
+    fn the_greatest_short_index_is_allowed_only_in_lists() {
         let given = |topology: &str, count| {
             let keys = json!({ "topology": topology, "fetch": { "index": "uint16" } });
             draw(points(count), keys).is_some()

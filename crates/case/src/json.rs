@@ -86,7 +86,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_unambiguous_is_as_it_was() {
+    fn unambiguous_json_parses_as_serde_json_parses_it() {
         let text = r#"{ "a": [1, -2, 0.5, true, null, "x", {}], "b": { "a": 3.4028235e38 }, "c": 18446744073709551615 }"#;
         let plain: Value = serde_json::from_str(text).expect("parses");
         assert_eq!(parse_json(text).expect("parses"), plain);
@@ -97,7 +97,7 @@ mod tests {
     }
 
     #[test]
-    fn a_key_that_stands_twice_and_a_number_too_large_are_told_with_their_line() {
+    fn a_repeated_key_and_a_number_too_large_are_refused_with_their_line() {
         for (text, words) in [
             (
                 "{ \"a\": 1,\n \"b\": { \"a\": 1,\n \"a\": 2 } }",

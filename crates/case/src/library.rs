@@ -248,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn values_beside_an_axis_and_a_quick_profile_of_one_value() {
+    fn derived_values_and_quick_filters_must_fit_their_axis() {
         let file = |more: &str| {
             let text = format!(
                 r#"{{"about":"t","spec":["t"],{more},

@@ -305,7 +305,7 @@ mod tests {
     use crate::Library;
 
     #[test]
-    fn unused_names_and_missing_parameters_are_told_on_their_lines() {
+    fn unused_names_and_missing_parameters_give_warnings_on_their_lines() {
         let text = r#"{ "about": "t", "spec": ["t"],
   "axes": { "used": [1, 2],
     "idle": [1, 2, 3] },

@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn every_value_stands_as_often_as_is_asked() {
+    fn every_value_occurs_as_often_as_asked() {
         for lengths in shapes() {
             let product: usize = lengths.iter().product();
             for times in [1, 2, 3, 100, usize::MAX] {

@@ -289,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_pass_lacks_is_neither_cleared_nor_discarded() {
+    fn clearing_or_discarding_an_aspect_that_the_pass_lacks_is_refused() {
         let stencil_less = |keys: &str| format!(r#""depth_stencil":"d16","draws":[],{keys}"#);
         let discard = r#""operations":{"stencil":{"store":"discard"}}"#;
         refused(
@@ -381,7 +381,7 @@ mod tests {
     }
 
     #[test]
-    fn values_places_and_order_are_checked() {
+    fn values_places_and_order_of_clears_are_checked() {
         let clears = |clears: &str| with(&format!(r#""clears":[{clears}]"#));
         for (list, expected) in [
             (r#"{"before":1,"depth":1}"#, "before: the pass has 0 draws"),

@@ -298,7 +298,7 @@ mod tests {
     }
 
     #[test]
-    fn every_value_is_taken_by_some_scene() {
+    fn every_path_value_is_accepted_by_some_scene() {
         for value in PathValue::all() {
             let attachment = json!({ "format": "rgba16float" });
             let path = json!({ value.key(): value.name() });

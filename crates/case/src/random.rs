@@ -532,7 +532,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_seed_gives_the_same_scene_and_another_another() {
+    fn equal_seeds_give_equal_scenes_and_others_differ() {
         for flavor in [
             Flavor::Common,
             Flavor::Multisample,

@@ -113,7 +113,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_star_matches_slashes_and_a_plain_name_what_is_below() {
+    fn a_star_matches_slashes_and_a_plain_name_matches_all_below_it() {
         let selected = |globs: &[&str]| {
             let globs: Vec<String> = globs.iter().map(|g| (*g).to_owned()).collect();
             Globs::new(&globs).expect("globs")

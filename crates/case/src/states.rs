@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_fit_is_refused() {
+    fn counts_that_do_not_fit_the_size_are_refused() {
         for (count, size) in [(0, [64, 64]), (501, [64, 64]), (500, [64, 16])] {
             assert!(scene(&StatesWire { count, size }).is_err());
         }

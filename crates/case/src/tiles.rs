@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn tiles_start_where_they_are_told() {
+    fn tiles_start_at_their_origin() {
         let tiles = json!({ "origin": [5, 3], "size": [4, 4], "colors": [1], "by": "scissor" });
         let scissors = pass(tiles, "full").expect("it fits").draws.into_iter();
         let scissors: Vec<_> = scissors.filter_map(|d| d.scissor).collect();
@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_tile_is_refused() {
+    fn impossible_tiles_are_refused() {
         assert!(pass(json!({ "size": [0, 4], "colors": [1] }), "full").is_none());
         assert!(pass(json!({ "size": [4, 4], "colors": [] }), "full").is_none());
         assert!(pass(json!({ "size": [4, 4], "colors": [1] }), "cover").is_none());

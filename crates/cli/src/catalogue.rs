@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn the_picture_of_a_case_is_the_rasterizers_only() {
+    fn only_the_faultless_rasterizer_gives_the_picture_of_a_case() {
         let library = Library::built_in();
         let mut cases = library.cases(Profile::Quick);
         let case = cases.find(|case| case.id().starts_with("depth/"));

@@ -160,7 +160,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_colours_pass_and_only_where_there_are_any() {
+    fn only_colour_sequences_pass_and_only_to_a_colour_terminal() {
         let text = "a\u{1b}[31mb\u{1b}[0m\u{1b}[2J\u{202e}\n";
         assert_eq!(
             shown(text, false),
@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn json_stays_what_it_says() {
+    fn json_escapes_hidden_characters_and_reads_back_equal() {
         let value = ["\u{1b}[31m\u{7f}\u{9b}\u{202e}\u{e0001}"];
         let text = json(&value).unwrap();
         assert!(!text.chars().any(|c| is_hidden(c) && c != '\n'), "{text}");

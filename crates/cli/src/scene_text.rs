@@ -224,7 +224,7 @@ mod tests {
     use etalon_case::{Library, Profile};
 
     #[test]
-    fn what_is_not_the_default_is_listed() {
+    fn only_states_that_are_not_the_default_are_listed() {
         let library = Library::built_in();
         let text_of = |id: &str| {
             let mut cases = library.cases(Profile::Full);

@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn each_system_counts_differently() {
+    fn shard_variables_of_each_system_are_understood() {
         let two_of_five = Some(Shard { index: 2, count: 5 });
         for variables in [
             &[("CI_NODE_INDEX", "2"), ("CI_NODE_TOTAL", "5")][..],
@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn contradictions_are_refused() {
+    fn contradictory_shard_variables_are_refused() {
         for variables in [
             &[("CI_NODE_INDEX", "6"), ("CI_NODE_TOTAL", "5")][..],
             &[("CI_NODE_INDEX", "0"), ("CI_NODE_TOTAL", "5")],
@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn the_flag_counts_from_one() {
+    fn the_shard_flag_counts_from_one() {
         assert_eq!(parse("2/5"), Ok(Shard { index: 2, count: 5 }));
         for text in ["0/5", "6/5", "1", "1/0", "-1/5", "1/5/6", "a/b"] {
             assert!(parse(text).is_err(), "{text}");

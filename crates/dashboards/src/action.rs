@@ -48,7 +48,7 @@ mod tests {
     use crate::benchmark::Figure;
 
     #[test]
-    fn the_reach_is_that_of_the_farther_end() {
+    fn the_range_reaches_to_the_farther_end_of_the_interval() {
         let benchmark = |name: &str, time, interval| Benchmark {
             name: name.to_owned(),
             times: [(

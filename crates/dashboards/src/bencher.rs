@@ -57,7 +57,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_wall_time_is_the_latency_and_no_interval_is_no_value() {
+    fn wall_times_are_latencies_and_missing_intervals_have_no_bounds() {
         let figure = |median, interval| Figure { median, interval };
         let times = [
             (Time::Wall, figure(0.5, Some([0.25, 1.0]))),

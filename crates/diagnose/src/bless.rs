@@ -293,7 +293,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_blessed_is_expected_and_nothing_else() {
+    fn only_what_is_blessed_is_expected() {
         let before = Expectations::default();
         let seen = run(
             &[
@@ -374,7 +374,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_blocked_follows_its_round_trip() {
+    fn a_blocked_case_is_blessed_through_its_round_trip() {
         let none = Expectations::default();
         let mut seen = run(
             &[("a/trip", Verdict::Fail), ("b/x", Verdict::Blocked)],
@@ -391,7 +391,7 @@ mod tests {
     }
 
     #[test]
-    fn an_entry_goes_when_all_that_it_names_is_better() {
+    fn an_entry_is_removed_when_all_its_cases_are_better() {
         let entry = read("a/*");
         let drawn = ids(&["a/1", "a/2", "b/1"]);
         let bless = |verdicts: &[(&str, Verdict)], whole: bool| {

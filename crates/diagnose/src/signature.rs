@@ -260,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn keys_tell_failures_apart_and_values_do_not() {
+    fn keys_distinguish_failures_and_values_do_not() {
         let signature = |logic: &str, red: f64, topology: &str| {
             Signature::of(&document(json!({
                 "mesh": { "kind": "full" }, "shader": "uniform_color", "logic": logic,
@@ -274,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn a_scene_with_all_keys_may_show_the_same() {
+    fn a_signature_is_within_one_that_has_all_its_keys() {
         let small = document(json!({ "shader": "uniform_color", "depth": { "compare": "less" } }));
         let large = document(json!({
             "shader": "texel_color", "depth": { "compare": "never", "write": true }, "cull": "back"
@@ -288,7 +288,7 @@ mod tests {
     }
 
     #[test]
-    fn the_exact_signature_has_words_and_sides_and_no_numbers() {
+    fn an_exact_signature_keeps_words_and_drops_numbers() {
         let exact = |draw: Value| Signature::exact(&document(draw));
         let signature = |logic: &str, red: f64, write: bool| {
             exact(json!({
@@ -325,7 +325,7 @@ mod tests {
     }
 
     #[test]
-    fn signatures_are_compared_by_what_they_share() {
+    fn signatures_share_their_common_keys() {
         let signature = |draw: Value| Signature::of(&document(draw));
         let small = signature(json!({ "cull": "back" }));
         let large = signature(json!({ "cull": "back", "logic": "xor" }));

@@ -558,7 +558,7 @@ mod tests {
     }
 
     #[test]
-    fn processes_and_errors_are_told_without_their_numbers() {
+    fn symptoms_of_processes_and_errors_leave_out_addresses_and_numbers() {
         let mut crash = Record::new("a/b", "cpu", Verdict::Crash);
         assert_eq!(Symptom::of(&crash).text(), "");
         crash.process = Some(ProcessEnd {
@@ -643,7 +643,7 @@ mod tests {
     }
 
     #[test]
-    fn what_computes_one_attachment_does_not_decide_another() {
+    fn an_operation_on_one_attachment_does_not_decide_another() {
         let blended = [blend(0), store(0, "d"), store(0, "c")];
         let in_variant = blended.map(|event| Event {
             scene: Some(SceneName::Variant("twice".to_owned())),
@@ -695,7 +695,7 @@ mod tests {
     }
 
     #[test]
-    fn the_last_cited_operation_is_violated_and_coverage_only_alone() {
+    fn the_last_cited_operation_is_violated_and_coverage_only_if_no_other_is() {
         let cited = |event: Event, clause: &str| Event {
             citation: Some(clause.to_owned()),
             ..event
@@ -776,7 +776,7 @@ mod tests {
     }
 
     #[test]
-    fn a_relation_is_one_whatever_its_pictures_hold() {
+    fn a_failed_relation_is_one_symptom_whatever_its_pictures_hold() {
         let relation = Step::Relation("repeat".to_owned());
         let mut events = vec![event(Origin::Pass(0), relation, Effect::None)];
         events.push(store(0, "c"));

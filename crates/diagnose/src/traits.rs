@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_words_and_violation_are_the_same() {
+    fn failures_with_the_same_words_and_violation_are_the_same() {
         let logics = ["logic operation", "store color"];
         let xor = traits(Aspect::Color, &logics, logic("xor"));
         assert_eq!(xor.way.to_string(), "color (logic operation, store color)");
@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn another_violation_is_alike_where_several_states_are() {
+    fn another_violation_is_similar_if_several_states_are_the_same() {
         let signature = |aspect, operations: &[&str], points: bool| {
             let mut draw = logic("xor");
             if points {
@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn vertices_count_where_the_failure_needs_its_own() {
+    fn vertices_count_only_if_the_failure_needs_its_own() {
         let mut draw = logic("xor");
         let simple = traits(Aspect::Color, &["store color"], draw.clone());
         draw["mesh"] = json!({ "kind": "vertices", "positions": [[0.5, 0.5, 0]] });

@@ -92,7 +92,7 @@ mod tests {
     use serde_json::json;
 
     #[test]
-    fn parts_are_all_then_smaller_ones() {
+    fn parts_begin_with_the_whole_and_get_smaller() {
         assert_eq!(parts(4), [0..4, 0..2, 2..4, 0..1, 1..2, 2..3, 3..4]);
         assert_eq!(parts(3), [0..3, 0..1, 1..2, 2..3]);
         assert!(parts(0).is_empty());

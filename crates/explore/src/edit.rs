@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn an_edit_that_does_not_fit_or_changes_nothing_is_none() {
+    fn an_edit_that_does_not_fit_or_changes_nothing_gives_nothing() {
         let document = json!({ "a": [0] });
         assert_eq!(Edit::removal(pointer!["a", 1]).apply(&document), None);
         assert_eq!(Edit::removal(pointer!["b"]).apply(&document), None);

@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_adapter_has_is_not_asked_for() {
+    fn scenes_ask_only_for_what_an_adapter_has() {
         let mut few = everything();
         few.features.clear();
         few.paths.clear();

@@ -279,7 +279,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_oracle_does_not_ask_for_goes() {
+    fn a_reduction_removes_all_that_the_oracle_does_not_need() {
         let failing = random("extended", 16);
         assert!(
             draws(&failing.document)
@@ -345,7 +345,7 @@ mod tests {
     }
 
     #[test]
-    fn every_candidate_is_a_case_and_the_limit_holds() {
+    fn every_candidate_is_a_valid_case_and_the_limit_of_draws_holds() {
         let failing = random("common", 0);
         let mut count = 0;
         let (reduction, asked) = reduced(&failing, 40, |_| {
@@ -359,7 +359,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_drawn_is_not_asked_about() {
+    fn the_oracle_is_not_asked_about_cases_that_cannot_be_drawn() {
         let failing = random("common", 1);
         let mut oracle = Condition {
             holds: |_: &Value| true,

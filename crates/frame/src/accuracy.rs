@@ -230,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_outcome_counts_and_what_is_not_asserted_does_not() {
+    fn the_nearest_outcome_counts_and_an_unasserted_value_does_not() {
         let unorm = ChannelEncoding::Unorm(8);
         let info = ImageInfo {
             attachment: "color".to_owned(),

@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn the_worse_band_is_told() {
+    fn a_count_outside_both_bands_fails() {
         let legal = CounterSet {
             name: "n".to_owned(),
             kind: CounterKind::SamplesPassed,

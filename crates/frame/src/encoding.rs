@@ -414,7 +414,7 @@ mod tests {
     }
 
     #[test]
-    fn golden_values_of_packed_encodings() {
+    fn packed_encodings_have_their_golden_values() {
         let value = |e: ChannelEncoding, code| e.value_of_order(e.order_of_code(code));
         assert_eq!(value(ChannelEncoding::Ufloat(6), 0x3c0), 1.0);
         assert_eq!(value(ChannelEncoding::Ufloat(5), 0x1e0), 1.0);

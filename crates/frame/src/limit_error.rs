@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_specification_permits_is_named() {
+    fn limits_that_no_specification_permits_are_named() {
         let refused = |spoil: &dyn Fn(&mut Limits)| {
             let mut limits = limits();
             spoil(&mut limits);

@@ -53,7 +53,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_hidden_is_escaped_and_what_is_long_is_cut() {
+    fn hidden_characters_are_escaped_and_long_texts_are_cut() {
         let text = "a\u{1b}[2J\u{9b}\u{7f}\u{202e}\u{200b}\u{2028}\n\tü";
         let shown = r"a\u{1b}[2J\u{9b}\u{7f}\u{202e}\u{200b}\u{2028}\n\tü";
         assert_eq!(printable(text, 20), shown);
@@ -62,7 +62,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_short_stays_and_what_is_long_loses_its_middle() {
+    fn short_messages_stay_and_long_ones_lose_their_middle() {
         assert_eq!(shortened("unknown key"), "unknown key");
         let long = shortened(&format!("key {} end", "ü".repeat(5000)));
         assert!(long.len() < 700 && long.starts_with("key ü") && long.ends_with("ü end"));

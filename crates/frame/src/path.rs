@@ -270,7 +270,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     #[test]
-    fn values_are_told_apart() {
+    fn path_values_have_distinct_names() {
         let values = PathValue::all();
         let names: BTreeSet<_> = values.iter().map(PathValue::to_string).collect();
         assert_eq!(names.len(), values.len());

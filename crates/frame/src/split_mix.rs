@@ -27,7 +27,7 @@ mod tests {
 
     /// The expected numbers are the output of the authors' code for the seed 1234567.
     #[test]
-    fn the_numbers_are_those_of_the_authors() {
+    fn random_numbers_are_those_of_the_authors() {
         let mut random = SplitMix64(1_234_567);
         let rolled: Vec<u64> = (0..3).map(|_| random.roll()).collect();
         let expected = [

@@ -69,7 +69,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn results_stand_in_the_order_of_their_items() {
+    fn results_keep_the_order_of_their_items() {
         for n in [0, 1, 2, 1000] {
             let numbers: Vec<usize> = (0..n).collect();
             let double: Vec<usize> = numbers.iter().map(|i| 2 * i).collect();
@@ -86,7 +86,7 @@ mod tests {
     }
 
     #[test]
-    fn without_threads_the_calling_one_does_all() {
+    fn the_calling_thread_does_all_work_if_there_are_no_others() {
         // No system can provide a stack of this size.
         let refused = || Builder::new().stack_size(usize::MAX / 4);
         assert!(refused().spawn(|| ()).is_err());

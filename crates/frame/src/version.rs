@@ -63,7 +63,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn versions_are_texts_and_order_by_number() {
+    fn versions_are_written_as_texts_and_sorted_by_number() {
         let version = ApiVersion::try_from("3.10".to_owned()).expect("a version");
         assert_eq!(version, ApiVersion::new(3, 10));
         assert_eq!(String::from(version), "3.10");

@@ -308,7 +308,7 @@ mod tests {
     }
 
     #[test]
-    fn attachments_are_the_parts_that_they_can_be() {
+    fn an_attachment_is_the_wanted_part_of_a_texture_if_it_can_be() {
         let copied = support(ReadBackPath::Packed);
         let depth = true;
         let fetched = support(ReadBackPath::Shader {
@@ -339,7 +339,7 @@ mod tests {
     }
 
     #[test]
-    fn what_would_round_is_read_by_default() {
+    fn a_read_back_that_would_round_is_replaced_by_the_default() {
         let found_end = |format, samples, wanted| {
             let scene = scene(format, samples, PathTarget::Plain, wanted);
             end(&scene, 0, &support(ReadBackPath::Packed))

@@ -373,7 +373,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_fetch_of_a_24_bit_depth_is_no_copy() {
+    fn a_24_bit_depth_is_fetched_exactly_only_if_a_shader_reads_it_back() {
         let support = |read, depth| Support {
             limits: FormatSupport {
                 samples: vec![1],

@@ -208,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_a_glob_has_an_error() {
+    fn an_invalid_glob_has_an_error() {
         let error = |glob| Glob::new(glob).expect_err("an error");
         assert_eq!(error("a["), GlobError::OpenClass);
         assert_eq!(error("[]"), GlobError::OpenClass);
@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn literals_are_in_everything_that_matches() {
+    fn every_matching_text_contains_the_literals() {
         let literals = |glob: &str| Glob::new(glob).expect("a glob").literals();
         assert_eq!(literals("a/b*cd?e*f"), ["a/b", "cd", "e", "f"]);
         assert_eq!(literals("x{a,bc}yz"), ["x", "yz"]);
@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn with_and_without_jumps_the_same_matches() {
+    fn jumps_do_not_change_what_matches() {
         let mut random = 1_u32;
         let mut below = |most: u32| {
             random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);

@@ -55,7 +55,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_set_holds_what_was_put_in(cases in prop::collection::btree_set(1u32..5000, 0..300)) {
+        fn a_set_holds_exactly_its_cases(cases in prop::collection::btree_set(1u32..5000, 0..300)) {
             let set = CaseSet::new(cases.iter().copied());
             prop_assert_eq!(&set.iter().collect::<BTreeSet<u32>>(), &cases);
             for case in 0..5010 {

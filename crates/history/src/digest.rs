@@ -64,7 +64,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_line_has_a_digest_of_its_own() {
+    fn the_first_line_has_its_own_digest() {
         let digests = |text: &str| {
             let mut reader = Digesting::new(text.as_bytes());
             let mut bytes = Vec::new();

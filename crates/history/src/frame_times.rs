@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn a_point_has_an_interval_where_rounds_give_one() {
+    fn a_point_has_an_interval_if_the_rounds_give_one() {
         let rounds = |wall: Vec<f32>| FrameTimes {
             wall,
             ..FrameTimes::default()
@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn medians_are_of_the_rounds() {
+    fn a_median_is_taken_over_the_rounds() {
         let times = FrameTimes {
             wall: vec![3.0, 1.0, 2.0],
             ..FrameTimes::default()

@@ -65,7 +65,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_value_may_hold_anything() {
+    fn a_label_value_can_hold_any_text() {
         let texts = ["branch=main", "note=a=b\n\"'\u{1b}[31m\0", "empty="];
         let labels = parse_labels(&texts).unwrap();
         assert_eq!(labels["branch"], "main");
@@ -75,7 +75,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_label_is_named() {
+    fn invalid_labels_have_a_short_error() {
         let long = format!("k={}", "v".repeat(MAX_VALUE + 1));
         for texts in [
             vec!["branch"],

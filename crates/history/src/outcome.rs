@@ -182,7 +182,7 @@ mod tests {
     use etalon_record::Expected;
 
     #[test]
-    fn an_outcome_counts_as_its_record_does() {
+    fn an_outcome_is_unexpected_exactly_if_its_record_is() {
         for verdict in Verdict::ALL {
             for due_fail in [false, true] {
                 for expected in [false, true] {
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn selftests_stand_the_other_way() {
+    fn a_selftest_is_good_if_it_fails() {
         let standing = |verdict, due_fail| {
             let mut outcome = Outcome::new(verdict);
             outcome.due_fail = due_fail;

@@ -74,19 +74,22 @@ mod tests {
 
     proptest! {
         #[test]
-        fn numbers_come_back(numbers in prop::collection::vec(prop_oneof![0u32..50, any::<u32>()], 0..200)) {
+        fn packed_numbers_unpack_equal(numbers in prop::collection::vec(prop_oneof![0u32..50, any::<u32>()], 0..200)) {
             let packed = pack(&numbers).unwrap();
             prop_assert_eq!(unpack(&packed, numbers.len()), Some(numbers.clone()));
             prop_assert_eq!(unpack(&packed, numbers.len() + 1), None);
         }
 
         #[test]
-        fn times_come_back(times in prop::collection::vec(0f32..10.0, 0..50)) {
+        fn packed_times_unpack_equal(times in prop::collection::vec(0f32..10.0, 0..50)) {
             prop_assert_eq!(unpack_times(&pack_times(&times)), Some(times));
         }
 
         #[test]
-        fn damaged_bytes_end_well(bytes in prop::collection::vec(any::<u8>(), 0..100), count in 0usize..100) {
+        fn unpacking_damaged_bytes_does_not_panic(
+            bytes in prop::collection::vec(any::<u8>(), 0..100),
+            count in 0usize..100,
+        ) {
             let _ = unpack(&bytes, count);
         }
     }

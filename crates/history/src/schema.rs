@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn every_schema_leads_to_the_last() {
+    fn every_schema_migrates_to_the_last() {
         let path = Path::new("history.db");
         for from in 0..=MIGRATIONS.len() {
             let mut connection = memory();
@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_is_being_made_is_empty_or_a_history() {
+    fn a_file_under_construction_is_empty_or_a_history() {
         let folder = tempfile::tempdir().unwrap();
         for number in 0..50 {
             let path = folder.path().join(format!("{number}.db"));

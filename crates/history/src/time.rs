@@ -28,7 +28,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn times_come_back() {
+    fn formatted_times_parse_equal() {
         for text in ["2026-11-23T06:09:58Z", "1970-01-01T00:00:00Z"] {
             assert_eq!(format_time(parse_time(text).unwrap()), text);
         }

@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_version_requires_is_checked_without_drawing() {
+    fn requirements_of_a_version_are_checked_without_drawing() {
         let none = Expectations::default();
         let denying = denials(&adapter(), &none);
         assert!(!denying.is_empty());

@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn no_text_counts_fragments_for_webgpu() {
+    fn a_missing_line_is_no_fail_in_webgpu() {
         assert_ne!(lacking(Api::WebGpu, 0..36).verdict, Verdict::Fail);
     }
 }

@@ -59,7 +59,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_version_requires_must_not_be_denied() {
+    fn denying_a_required_format_is_a_fail() {
         let record = lacking(TextureFormat::Rgba16Float, false, 3, 3);
         assert_eq!(record.verdict, Verdict::Fail);
         let [Reason::Denied(denial)] = &record.reasons[..] else {
@@ -73,7 +73,7 @@ mod tests {
     }
 
     #[test]
-    fn what_it_does_not_require_is_not_supported() {
+    fn lacking_a_format_that_is_not_required_is_not_supported() {
         for record in [
             lacking(TextureFormat::B5g6r5Unorm, false, 3, 3),
             lacking(TextureFormat::Rgba16Float, true, 4, 6),

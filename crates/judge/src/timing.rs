@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn medians_stand_in_the_middle_and_nothing_has_none() {
+    fn times_have_their_medians_and_no_frames_have_none() {
         assert_eq!(medians(&[], 0.0), None);
         let times = [
             frame(0.009, None),

@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn every_mode_of_every_coverage_is_the_texts() {
+    fn every_mode_blends_as_the_specification_says() {
         let values = [0.0, 0.125, 0.25, 0.4, 0.5, 0.75, 0.9, 1.0];
         for mode in AdvancedBlend::ALL.iter().copied() {
             for (s, d) in values.iter().flat_map(|s| values.map(|d| (*s, d))) {
@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn the_ends_of_dodge_and_burn() {
+    fn dodge_and_burn_are_exact_at_their_ends() {
         let red = |mode, s: f32, d: f32| run(mode, [s, s, s, 1.0], [d, d, d, 1.0])[0];
         let (dodge, burn) = (AdvancedBlend::ColorDodge, AdvancedBlend::ColorBurn);
         assert_eq!(red(dodge, 1.0, 0.0), 0.0);

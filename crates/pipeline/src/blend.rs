@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn the_textbook_example_of_over() {
+    fn over_gives_the_textbook_colour() {
         let state = over(BlendOperation::Add);
         let result = run(&state, [0.0, 0.0, 1.0, 0.6], [1.0, 0.0, 0.0, 1.0]);
         for (value, expected) in result.into_iter().zip([0.4, 0.0, 0.6, 0.76]) {

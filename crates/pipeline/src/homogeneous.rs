@@ -178,14 +178,14 @@ mod tests {
     }
 
     #[test]
-    fn the_grid_has_places_in_front_of_the_eye_alone() {
+    fn only_points_in_front_of_the_eye_have_a_place_on_the_grid() {
         assert!(!is_cut([3.0, -5.0, 1.0]) && !is_cut([FARTHEST, 0.0, 1.0]));
         assert!(is_cut([0.0, 0.0, 0.0]) && is_cut([3.0, 5.0, -1.0]));
         assert!(is_cut([FARTHEST, 0.0, 0.5]) && is_cut([0.0, -FARTHEST, 0.5]));
     }
 
     #[test]
-    fn in_front_of_the_eye_it_is_the_triangle() {
+    fn a_triangle_in_front_of_the_eye_has_its_plain_edges_and_planes() {
         let points = [at(3, 5), at(90, 7), at(20, 70)];
         let places = points.map(|p| (p.x as f64, p.y as f64, 1.0));
         let triangle = vertices(places);
@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn the_quotient_of_two_planes_is_the_value() {
+    fn the_quotient_of_two_planes_is_the_interpolated_value() {
         let triangle = vertices([(0.0, 0.0, 1.0), (64.0, 0.0, 4.0), (0.0, 64.0, 2.0)]);
         let (value, reciprocal_w) = (triangle.over_w([8.0, 2.0, 4.0]), triangle.over_w([1.0; 3]));
         // Halfway in the window is a fifth of the way in space.
@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn clipping_keeps_what_is_not_negative() {
+    fn clipping_keeps_the_part_where_the_distance_is_not_negative() {
         assert_eq!(HomogeneousTriangle::clipped([[1.0; 3]]).len(), 3);
         assert!(HomogeneousTriangle::clipped([[-1.0; 3]]).is_empty());
         let half = HomogeneousTriangle::clipped([[1.0, -1.0, 1.0]]);

@@ -313,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn bytes_are_their_quotients() {
+    fn a_byte_decodes_to_its_quotient_by_255() {
         for code in 0..=255_u32 {
             assert_eq!(of_byte(code), code as f32 / 255.0, "{code}");
         }
@@ -331,7 +331,7 @@ mod tests {
     }
 
     #[test]
-    fn out_of_range_and_nan_are_stored_in_range() {
+    fn values_out_of_range_and_nan_are_stored_as_codes_in_range() {
         let encoding = ChannelEncoding::Unorm(8);
         let codes = Plain::<4>.encode(encoding, [-1.0, 2.0, f32::NAN, f32::INFINITY]);
         assert_eq!(codes, [0, 255, 0, 255]);

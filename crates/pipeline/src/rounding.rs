@@ -22,7 +22,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn whole_parts_are_those_of_conversions() {
+    fn the_integer_part_is_that_of_a_conversion() {
         for i in 0..2_000_000_u32 {
             // Halves, their neighbours, and numbers in between.
             let v = i as f32 / 2.0;

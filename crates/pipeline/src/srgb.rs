@@ -117,7 +117,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn codes_are_those_of_the_function() {
+    fn srgb_codes_are_those_of_the_defining_function() {
         let near = (1..=255).flat_map(|code| {
             let bits = least(code).to_bits();
             (bits - 200..bits + 200).map(f32::from_bits)

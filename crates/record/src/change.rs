@@ -270,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn what_becomes_unexpected_is_worse_and_never_better() {
+    fn a_result_that_becomes_unexpected_is_worse_and_never_better() {
         for before in every() {
             assert_eq!(Change::between(before, before), Change::Same);
             for after in every() {

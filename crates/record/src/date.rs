@@ -46,7 +46,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_day_is_one_of_its_month() {
+    fn a_day_must_exist_in_its_month() {
         for day in ["2027-01-31", "2028-02-29", "2000-02-29", "2027-12-31"] {
             assert_eq!(check_date("expires", day), Ok(()));
         }

@@ -596,7 +596,7 @@ mod tests {
     }
 
     #[test]
-    fn what_matches_is_alive() {
+    fn a_glob_that_matches_a_case_is_alive() {
         for case in ["a/*", "a/x=1/y=1", "a/x={1,2}/y={1,2}", "*y=2", "a/x=1/y=?"] {
             assert_eq!(dead(&[entry("gl:a", case, "fail")], &IDS), [], "{case}");
             assert_eq!(dead(&[entry("*", case, "fail")], &IDS), [], "{case}");
@@ -617,7 +617,7 @@ mod tests {
     }
 
     #[test]
-    fn a_covered_entry_is_dead_and_of_twins_the_second() {
+    fn a_covered_entry_is_dead_and_so_is_the_second_of_two_equal_ones() {
         let (wide, narrow) = (entry("*", "a/*", "fail"), entry("gl:a", "a/x=1/*", "fail"));
         let covered = |entries: &[&String]| {
             let entries: Vec<String> = entries.iter().map(|e| (*e).clone()).collect();
@@ -657,7 +657,7 @@ mod tests {
     }
 
     #[test]
-    fn the_list_lies_in_the_folder() {
+    fn the_list_of_dead_entries_is_written_and_read_back() {
         let folder = tempfile::tempdir().unwrap();
         assert_eq!(Dead::read(folder.path()).unwrap(), []);
         let entry = Dead {

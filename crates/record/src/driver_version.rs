@@ -69,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn drivers_say_it_in_many_ways() {
+    fn versions_are_found_in_the_forms_that_drivers_use() {
         let version = |text: &str| driver_version(text).map(|v| v.to_string());
         for (text, expected) in [
             ("Mesa 22.3.6 (LLVM 15.0.6)", Some("22.3.6")),

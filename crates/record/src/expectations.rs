@@ -436,7 +436,7 @@ mod tests {
     }
 
     #[test]
-    fn those_about_an_adapter_have_names_and_are_found_by_case() {
+    fn findings_about_an_adapter_have_names_and_are_found_by_case() {
         let finding = |adapter: &str, case: &str| {
             format!(
                 r#"{{ "title": "t", "adapters": ["{adapter}"], "driver": "*", "cases": ["{case}"],

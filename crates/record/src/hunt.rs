@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn what_must_be_caught_is_caught_and_what_is_legal_is_not() {
+    fn a_bug_must_be_caught_and_a_legal_change_must_not() {
         for (outcome, legal, fine) in [
             (Catch::Caught, false, true),
             (Catch::Noticed, false, false),

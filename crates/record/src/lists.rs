@@ -352,7 +352,7 @@ mod tests {
     }
 
     #[test]
-    fn lists_go_in_and_come_out_the_same() {
+    fn imported_lists_are_exported_the_same() {
         let mut imported = Imported::default();
         let mut add = |kind, name: &str, text: &str| {
             imported.add(kind, name, text, &ids(), &about()).unwrap();
@@ -409,7 +409,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_read_names_list_and_line() {
+    fn an_unreadable_entry_names_its_list_and_line() {
         let error = |kind, text: &str| {
             let mut imported = Imported::default();
             let result = imported.add(kind, "list.txt", text, &ids(), &about());

@@ -517,7 +517,7 @@ mod tests {
     }
 
     #[test]
-    fn what_etalon_wrote_is_removed_and_nothing_else() {
+    fn only_files_that_etalon_wrote_are_removed() {
         let folder = tempfile::tempdir().unwrap();
         let folder = folder.path();
         let out = OutputFolder::open(folder).unwrap();

@@ -465,7 +465,7 @@ mod tests {
     }
 
     #[test]
-    fn shares_and_sharpness_know_nothing_of_nothing() {
+    fn without_channels_the_share_is_zero_and_the_sharpness_unknown() {
         let mut a = Assertion::new(
             Aspect::Color,
             AspectStatistics::default(),

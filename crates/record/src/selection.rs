@@ -81,7 +81,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn shards_are_balanced_and_a_case_keeps_its_own() {
+    fn shards_are_balanced_and_a_case_keeps_its_shard() {
         let ids: Vec<String> = (0..4000)
             .map(|n| format!("depth/compare/compare=less/n={n}"))
             .collect();

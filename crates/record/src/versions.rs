@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_not_drawn_is_as_both_its_neighbours_are() {
+    fn an_undrawn_release_is_bad_between_two_bad_ones() {
         for (verdicts, bad, range) in [
             ("p.p.p", vec![], None),
             ("f.f.f", vec![[0, 4]], None),
@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_comes_back_and_a_damaged_one_says_where() {
+    fn a_file_of_versions_reads_back_and_a_damaged_one_names_its_line() {
         let versions = Versions {
             header: VersionsHeader {
                 format: VERSIONS_FORMAT,

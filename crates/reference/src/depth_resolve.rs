@@ -232,7 +232,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_extreme_is_one_that_all_samples_leave_possible() {
+    fn an_extreme_depth_is_one_that_all_samples_leave_possible() {
         let samples = [[1, 7].into(), [3, 4].into(), [4].into()];
         assert_eq!(extremes(ResolveMode::Min, &samples), [1, 3, 4].into());
         assert_eq!(extremes(ResolveMode::Max, &samples), [4, 7].into());

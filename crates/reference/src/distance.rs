@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plane_is_open_only_where_an_edge_may_lie() {
+    fn a_clip_plane_is_undecided_only_near_its_edge() {
         let corners = [exact(0, 0), exact(16, 0), exact(0, 16)];
         let rules = rules();
         let over = |values| ClipDistance::over(corners, values, sixteenths(&rules), 1e-5);
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn zero_is_inside_and_all_negative_is_outside() {
+    fn a_clip_distance_of_zero_is_inside_and_a_negative_one_outside() {
         let corners = [exact(0, 0), exact(16, 0), exact(0, 16)];
         let rules = rules();
         let over = |values| ClipDistance::over(corners, values, sixteenths(&rules), 1e-5);

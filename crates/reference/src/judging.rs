@@ -843,7 +843,7 @@ mod tests {
     }
 
     #[test]
-    fn the_yardstick_wants_the_nearest_code_and_exact_round_trips() {
+    fn the_yardstick_requires_the_nearest_code_and_exact_round_trips() {
         let rules = Rules::yardstick(&crate::test_limits::limits(Api::Vulkan));
         let mut a = Judging::new(&rules);
         let e = ChannelEncoding::Unorm(8);
@@ -856,7 +856,7 @@ mod tests {
     }
 
     #[test]
-    fn any_float_is_exact_as_a_float() {
+    fn a_float_is_stored_exactly_in_a_float_channel() {
         let rules = Rules::of(&crate::test_limits::limits(Api::OpenGl));
         let mut a = Judging::new(&rules);
         for value in [0.0, 1e-30, 0.3, 0.99999994, 1.0_f32] {

@@ -42,7 +42,7 @@ mod tests {
     use super::Possible::{self, Always, Maybe, Never};
 
     #[test]
-    fn both_happen_if_each_does() {
+    fn two_events_both_happen_only_if_each_does() {
         for (a, b, both) in [
             (Always, Always, Always),
             (Always, Maybe, Maybe),

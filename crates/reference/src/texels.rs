@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn small_images_are_looked_at_whole_and_tiny_numbers_keep_their_bound() {
+    fn small_images_are_judged_whole_and_tiny_numbers_keep_their_bound() {
         assert_eq!(Texels::AtMost(256).count([16, 16]), 256);
         assert_eq!(Texels::AtMost(1).count([16, 16]), 1);
         assert_eq!(Texels::AtMost(0).count([16, 16]), 1);

@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn a_command_defines_what_it_clears_all_of() {
+    fn a_clear_defines_only_an_aspect_that_it_covers_whole() {
         let pass = |clear: &str| {
             format!(r#"{DISCARD_DEPTH},{{"depth_stencil":"depth","draws":[],"clears":[{clear}]}}"#)
         };
@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn a_draw_passes_on_what_it_reads() {
+    fn a_draw_makes_undefined_what_it_computes_from_undefined_contents() {
         let drawn = |state: &str| {
             format!(
                 r#"{DISCARD_DEPTH},{{"color":["color"],"depth_stencil":"depth","draws":[
@@ -223,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn textures_and_resolves_pass_it_on() {
+    fn textures_and_resolves_pass_undefined_contents_on() {
         let dropped = r#"{"color":["other"],"draws":[],
             "operations":{"color":[{"store":"discard"}]}}"#;
         let fetch = r#"{"color":["color"],"draws":[{"mesh":{"kind":"full"},

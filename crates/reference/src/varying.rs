@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn a_perspective_is_near_to_the_nearer_vertex() {
+    fn a_perspective_value_is_closer_to_that_of_the_nearer_vertex() {
         let value = Varying::Perspective(triangle([0.0, 10.0, 0.0]));
         // Halfway in the window is a fifth of the way in space.
         let Interval { low, high } = value.at(Point { x: 8 * UNITS, y: 0 });
@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn a_texel_holds_its_points() {
+    fn the_interval_of_a_texel_contains_those_of_its_points() {
         let value = Varying::Perspective(triangle([0.0, 10.0, 0.0]));
         let point = Point {
             x: 8 * UNITS + 77,
@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn beyond_the_horizon_anything_is_open() {
+    fn a_value_beyond_the_horizon_can_be_anything() {
         let value = Varying::Perspective(triangle([0.0, 10.0, 0.0]));
         let far = Point {
             x: 64 * UNITS,

@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn shares_are_told_from_all_and_nothing() {
+    fn a_share_that_is_not_all_or_nothing_is_not_rounded_to_it() {
         let shares = [(0, 9), (9, 9), (1, 1_000_000), (999_999, 1_000_000)];
         let texts = shares.map(|(part, whole)| percent_of(part, whole));
         assert_eq!(texts, ["0 %", "100 %", "0.1 %", "99.9 %"]);

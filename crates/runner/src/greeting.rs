@@ -65,7 +65,7 @@ mod tests {
     }
 
     #[test]
-    fn a_greeting_is_known_and_what_else_comes_is_quoted() {
+    fn a_greeting_is_recognized_and_other_output_is_quoted() {
         let mut pipe = Vec::new();
         send(&mut pipe).expect("sent");
         assert_eq!(check(&mut pipe.as_slice(), false), Ok(true));

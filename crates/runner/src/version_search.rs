@@ -77,7 +77,7 @@ mod tests {
     }
 
     #[test]
-    fn one_change_is_found_by_halving_and_checked_beside() {
+    fn one_change_is_found_by_halving() {
         assert_eq!(
             search("gggggggggggggggg"),
             ("g......g.......g".to_owned(), 3)
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn what_changes_twice_or_is_flaky_is_drawn_with_every_release() {
+    fn a_case_that_changes_twice_or_is_flaky_is_drawn_with_every_release() {
         for truth in ["gggbbbggg", "bbgggbbbb", "ggyggbbbb", "ggggygggg"] {
             assert_eq!(search(truth).0, truth);
         }

@@ -428,7 +428,7 @@ mod tests {
     }
 
     #[test]
-    fn tests_are_on_that_have_no_attachment() {
+    fn tests_without_an_attachment_are_enabled() {
         let mut scene = scene(Path {
             tests: PathTests::Unattached,
             ..Path::default()
@@ -451,7 +451,7 @@ mod tests {
     }
 
     #[test]
-    fn contents_move_to_the_first_pass_and_others_are_left() {
+    fn contents_move_to_the_first_pass_and_attachments_start_with_others() {
         let loaded = started(PathStart::LoadOperation);
         let operations = &loaded.passes[0].operations;
         assert_eq!(operations.color[0].load.clear_value(), Some([1.0; 4]));
@@ -496,7 +496,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_drawn_beside_integers() {
+    fn integer_attachments_are_not_initialized_by_a_draw() {
         let path = Path {
             start: PathStart::Draw,
             ..Path::default()

@@ -98,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn layers_lie_over_each_other() {
+    fn layers_overlap() {
         let stack = MeshSource::Stack {
             z: vec![0.0; 2],
             values: vec![VALUE],
@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_compared_may_overlap() {
+    fn meshes_that_are_not_compared_may_overlap() {
         let mut instanced = draw(&field(Some(20)));
         instanced.fetch.instances = 2;
         assert!(may_overlap(&instanced));

@@ -291,7 +291,7 @@ mod tests {
     }
 
     #[test]
-    fn clears_stand_before_their_draws() {
+    fn clears_are_found_by_the_draw_that_follows() {
         let pass = Pass {
             clears: [0, 2, 2, 3].map(clear).to_vec(),
             ..Pass::default()

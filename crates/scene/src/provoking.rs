@@ -68,7 +68,7 @@ mod tests {
 
     /// OpenGL 4.6, table 13.2, with vertices counted from 0.
     #[test]
-    fn ends_are_those_of_the_table() {
+    fn provoking_vertices_are_those_of_the_table() {
         let ends = |topology, vertices| mesh(vertices, None).ends(topology);
         use PrimitiveTopology as T;
         assert_eq!(ends(T::PointList, 2), [[0, 0], [1, 1]]);
@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn each_primitive_has_its_own_ends() {
+    fn provoking_vertices_belong_to_their_primitive() {
         let indices = vec![4, 2, 0, 1, RESTART, 3, 1, 0];
         for topology in PrimitiveTopology::ALL {
             let mesh = mesh(5, Some(indices.clone()));

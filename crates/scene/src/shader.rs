@@ -505,7 +505,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn facts_agree_with_the_source() {
+    fn facts_about_a_shader_agree_with_its_source() {
         for shader in Shader::ALL {
             let text = shader.wgsl();
             let has = |word: &str| text.contains(word);

@@ -69,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn the_order_is_that_of_the_domain() {
+    fn the_vertex_order_follows_the_domain_origin() {
         for order in FrontFace::ALL {
             for origin in DomainOrigin::ALL {
                 let (order, origin) = (*order, *origin);

@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_culled_or_clipped_covers_nothing() {
+    fn culled_and_clipped_primitives_cover_nothing() {
         let mut draw = grid([8, 4]);
         draw.cull = CullMode::Back;
         let ccw = drawn(&draw, SIZE);

@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_frame_costs_beside_the_work_cancels() {
+    fn costs_of_a_frame_that_do_not_depend_on_work_cancel() {
         let slope = planted(1, 9, 1e-9, 1e-5);
         let rate = slope.rate().unwrap();
         assert!((rate / 1e9 - 1.0).abs() < 0.01, "{rate}");
@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn intervals_of_medians_are_those_of_tables() {
+    fn intervals_of_medians_are_those_of_published_tables() {
         // Ranks of the ends at 95 % for these numbers of values (Conover, Practical Nonparametric Statistics,
         // table A3 inverted): 6 to 8 give the first and the last, 9 to 11 the second, 12 to 14 the third.
         for (n, rank) in [

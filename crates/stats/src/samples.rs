@@ -144,7 +144,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn quantiles_lie_between_the_nearest_values() {
+    fn quantiles_are_between_the_nearest_values() {
         let values = [1.0, 2.0, 4.0, 8.0];
         assert_eq!(quantile(&values, 0.0), Some(1.0));
         assert_eq!(quantile(&values, 0.5), Some(3.0));
@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_time_is_refused() {
+    fn an_invalid_time_is_refused() {
         let none: [&[f64]; 0] = [];
         assert_eq!(Samples::new(&none), Err(SampleError::None));
         assert_eq!(

@@ -61,7 +61,7 @@ mod tests {
     }
 
     #[test]
-    fn closed_forms_hold_far_out() {
+    fn student_s_distribution_agrees_with_closed_forms_far_out() {
         // One degree of freedom is Cauchy's distribution, two have an algebraic one.
         for t in [0.0, 0.1, 1.0, 7.0, 1e3, 1e6] {
             let cauchy = 1.0 - 2.0 / std::f64::consts::PI * f64::atan(t);

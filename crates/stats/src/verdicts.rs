@@ -208,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn each_event_is_told_once_and_where_it_shows() {
+    fn each_event_is_reported_once_at_the_run_that_shows_it() {
         assert_eq!(events(""), []);
         assert_eq!(events("ggggg"), []);
         assert_eq!(events("bbb"), []);
@@ -221,14 +221,14 @@ mod tests {
     }
 
     #[test]
-    fn what_a_case_was_before_it_was_gone_counts() {
+    fn a_case_that_returns_is_compared_with_its_last_verdict() {
         assert_eq!(events("g.g"), [(Gone, 1), (Appeared, 2)]);
         assert_eq!(events("g..b"), [(Gone, 1), (Appeared, 3), (Broken, 3)]);
         assert_eq!(events(".b"), [(Appeared, 1)]);
     }
 
     #[test]
-    fn good_and_bad_in_turn_is_flaky() {
+    fn alternating_good_and_bad_is_flaky() {
         assert_eq!(events("gggbgbgbbbbb"), [(Flaky, 3), (Broken, 7)]);
         assert_eq!(events("ggbbggbbgggggg"), [(Flaky, 2), (Fixed, 8)]);
         assert_eq!(
@@ -248,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn scores_over_what_is_common_do_not_move_with_the_suite() {
+    fn scores_of_common_cases_do_not_change_with_the_suite() {
         let run =
             |cases: &[(u8, Standing)]| cases.iter().copied().collect::<BTreeMap<u8, Standing>>();
         let before = run(&[(1, Standing::Good), (2, Standing::Good), (3, Standing::Bad)]);

@@ -199,7 +199,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_reader_translates() {
+    fn every_reader_shader_translates() {
         for seen in [
             ReaderType::Color,
             ReaderType::Integers,

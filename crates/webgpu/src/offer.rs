@@ -319,7 +319,7 @@ mod tests {
     }
 
     #[test]
-    fn compatibility_mode_may_lack_what_its_text_names() {
+    fn compatibility_mode_lacks_only_what_its_specification_names() {
         let core = limits(Level::Core, 4096, 32);
         let compatible = limits(Level::Compatibility, 4096, 32);
         let lacked: Vec<_> = core.features.difference(&compatible.features).collect();

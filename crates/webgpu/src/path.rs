@@ -266,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn values_follow_what_the_adapter_has() {
+    fn offered_path_values_are_those_that_the_adapter_has() {
         let base = PathValue::Draws(PathDraws::BaseVertex);
         let indirect = PathValue::Draws(PathDraws::Indirect);
         let views = PathValue::Views(PathViews::Srgb);
@@ -280,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn attachments_are_the_parts_that_they_can_be() {
+    fn an_attachment_is_the_wanted_part_of_a_texture_if_it_can_be() {
         let found_target = |format, samples, wanted| {
             let path = Path {
                 target: wanted,
@@ -318,7 +318,7 @@ mod tests {
     }
 
     #[test]
-    fn a_layer_that_a_shader_reads_is_a_texture_where_views_have_all_layers() {
+    fn a_layer_that_a_shader_reads_is_a_texture_if_views_have_all_layers() {
         let abilities = Abilities {
             layers: false,
             ..ABILITIES
@@ -340,7 +340,7 @@ mod tests {
     }
 
     #[test]
-    fn what_would_round_is_read_by_default() {
+    fn a_read_back_that_would_round_is_replaced_by_the_default() {
         let found_end = |format, wanted| {
             let path = Path {
                 end: wanted,

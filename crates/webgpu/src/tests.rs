@@ -202,7 +202,7 @@ fn every_draw_of_a_scene_is_in_its_list() {
 }
 
 #[test]
-fn a_list_comes_back_from_its_json() {
+fn a_call_list_survives_json() {
     let device = device();
     each_list(&device, |case, _, list| {
         let text = serde_json::to_string(list).expect("a list is JSON");
@@ -212,7 +212,7 @@ fn a_list_comes_back_from_its_json() {
 }
 
 #[test]
-fn bytes_become_the_frame_that_they_are() {
+fn read_back_bytes_make_a_whole_frame_or_none() {
     let device = device();
     each_list(&device, |case, scene, list| {
         let bytes: Vec<u8> = (0..list.reading.bytes).map(|i| (i % 251) as u8).collect();
@@ -233,7 +233,7 @@ fn bytes_become_the_frame_that_they_are() {
 }
 
 #[test]
-fn what_a_device_lacks_is_named() {
+fn a_feature_that_the_device_lacks_is_named() {
     let library = Library::built_in();
     let mut cases = library.cases(Profile::Full);
     let first_instance = |scene: &Scene| {

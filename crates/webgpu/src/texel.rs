@@ -50,7 +50,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn channels_lie_where_webgpu_puts_them() {
+    fn channels_are_packed_in_webgpus_order() {
         let mut out = Vec::new();
         pack(TextureFormat::Bgra8Unorm, &[1, 2, 3, 4], &mut out);
         pack(TextureFormat::Rgb10a2Unorm, &[0x3ff, 0, 1, 2], &mut out);
@@ -60,7 +60,7 @@ mod tests {
     }
 
     #[test]
-    fn packing_inverts() {
+    fn packing_and_unpacking_are_inverse() {
         for format in TextureFormat::ALL {
             let codes: Vec<u32> = format
                 .color_channels()

@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn the_name_says_what_goes_wrong() {
+    fn a_process_fault_is_parsed_from_its_name() {
         for name in [
             "abort",
             "segv",
@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn the_name_says_which_limit_is_reported() {
+    fn a_limit_fault_is_parsed_from_its_name() {
         let limit = |name: &str| Fault::parsed(name).map(|(_, fault)| fault);
         for (name, fault) in [
             ("cpu:limit=sub-pixel-bits-64", LimitFault::SubPixelBits(64)),
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn the_name_says_how_much_slower() {
+    fn a_slowdown_is_parsed_from_its_percentage() {
         for (name, percent) in [("cpu:slower=5%", 5.0), ("cpu:slower=0.5%", 0.5)] {
             assert_eq!(Fault::parsed(name), Some(("cpu", Fault::Slower(percent))));
         }

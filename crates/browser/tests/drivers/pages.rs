@@ -165,7 +165,7 @@ fn answer_to(request: &Value) -> Value {
 }
 
 #[test]
-fn a_page_draws() {
+fn a_page_draws_a_scene() {
     let drawn = drawn_with(|request| {
         let bytes = request["list"]["reading"]["bytes"].as_u64().expect("bytes");
         let mut bytes = vec![0; bytes as usize];
@@ -279,7 +279,7 @@ fn the_errors_of_a_page_keep_their_kinds() {
 }
 
 #[test]
-fn only_who_has_the_token_is_served() {
+fn a_request_without_the_token_is_refused() {
     let page = Page::new();
     let worker = page.worker();
     let origin = format!("http://{}", page.address);

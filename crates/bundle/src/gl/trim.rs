@@ -515,7 +515,7 @@ mod tests {
     ];
 
     #[test]
-    fn state_that_changes_nothing_goes() {
+    fn state_that_changes_nothing_is_removed() {
         assert_eq!(left(&CALLS, Trim::Nothing).len(), CALLS.len());
         assert_eq!(
             left(&CALLS, Trim::Redundant),
@@ -543,7 +543,7 @@ mod tests {
     }
 
     #[test]
-    fn state_of_one_target_counts_with_that_of_all() {
+    fn state_of_one_target_is_kept_until_state_of_all_targets_overrides_it() {
         let calls: [(&str, &[u32]); 7] = [
             ("glColorMask", &[1, 1, 1, 1]),
             ("glColorMaski", &[1, 0, 0, 0, 0]),

@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn what_webgpu_lacks_is_in_no_script() {
+    fn code_that_webgpu_lacks_leaves_no_script() {
         let part = Structure::of("A").with("b", Code::of_wgpu("wgpu::B"));
         assert_eq!(part.end().script, None);
         let code = joined([Code::same("1"), Code::of_wgpu("x"), Code::same("2")]);

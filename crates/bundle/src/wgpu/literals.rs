@@ -289,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn bytes_are_floats_words_or_bytes() {
+    fn bytes_are_written_as_floats_words_or_bytes() {
         assert_eq!(bytes(&[0; 8]), Code::new("&[0; 8]", "new Uint8Array(8)"));
         let floats = bytes(&1.5_f32.to_le_bytes());
         assert!(floats.rust.contains("floats(&[\n        1.5,"));

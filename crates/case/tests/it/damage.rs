@@ -70,7 +70,7 @@ fn build(text: &[u8]) -> bool {
 
 proptest! {
     #[test]
-    fn case_files(which in any::<prop::sample::Index>(), spoilt in spoilings()) {
+    fn a_spoilt_case_file_is_built_or_refused(which in any::<prop::sample::Index>(), spoilt in spoilings()) {
         build(&spoilt.of(which.get::<String>(texts())));
     }
 }
@@ -96,7 +96,7 @@ fn file(more: &str, axes: &str, size: &str) -> String {
 
 /// Absurd sizes, counts and nesting are refused with a message, at once.
 #[test]
-fn absurdities_are_refused() {
+fn absurd_sizes_counts_and_nesting_are_refused() {
     let with = |axes: &str, size: &str| file("", axes, size);
     assert!(build(with("{}", "[4, 4]").as_bytes()));
     for size in [
@@ -127,7 +127,7 @@ fn absurdities_are_refused() {
 
 /// A count beyond what the axes hold takes all they hold, and a shift beyond an axis goes round.
 #[test]
-fn counts_beyond_the_axes_end() {
+fn counts_beyond_the_axes_take_all_that_the_axes_hold() {
     let most = usize::MAX.to_string();
     for quick in ["each", "first"] {
         let more = format!(

@@ -740,7 +740,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_value_of_the_environment_leaves_its_word() {
+    fn values_of_the_environment_are_quoted_as_one_shell_word() {
         assert_eq!(quoted("llvmpipe"), "llvmpipe");
         assert_eq!(quoted("a b; rm -rf $HOME"), "'a b; rm -rf $HOME'");
         assert_eq!(quoted("it's"), "'it'\\''s'");

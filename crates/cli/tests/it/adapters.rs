@@ -158,7 +158,7 @@ fn an_entry_takes_the_place_of_the_built_in_one_of_its_name() {
 }
 
 #[test]
-fn what_is_wrong_with_a_file_is_said() {
+fn errors_in_a_file_of_adapters_are_named() {
     let mut said = String::new();
     for text in [
         "",
@@ -222,7 +222,7 @@ fn a_planted_fault_of_another_backend_is_no_adapter() {
 }
 
 #[test]
-fn what_is_not_asked_for_need_not_be_there() {
+fn an_unavailable_adapter_matters_only_if_it_is_selected() {
     let (_folder, path) = file(
         r#"[{ "name": "a", "backend": "gl", "egl": "/none/libEGL.so" },
             { "name": "b", "backend": "cpu" }]"#,
@@ -232,7 +232,7 @@ fn what_is_not_asked_for_need_not_be_there() {
 }
 
 #[test]
-fn another_driver_may_not_answer_for_the_one_that_is_meant() {
+fn another_driver_cannot_answer_for_the_intended_one() {
     let (_folder, path) = file(
         r#"[{ "name": "gl:voodoo", "backend": "gl", "answers": "voodoo", "remedy": "find one",
               "environment": { "LIBGL_ALWAYS_SOFTWARE": "1", "GALLIUM_DRIVER": "softpipe" } }]"#,
@@ -308,7 +308,7 @@ fn the_facts_of_each_adapter_are_there_for_programs() {
 }
 
 #[test]
-fn an_adapter_that_a_variable_names_is_listed_and_its_remedy_when_asked_for() {
+fn adapters_that_need_a_variable_are_listed_and_remedies_are_shown_on_request() {
     // The lines below the tables, which are the machine's. Without a path no browser is found.
     let below = |command: &mut Command, head: &str| {
         let assert = command.env("PATH", "/none").assert().code(0);
@@ -371,7 +371,7 @@ fn a_cold_cache_is_neither_read_nor_written() {
 
 /// Correct calls cause no messages. The backends' tests show that wrong calls do.
 #[test]
-fn validation_says_nothing_of_what_is_right() {
+fn validation_layers_are_silent_about_correct_calls() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
     let mut command = etalon(&[

@@ -37,7 +37,7 @@ fn bench(cases: &Path, out: &Path, arguments: &[&str]) -> assert_cmd::assert::As
 }
 
 #[test]
-fn what_is_right_is_timed_and_what_is_wrong_is_not() {
+fn right_pictures_are_timed_and_wrong_ones_are_not() {
     let cases = cases();
     let out = tempfile::tempdir().unwrap();
     // A selftest is due to fail, so the bench succeeds.
@@ -63,7 +63,7 @@ fn what_is_right_is_timed_and_what_is_wrong_is_not() {
 }
 
 #[test]
-fn programs_are_told_in_json() {
+fn a_bench_summarizes_itself_as_json() {
     let cases = cases();
     let out = tempfile::tempdir().unwrap();
     let arguments = ["perf/right", "--adapter", "cpu", "--format", "json"];
@@ -132,7 +132,7 @@ fn instructions_are_counted_beside_the_times() {
 }
 
 #[test]
-fn wrong_usage_is_64_and_nothing_chosen_is_4() {
+fn wrong_usage_exits_with_64_and_an_empty_selection_with_4() {
     let cases = cases();
     let out = tempfile::tempdir().unwrap();
     for (arguments, words) in [
@@ -167,7 +167,7 @@ fn wrong_usage_is_64_and_nothing_chosen_is_4() {
 }
 
 #[test]
-fn what_was_recorded_is_not_replaced_without_force() {
+fn a_recorded_bench_is_not_replaced_without_force() {
     let cases = cases();
     let out = tempfile::tempdir().unwrap();
     let right = ["perf/right", "--adapter", "cpu"];

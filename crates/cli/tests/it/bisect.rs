@@ -48,7 +48,7 @@ fn stderr(assert: &assert_cmd::assert::Assert) -> String {
 }
 
 #[test]
-fn the_release_that_mended_a_case_is_found() {
+fn the_release_that_fixed_a_case_is_found() {
     let (folder, file) = releases();
     let out = folder.path().join("out");
     let assert = bisect(&[BROKEN, SOUND], "drivers", &file, &out).code(0);
@@ -99,7 +99,7 @@ fn the_release_that_mended_a_case_is_found() {
 }
 
 #[test]
-fn a_run_stands_for_the_cases_that_failed_in_it() {
+fn bisecting_a_run_searches_the_cases_that_failed_in_it() {
     let (folder, file) = releases();
     let (run, out) = (folder.path().join("run"), folder.path().join("out"));
     let mut command = etalon(&["run", BROKEN, SOUND, "--adapter", "gl:softpipe", "--out"]);
@@ -117,7 +117,7 @@ fn a_run_stands_for_the_cases_that_failed_in_it() {
 }
 
 #[test]
-fn what_cannot_be_searched_is_said() {
+fn a_bisection_that_cannot_be_searched_says_why() {
     let (folder, file) = releases();
     let out = folder.path().join("out");
     for (input, line, code, words) in [

@@ -141,7 +141,7 @@ fn a_lost_browser_costs_one_case() {
 }
 
 #[test]
-fn whoever_opens_the_page_is_the_adapter() {
+fn the_browser_that_opens_the_page_becomes_the_adapter() {
     let folder = tempfile::tempdir().unwrap();
     let port = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
     let address = port.local_addr().unwrap();

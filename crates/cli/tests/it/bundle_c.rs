@@ -423,7 +423,7 @@ fn the_report_says_whether_the_newest_release_has_the_bug() {
 }
 
 #[test]
-fn what_does_not_fail_has_no_bundle() {
+fn a_case_that_does_not_fail_has_no_bundle() {
     let out = TempDir::new().unwrap();
     for (case, adapter, code, words) in [
         (

@@ -125,7 +125,7 @@ const FAILING: [(&str, &str, Option<&str>, Page); 16] = [
 ];
 
 #[test]
-fn a_package_shows_the_bug_and_a_page_starts() {
+fn a_bundled_package_shows_the_bug_and_its_page_starts() {
     let count = sample::count("failing cases of adapters of wgpu", 3, FAILING.len());
     for (case, adapter, other, shown) in FAILING[..count].iter().copied() {
         let (out, empty) = (TempDir::new().unwrap(), TempDir::new().unwrap());

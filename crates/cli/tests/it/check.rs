@@ -73,7 +73,7 @@ fn the_repositorys_own_cases_have_no_warnings() {
 }
 
 #[test]
-fn each_kind_of_warning_is_told_with_its_line() {
+fn each_kind_of_warning_names_its_line() {
     let (code, json) = told(&file(r#""n": [1, 2]"#, EXACT, "rgba8unorm"));
     assert_eq!(code, 1);
     let warnings = json["files"][0]["warnings"].as_array().unwrap();
@@ -106,7 +106,7 @@ fn each_kind_of_warning_is_told_with_its_line() {
 }
 
 #[test]
-fn what_asserts_nothing_is_told() {
+fn cases_that_assert_nothing_give_a_warning() {
     // An empty write mask on a texture whose contents a store operation discarded.
     let text = file("", EXACT, "rgba8unorm").replace(
         r#""color": ["c"], "draws""#,
@@ -123,7 +123,7 @@ fn what_asserts_nothing_is_told() {
 }
 
 #[test]
-fn errors_of_all_files_are_told_at_once() {
+fn errors_of_all_files_are_reported_at_once() {
     let folder = written(&file(r#""n": ["rgba8unorm", "rgba9unorm"]"#, EXACT, "$n"));
     fs::write(folder.path().join("own/other.json"), "{ \"about\": 3 }").unwrap();
     fs::write(
@@ -150,7 +150,7 @@ fn errors_of_all_files_are_told_at_once() {
 }
 
 #[test]
-fn a_folder_of_ones_own_warns_where_it_is_used() {
+fn a_users_own_case_folder_gives_warnings_on_use() {
     let folder = written(&file(r#""n": [1, 2]"#, EXACT, "rgba8unorm"));
     etalon(&["list", "--cases"])
         .arg(folder.path())

@@ -204,7 +204,7 @@ fn unknown(line: &str) -> Vec<String> {
 }
 
 #[test]
-fn what_the_files_call_is_there() {
+fn scripts_that_ci_files_call_exist() {
     let drawn = [
         "ci/binary",
         "ci/merge-shards",

@@ -336,7 +336,7 @@ fn made(files: &[(&str, &str)]) -> Vec<String> {
 }
 
 #[test]
-fn circles_are_seen() {
+fn circles_are_found() {
     let circle = |files: &[(&str, &str)]| {
         let circles = made(files);
         let is_on = |file: &str| {
@@ -406,7 +406,7 @@ fn circles_are_seen() {
 }
 
 #[test]
-fn what_is_no_circle_is_let_pass() {
+fn dependencies_without_a_circle_are_accepted() {
     let fine = |files: &[(&str, &str)]| assert_eq!(made(files), [""; 0]);
     // A parent that declares and re-exports; siblings that are read through it.
     fine(&[

@@ -118,7 +118,7 @@ fn globs_choose_cases() {
 }
 
 #[test]
-fn nothing_chosen_is_no_success() {
+fn a_list_without_cases_is_no_success() {
     for globs in [&["dep"][..], &["nothing/*", "depth/compar"], &["Depth/*"]] {
         etalon(&["list"])
             .args(globs)
@@ -388,7 +388,7 @@ fn the_schema_takes_every_case_file_and_no_broken_one() {
 }
 
 #[test]
-fn wrong_usage_is_64_and_help_is_not() {
+fn wrong_usage_exits_with_64_and_help_does_not() {
     for arguments in [
         &[][..],
         &["lst"],
@@ -505,7 +505,7 @@ fn explain_shows_what_a_selftest_gets_wrong() {
 }
 
 #[test]
-fn explain_tells_samples_apart() {
+fn explain_distinguishes_samples() {
     let id = "scissor/samples-color/mask=odd/rect=one-texel/samples=4";
     let explained = |arguments: &[&str]| {
         let mut command = etalon(&["explain", id, "--texel", "2,1", "--adapter", "cpu"]);
@@ -532,7 +532,7 @@ fn explain_tells_samples_apart() {
 }
 
 #[test]
-fn adapters_tells_programs_who_is_there() {
+fn adapters_are_listed_as_json() {
     let output = etalon(&["adapters", "--format", "json"]).assert().code(0);
     let found: Value = serde_json::from_slice(&output.get_output().stdout).unwrap();
     let found = found.as_array().unwrap();
@@ -576,7 +576,7 @@ fn adapters_tells_programs_who_is_there() {
 }
 
 #[test]
-fn list_tells_programs_what_a_case_is() {
+fn cases_are_listed_as_json() {
     let output = etalon(&["list", CLEARED, "early-z/shaderless", "--format", "json"])
         .output()
         .unwrap();
@@ -600,7 +600,7 @@ fn list_tells_programs_what_a_case_is() {
 }
 
 #[test]
-fn what_is_misspelt_is_proposed() {
+fn misspelt_names_get_a_suggestion() {
     for (word, meant) in [
         ("dpeth", "did you mean `depth`?"),
         ("blend/factrs/*", "did you mean `blend/factors`?"),

@@ -81,7 +81,7 @@ fn copy(from: &Path, to: &Place) {
 }
 
 #[test]
-fn rows_that_are_missing_or_wrong_are_told() {
+fn missing_or_wrong_rows_are_reported() {
     let whole = history();
     let intact = whole.db();
     let damaged = Place::new();
@@ -154,7 +154,7 @@ fn rows_that_are_missing_or_wrong_are_told() {
 }
 
 #[test]
-fn files_that_are_cut_or_flipped_are_told() {
+fn cut_or_flipped_files_are_reported() {
     let whole = history();
     let bytes = fs::read(whole.db()).unwrap();
     let damaged = Place::new();

@@ -77,7 +77,7 @@ fn bench(folder: &Path, seconds: f64) {
 }
 
 #[test]
-fn a_slower_bench_gives_one_and_any_other_nothing() {
+fn a_slower_bench_exits_with_one_and_any_other_with_zero() {
     let folder = tempfile::tempdir().unwrap();
     let (fast, slow) = (folder.path().join("fast"), folder.path().join("slow"));
     bench(&fast, 0.001);
@@ -136,7 +136,7 @@ fn diff(before: &Path, after: &Path) -> Command {
 }
 
 #[test]
-fn runs_that_are_worse_give_one_better_two_and_others_nothing() {
+fn worse_runs_exit_with_one_better_ones_with_two_and_others_with_zero() {
     use Verdict::{Fail, Imprecise, Pass};
     let folder = tempfile::tempdir().unwrap();
     let made = |name: &str, verdicts: &[Verdict]| {
@@ -245,7 +245,7 @@ fn runs_are_written_as_json_and_as_a_page() {
 }
 
 #[test]
-fn other_folders_are_refused() {
+fn inputs_that_cannot_be_compared_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let fast = folder.path().join("fast");
     bench(&fast, 0.001);

@@ -79,7 +79,7 @@ fn kill(process: i32) {
 }
 
 #[test]
-fn what_a_killed_run_has_started_ends_wherever_it_hangs() {
+fn processes_of_a_killed_run_end_wherever_they_hang() {
     let port = TcpListener::bind("127.0.0.1:0").unwrap();
     let address = port.local_addr().unwrap().to_string();
     drop(port);
@@ -191,7 +191,7 @@ fn a_server_ends_with_its_keeper_or_its_guard() {
 }
 
 #[test]
-fn what_a_launcher_leaves_ends_with_the_run() {
+fn processes_that_a_launcher_leaves_end_with_the_run() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let script = "sleep 1000 & exec \"$@\"";

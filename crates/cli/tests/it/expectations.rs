@@ -59,7 +59,7 @@ fn write(path: &Path, entries: &[Value]) {
 }
 
 #[test]
-fn what_is_skipped_is_not_drawn_and_is_no_pass() {
+fn a_skipped_case_is_not_drawn_and_is_no_pass() {
     let work = Work::new();
     let file = work.path("e.json");
     write(&file, &[entry("cull/*", "skipped", json!({}))]);
@@ -117,7 +117,7 @@ fn a_flake_excuses_whatever_happens_and_nothing_else() {
 }
 
 #[test]
-fn blessing_expects_what_was_seen_and_takes_away_what_is_better() {
+fn blessing_expects_what_was_seen_and_removes_what_is_better() {
     let work = Work::new();
     let file = work.path("e.json");
     let bless = |arguments: &[&str]| {
@@ -460,7 +460,7 @@ fn a_folder_of_findings_is_read_and_blessed() {
 /// Among other bugs, softpipe does not clamp the second source and gives points the wrong facing, so whole
 /// axis values fail.
 #[test]
-fn what_fails_on_a_driver_is_blessed_by_globs_that_all_name_something() {
+fn failures_on_a_driver_are_blessed_by_globs_that_all_match() {
     let work = Work::new();
     let folder = work.path("findings");
     fs::create_dir(&folder).unwrap();

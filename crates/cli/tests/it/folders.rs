@@ -172,7 +172,7 @@ fn a_file_of_our_name_without_our_header_marks_nothing() {
 }
 
 #[test]
-fn what_is_replaced_is_what_we_wrote() {
+fn a_site_with_a_foreign_file_is_not_replaced() {
     let work = tempfile::tempdir().unwrap();
     // A foreign file in a folder that would be replaced as a whole is named.
     let site = work.path().join("site");

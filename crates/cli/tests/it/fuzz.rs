@@ -55,7 +55,7 @@ fn groups(out: &Path) -> Vec<Value> {
 }
 
 #[test]
-fn what_fails_is_kept_once_and_fails_again_whatever_the_number_of_workers() {
+fn a_failing_scene_is_kept_once_and_fails_again_with_any_number_of_workers() {
     let folder = TempDir::new().unwrap();
     let [first, other] = ["one", "three"].map(|name| folder.path().join(name));
     let adapter = "gl:softpipe";
@@ -192,7 +192,7 @@ fn known_bugs_are_named_by_their_findings() {
 }
 
 #[test]
-fn the_commonest_groups_are_told_and_the_others_counted() {
+fn the_commonest_groups_are_listed_and_the_others_counted() {
     let folder = TempDir::new().unwrap();
     let out = folder.path().to_str().unwrap();
     let base = [

@@ -27,7 +27,7 @@ fn listed(help: &str) -> Vec<&str> {
 }
 
 #[test]
-fn help_texts_are_the_recorded_ones() {
+fn help_texts_are_as_recorded() {
     let overview = stdout(&["--help"]);
     insta::assert_snapshot!("help", overview);
     assert_eq!(stdout(&["help"]), overview);

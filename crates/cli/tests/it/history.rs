@@ -188,7 +188,7 @@ const GOOD: [(&str, Verdict); 2] = [(CASE, Verdict::Pass), (OTHER, Verdict::Pass
 const BAD: [(&str, Verdict); 2] = [(CASE, Verdict::Fail), (OTHER, Verdict::Pass)];
 
 #[test]
-fn a_real_run_and_the_same_again() {
+fn a_real_run_is_added_once() {
     let place = Place::new();
     let out = place.path("run").display().to_string();
     let run = ["run", "cull/points", "--adapter", "cpu", "--out", &out];
@@ -229,7 +229,7 @@ fn the_file_is_named_by_flag_or_variable_or_lies_beside_the_reports() {
 }
 
 #[test]
-fn a_case_is_told_with_what_happened_and_between_which_versions() {
+fn a_case_is_shown_with_its_events_and_their_versions() {
     let place = Place::new();
     for (day, version, verdicts) in [
         (1, "1.0", &GOOD),
@@ -270,7 +270,7 @@ fn a_case_is_told_with_what_happened_and_between_which_versions() {
 }
 
 #[test]
-fn old_runs_that_are_added_late_stand_where_they_belong() {
+fn old_runs_that_are_added_late_take_their_place() {
     let place = Place::new();
     place.history(&["add", &place.run(9, "1", &BAD)]).code(0);
     place.history(&["add", &place.run(4, "1", &GOOD)]).code(0);
@@ -424,7 +424,7 @@ fn other_files_and_newer_ones_are_refused_and_stay_as_they_are() {
 }
 
 #[test]
-fn unknown_names_come_with_near_ones() {
+fn unknown_names_get_a_suggestion() {
     let place = Place::new();
     place.history(&["add", &place.run(1, "1", &GOOD)]).code(0);
     place
@@ -545,7 +545,7 @@ fn a_writer_that_is_killed_loses_nothing() {
 }
 
 #[test]
-fn releases_stand_at_their_dates() {
+fn releases_are_placed_at_their_dates() {
     let place = Place::new();
     let release = |version: &str| json!({"version": version, "adapter": format!("vulkan:a@{version}"), "driver": "d"});
     let header = json!({
@@ -569,7 +569,7 @@ fn releases_stand_at_their_dates() {
 }
 
 #[test]
-fn steps_of_times_are_found_told_and_settled() {
+fn steps_of_times_are_found_reported_and_settled() {
     let place = Place::new();
     let mut add = vec!["add".to_owned()];
     for night in 0..45 {
@@ -645,7 +645,7 @@ fn steps_of_times_are_found_told_and_settled() {
 }
 
 #[test]
-fn what_is_bad_is_open_until_somebody_says_what_it_is() {
+fn a_bad_verdict_is_open_until_it_is_triaged() {
     let place = Place::new();
     place
         .history(&["add", &place.run(1, "1", &GOOD), &place.run(2, "1", &BAD)])

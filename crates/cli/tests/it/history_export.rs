@@ -99,7 +99,7 @@ fn a_part_of_the_runs_is_selected() {
 }
 
 #[test]
-fn what_is_no_date_or_no_history_is_wrong_usage() {
+fn an_invalid_date_or_history_is_wrong_usage() {
     let place = three_days();
     let since = ["--format", "openmetrics", "--since", "yesterday"];
     let line = export(&place, "out", &since, 64);

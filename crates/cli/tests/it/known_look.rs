@@ -33,7 +33,7 @@ fn drawn(folder: &Path, more: &[&str]) -> Assert {
 }
 
 #[test]
-fn a_failure_of_ones_own_case_is_known_by_its_look() {
+fn a_failure_of_a_users_own_case_is_known_by_its_look() {
     let folder = tempfile::tempdir().unwrap();
     drawn(folder.path(), &[]).code(1);
     let known = contains("1 record is known by its look").and(contains("like blend/"));

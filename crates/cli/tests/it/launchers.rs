@@ -112,7 +112,7 @@ fn a_worker_runs_by_another_loader() {
 }
 
 #[test]
-fn a_worker_gets_its_environment_where_the_launcher_drops_it() {
+fn a_worker_gets_its_environment_even_if_the_launcher_drops_it() {
     // Without its variables, a different driver would answer.
     run(&json!({
         "backend": "gl", "launcher": ["env", "-i"], "answers": "llvmpipe",
@@ -170,7 +170,7 @@ fn a_worker_runs_behind_a_remote_shell() {
 }
 
 #[test]
-fn what_is_wrong_with_a_launcher_is_said() {
+fn errors_of_a_launcher_are_named() {
     for (launcher, word) in [
         (
             json!(["/nowhere/podman", "run"]),

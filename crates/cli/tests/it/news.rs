@@ -58,7 +58,7 @@ fn before(place: &Place, from: &str, to: &str, day: &str, verdict: &str) -> Vec<
 }
 
 #[test]
-fn news_come_first_and_what_is_settled_does_not_count() {
+fn news_come_first_and_settled_cases_do_not_count() {
     let place = Place::new();
     run(&place, "first", &[]).code(1);
     let bad = well_before(&place, "first", "well");
@@ -126,7 +126,7 @@ fn news_come_first_and_what_is_settled_does_not_count() {
 }
 
 #[test]
-fn what_is_mended_is_news() {
+fn a_fixed_case_is_news() {
     let place = Place::new();
     run(&place, "bad", &[]).code(1);
     let bad = well_before(&place, "bad", "well");
@@ -215,7 +215,7 @@ fn reports_made_anew_say_what_the_run_said_and_agree_with_the_exit_code() {
 }
 
 #[test]
-fn a_history_for_reports_is_refused_or_told_as_for_runs() {
+fn a_report_without_a_usable_history_warns_or_is_refused_as_a_run_is() {
     let place = Place::new();
     run(&place, "run", &[]).code(1);
     let report = |flags: &[&str]| {
@@ -236,7 +236,7 @@ fn a_history_for_reports_is_refused_or_told_as_for_runs() {
 }
 
 #[test]
-fn a_history_that_is_lost_changes_nothing_and_is_told() {
+fn a_history_that_is_lost_changes_nothing_and_gives_a_warning() {
     let place = Place::new();
     compared(&place, "run", &[])
         .code(1)

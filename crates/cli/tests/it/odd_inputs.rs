@@ -91,7 +91,7 @@ fn links_and_pipes_among_case_files_are_named() {
 }
 
 #[test]
-fn what_json_leaves_open_is_refused() {
+fn json_that_parsers_read_differently_is_refused() {
     for (from, to, words) in [
         (
             "\"about\":",
@@ -142,7 +142,7 @@ fn a_scene_of_very_many_draws_is_refused_and_one_of_many_is_listed() {
 }
 
 #[test]
-fn messages_say_what_was_given() {
+fn error_messages_quote_the_argument() {
     etalon(&["fuzz", "--adapter", "cpu", "--count", "0"])
         .assert()
         .code(64)
@@ -303,7 +303,7 @@ fn another_wrong_value_of_an_expected_case_is_news() {
 }
 
 #[test]
-fn expectations_add_up_and_say_when_they_are_over() {
+fn expectations_of_several_files_add_up_and_expired_ones_give_a_warning() {
     let work = tempfile::tempdir().unwrap();
     let out = work.path().join("run");
     let [first, second] = ["one.json", "two.json"].map(|name| work.path().join(name));
@@ -451,7 +451,7 @@ fn expectations_come_through_a_pipe() {
 
 /// What a full disk at the start does, too: the first file that a command writes cannot have a byte.
 #[test]
-fn a_file_that_may_not_grow_is_told_with_the_code_of_a_full_disk() {
+fn a_file_that_may_not_grow_exits_with_the_code_of_a_full_disk() {
     let work = tempfile::tempdir().unwrap();
     let run = work.path().join("run");
     etalon(&["run", "cull/lines", "--adapter", "cpu", "--out"])

@@ -176,7 +176,7 @@ fn parts_of_other_runs_are_refused() {
 }
 
 #[test]
-fn a_record_of_which_parts_disagree_is_flaky() {
+fn a_case_whose_shards_disagree_is_flaky() {
     let work = tempfile::tempdir().unwrap();
     let parts: Vec<PathBuf> = (1..=2).map(|i| shard(work.path(), i, 2)).collect();
     // A shard that was requeued and ran twice.

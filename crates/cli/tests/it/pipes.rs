@@ -54,7 +54,7 @@ fn verdicts(folder: &Path) -> Vec<(String, String, Verdict, bool)> {
 }
 
 #[test]
-fn nobody_reads_what_a_run_prints_and_nothing_changes() {
+fn a_run_whose_output_is_not_read_ends_the_same() {
     let folder = tempfile::tempdir().unwrap();
     let expected_folder = folder.path().join("due");
     let line =
@@ -86,7 +86,7 @@ fn nobody_reads_what_a_run_prints_and_nothing_changes() {
 }
 
 #[test]
-fn nobody_reads_what_a_bench_prints_and_nothing_changes() {
+fn a_bench_whose_output_is_not_read_ends_the_same() {
     let folder = tempfile::tempdir().unwrap();
     for sink in SINKS {
         let out = folder.path().join("bench");

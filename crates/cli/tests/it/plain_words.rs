@@ -127,7 +127,7 @@ fn the_phrases_of_a_translation_are_found() {
 }
 
 #[test]
-fn code_is_no_prose() {
+fn code_is_not_searched_for_phrases() {
     let mut fenced = false;
     let line = |text: &str, is_page, fenced: &mut bool| prose(text, is_page, fenced);
     assert_eq!(line("let nobody = 1;", false, &mut fenced), None);

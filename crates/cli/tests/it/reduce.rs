@@ -98,7 +98,7 @@ fn draws(document: &Value) -> Vec<&Value> {
 }
 
 #[test]
-fn a_random_scene_becomes_the_one_state_that_the_driver_has_wrong() {
+fn a_random_scene_is_reduced_to_the_state_that_the_driver_gets_wrong() {
     let (summary, document) = reduced("combined/extended/seed=16", "gl:softpipe");
     let left = draws(&document);
     assert_eq!(left.len(), 1, "{document}");
@@ -239,7 +239,7 @@ fn a_case_that_passes_is_not_reduced() {
 }
 
 #[test]
-fn a_flaky_failure_is_told_from_a_steady_one() {
+fn a_flaky_failure_is_distinguished_from_a_steady_one() {
     // One scene in eight fails, in about half of all processes.
     let folder = TempDir::new().unwrap();
     let flaky = (0..60).any(|seed| {

@@ -58,7 +58,7 @@ fn with_trips() -> Vec<&'static str> {
 }
 
 #[test]
-fn what_came_through_a_wrong_read_back_is_blocked_and_the_rest_is_drawn() {
+fn cases_behind_a_failed_round_trip_are_blocked_and_the_rest_are_drawn() {
     let work = tempfile::tempdir().unwrap();
     let alone = run(&work.path().join("alone"), &DEPENDENTS, &[], 1);
     let full = run(&work.path().join("whole"), &with_trips(), &[], 1);
@@ -119,7 +119,7 @@ fn parts_of_a_run_hold_the_same_records_as_the_whole() {
 }
 
 #[test]
-fn a_run_that_was_stopped_goes_on_with_the_same_records() {
+fn a_stopped_run_resumes_with_the_same_records() {
     let work = tempfile::tempdir().unwrap();
     let out = work.path().join("run");
     let expected = plain(&run(&out, &with_trips(), &[], 1));
@@ -134,7 +134,7 @@ fn a_run_that_was_stopped_goes_on_with_the_same_records() {
 }
 
 #[test]
-fn what_a_known_failure_blocks_is_expected_too() {
+fn cases_that_a_known_failure_blocks_are_expected_too() {
     let work = tempfile::tempdir().unwrap();
     let file = work.path().join("expect.json");
     let expect = |verdict: &str| {

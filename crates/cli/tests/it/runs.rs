@@ -246,7 +246,7 @@ fn an_old_run_is_replaced_and_other_files_stay() {
 }
 
 #[test]
-fn nothing_selected_is_4_and_makes_no_folder() {
+fn an_empty_selection_exits_with_4_and_makes_no_folder() {
     let out = folder();
     let out = out.path().join("out");
     run(&out, &["dpeth/*"])
@@ -262,7 +262,7 @@ fn expectation(verdict: &str, case: &str) -> Value {
 }
 
 #[test]
-fn expectations_are_held_against_verdicts() {
+fn expectations_are_compared_with_verdicts() {
     let folder = folder();
     let out = folder.path().join("out");
     let expect = folder.path().join("expect.json");
@@ -622,7 +622,7 @@ fn a_time_limit_leaves_cases_out_and_says_so() {
 }
 
 #[test]
-fn a_time_limit_draws_first_what_finds_most() {
+fn a_time_limit_draws_first_the_cases_that_find_most() {
     let out = TempDir::new().unwrap();
     let arguments = ["--within", "600", "--jobs", "1", "--adapter", "cpu"];
     run(out.path(), &[&["blend/*"][..], &arguments].concat()).success();
@@ -645,7 +645,7 @@ fn a_time_limit_draws_first_what_finds_most() {
 }
 
 #[test]
-fn a_time_limit_does_not_go_with_an_order_or_a_resume() {
+fn a_time_limit_cannot_be_combined_with_an_order_or_a_resume() {
     for other in [&["--shuffle", "1"][..], &["--resume"]] {
         etalon(&["run", "--within", "5"])
             .args(other)
@@ -716,7 +716,7 @@ fn softpipe_draws_no_multisampling_and_the_run_says_so() {
 }
 
 #[test]
-fn what_a_version_requires_is_blocked_and_not_unsupported() {
+fn cases_that_lack_what_the_version_requires_are_blocked_and_not_unsupported() {
     let folder = folder();
     let out = folder.path().join("out");
     let given = [

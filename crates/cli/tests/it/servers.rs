@@ -112,7 +112,7 @@ fn a_killed_run_leaves_no_server() {
 }
 
 #[test]
-fn the_end_of_a_server_is_told() {
+fn a_server_that_ends_is_named_in_the_records() {
     let folder = tempfile::tempdir().unwrap();
     // The server ends once a worker has seen its socket.
     let script = format!(

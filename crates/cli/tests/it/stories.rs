@@ -61,7 +61,7 @@ fn red(state: &str) -> String {
 }
 
 #[test]
-fn every_rejection_is_told_with_its_clause() {
+fn every_rejection_cites_its_clause() {
     let rejections = [
         (
             "scissor",
@@ -145,7 +145,7 @@ fn every_rejection_is_told_with_its_clause() {
 }
 
 #[test]
-fn the_worlds_of_an_edge_are_told_apart() {
+fn the_worlds_of_an_edge_are_distinguished() {
     let half = r#""mesh":{"kind":"vertices","positions":[[-1,-1,0.2],[1,1,0.2],[-1,1,0.2]]}"#;
     let case = scene("", "", &format!("{{{half},{RED}}}"), "");
     // On the diagonal both outcomes are legal, but not a third one.
@@ -157,7 +157,7 @@ fn the_worlds_of_an_edge_are_told_apart() {
 }
 
 #[test]
-fn a_failing_relation_tells_both_sides() {
+fn a_failing_relation_shows_both_sides() {
     let text = include_str!("../../../../cases/order/scissor.json");
     let file = CaseFile::parse("order/scissor.json", text).unwrap();
     let record = file

@@ -100,7 +100,7 @@ fn a_driver_that_leaves_a_child_with_its_pipe_has_crashed() {
 }
 
 #[test]
-fn a_worker_that_dies_after_its_last_case_is_told_and_counts() {
+fn a_worker_that_dies_after_its_last_case_is_reported_and_counts() {
     let out = folder();
     let run = ["run", "cull/lines", "--adapter", "cpu:fault=close", "--out"];
     let told =
@@ -185,7 +185,7 @@ fn a_bench_counts_workers_that_fail_after_their_last_case() {
 }
 
 #[test]
-fn what_an_adapter_denies_is_told_whatever_cases_run() {
+fn denied_requirements_are_reported_whatever_cases_run() {
     let out = folder();
     let run = |expect: &[&str], code: i32| {
         let words = [
@@ -244,7 +244,7 @@ fn a_hang_costs_its_time_and_nothing_else() {
 }
 
 #[test]
-fn memory_without_end_is_taken_away() {
+fn a_worker_that_allocates_without_end_is_stopped() {
     let more = ["--memory", "192"];
     for record in lost("memory", Verdict::ResourceError, LossKind::Memory, &more) {
         assert!(message(&record).contains("more than 192 MiB"), "{record:?}");
@@ -252,7 +252,7 @@ fn memory_without_end_is_taken_away() {
 }
 
 #[test]
-fn garbage_is_no_frame() {
+fn garbage_in_place_of_a_frame_is_a_crash() {
     for fault in ["garbage", "half"] {
         for record in lost(fault, Verdict::Crash, LossKind::Garbage, &[]) {
             assert!(message(&record).contains("garbage"), "{record:?}");
@@ -261,7 +261,7 @@ fn garbage_is_no_frame() {
 }
 
 #[test]
-fn what_a_backend_reports_is_the_verdict_of_its_case() {
+fn an_error_that_a_backend_reports_is_the_verdict_of_its_case() {
     with_fault("lost", Verdict::DeviceLost, &[]);
     with_fault("refused", Verdict::ResourceError, &[]);
     let panics = with_fault("panic", Verdict::InternalError, &[]);
@@ -673,7 +673,7 @@ fn a_folder_in_use_or_with_a_run_is_left_alone() {
 }
 
 #[test]
-fn the_latest_run_is_replaced_without_a_word() {
+fn the_latest_run_is_replaced_without_asking() {
     let work = folder();
     for _ in 0..2 {
         etalon(&["run", "cull/lines", "--adapter", "cpu"])
@@ -733,7 +733,7 @@ fn results_do_not_depend_on_order_or_the_number_of_workers() {
 }
 
 #[test]
-fn so_many_of_a_kind_are_checked_again_and_the_output_says_so() {
+fn a_limited_number_of_each_kind_is_rechecked_and_the_output_says_so() {
     let run = |recheck: &str, fault: &str| -> (serde_json::Value, Run) {
         let out = folder();
         let adapter = format!("cpu:fault={fault}");
@@ -830,7 +830,7 @@ fn so_many_of_a_kind_are_checked_again_and_the_output_says_so() {
 }
 
 #[test]
-fn a_bad_verdict_is_told_once_with_its_reason() {
+fn a_bad_verdict_is_printed_once_with_its_reason() {
     let out = folder();
     let arguments = [
         "run",

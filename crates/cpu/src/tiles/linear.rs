@@ -149,7 +149,7 @@ mod tests {
     use fearless_simd::{Level, dispatch};
 
     #[test]
-    fn a_function_is_that_of_its_tables() {
+    fn a_fitted_function_agrees_with_its_tables() {
         let tables = [
             std::array::from_fn(|i| (i / 2) as u8),
             std::array::from_fn(|i| 255 - i as u8),
@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_linear_has_no_function() {
+    fn tables_that_are_not_linear_have_no_function() {
         let square = std::array::from_fn(|i| (i * i / 255) as u8);
         assert!(LinearCodes::fitted(&[square; 4], [1.0; 4]).is_none());
     }

@@ -125,7 +125,7 @@ fn texture_coordinates_reach_shaders_that_read_them_as_numbers() {
 /// The rasterizer does not execute the path values `start` and `draws`, so a scene on its path must draw the
 /// same picture as the scene.
 #[test]
-fn a_scene_on_its_path_is_the_same_picture() {
+fn a_scene_on_its_path_draws_the_same_picture() {
     let library = Library::built_in();
     let backend = CpuBackend::new("cpu");
     let draw = |scene: &Scene| {

@@ -136,7 +136,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_attachment_goes_with_what_is_said_of_it() {
+    fn removing_an_attachment_removes_what_refers_to_it() {
         let document = json!({ "scene": {
             "attachments": { "a": {}, "b": {}, "d": {}, "t": {} },
             "passes": [{

@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn a_counter_goes_with_its_names() {
+    fn removing_a_counter_removes_its_uses() {
         let document = json!({ "scene": {
             "counters": { "a": "samples-passed", "b": "shader-runs" },
             "passes": [{ "draws": [{ "counters": ["a", "b"] }, { "counters": ["b"] }] }]

@@ -111,7 +111,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_column_becomes_the_whole() {
+    fn a_column_becomes_a_full_mesh() {
         let document = json!({ "scene": { "passes": [{ "draws": [{ "mesh": {
             "kind": "columns", "values": [0, [1, 0, 0, 1]], "z": [0.25, 0.5], "windings": ["cw"]
         } }] }] } });
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn triangles_go_whole() {
+    fn vertices_are_removed_by_whole_triangles() {
         let document = json!({ "scene": { "passes": [{ "draws": [{ "mesh": {
             "kind": "vertices", "positions": [0, 1, 2, 3, 4, 5], "values": [0]
         } }] }] } });

@@ -93,7 +93,7 @@ mod tests {
     use serde_json::json;
 
     #[test]
-    fn outer_keys_go_before_inner_ones_and_no_only_size() {
+    fn outer_keys_are_removed_before_inner_ones_and_an_only_size_stays() {
         let document = json!({ "scene": {
             "attachments": { "a": { "format": "f", "size": [4, 4] }, "b": { "size": [4, 4] } },
             "passes": [{ "draws": [{ "stencil": { "front": { "compare": "less" } } }] }]

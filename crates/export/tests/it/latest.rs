@@ -57,7 +57,7 @@ fn bencher_has_every_time_with_its_interval() {
 }
 
 #[test]
-fn the_action_has_wall_times_with_their_reach() {
+fn the_action_file_has_wall_times_with_their_ranges() {
     let (out, _dir) = exported(
         &nights(),
         ExportFormat::ActionBenchmark,

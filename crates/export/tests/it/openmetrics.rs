@@ -189,7 +189,7 @@ fn expected_samples(runs: &[&NewRun]) -> Samples {
 }
 
 #[test]
-fn known_samples_have_these_values() {
+fn exported_samples_have_the_values_of_a_known_history() {
     let everything = RunChoice::default();
     let (out, _dir) = exported(
         &daily(&["2026-01-01"]),
@@ -216,7 +216,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
     #[test]
-    fn samples_are_what_was_added(runs in runs(), selection in selections()) {
+    fn exported_samples_are_those_that_were_added(runs in runs(), selection in selections()) {
         let chosen = selected(&runs, &selection);
         prop_assume!(!chosen.is_empty());
         let (out, _dir) = exported(&runs, ExportFormat::OpenMetrics, &selection);

@@ -21,7 +21,7 @@ fn last(n: usize) -> RunChoice {
 }
 
 #[test]
-fn where_no_run_is_selected_nothing_is_written() {
+fn a_selection_without_runs_writes_nothing() {
     let dir = tempfile::tempdir().unwrap();
     let full = history(dir.path(), &daily(&DAYS));
     let other = tempfile::tempdir().unwrap();

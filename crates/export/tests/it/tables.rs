@@ -152,7 +152,7 @@ fn sorted(mut rows: Vec<(String, Row)>) -> Vec<(String, Row)> {
 }
 
 #[test]
-fn a_known_record_has_these_values() {
+fn an_exported_row_has_the_values_of_its_record() {
     let (out, _dir) = exported(
         &daily(&["2026-01-01"]),
         ExportFormat::Parquet,
@@ -194,7 +194,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
     #[test]
-    fn tables_hold_what_was_added(runs in runs(), selection in selections()) {
+    fn exported_tables_hold_what_was_added(runs in runs(), selection in selections()) {
         let chosen = selected(&runs, &selection);
         prop_assume!(!chosen.is_empty());
         let (out, _dir) = exported(&runs, ExportFormat::Parquet, &selection);

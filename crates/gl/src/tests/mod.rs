@@ -50,16 +50,16 @@ fn without_clip_control(driver: &str, defects: &'static [&'static [Defect]]) {
 }
 
 #[test]
-fn llvmpipe_without_clip_control() {
-    let test = "tests::llvmpipe_without_clip_control";
+fn llvmpipe_draws_right_without_clip_control() {
+    let test = "tests::llvmpipe_draws_right_without_clip_control";
     in_child(test, &variables(LLVMPIPE), || {
         without_clip_control("llvmpipe", &[]);
     });
 }
 
 #[test]
-fn softpipe_without_clip_control() {
-    let test = "tests::softpipe_without_clip_control";
+fn softpipe_draws_as_described_without_clip_control() {
+    let test = "tests::softpipe_draws_as_described_without_clip_control";
     in_child(test, &variables(SOFTPIPE), || {
         without_clip_control("softpipe", &[SOFTPIPE_WRONG, SOFTPIPE_CLEARS]);
     });
@@ -114,19 +114,19 @@ fn insides(driver: &str) {
 }
 
 #[test]
-fn llvmpipe_features_viewports_and_mistakes() {
-    let test = "tests::llvmpipe_features_viewports_and_mistakes";
+fn llvmpipe_passes_checks_of_features_viewports_and_mistakes() {
+    let test = "tests::llvmpipe_passes_checks_of_features_viewports_and_mistakes";
     in_child(test, &variables(LLVMPIPE), || insides("llvmpipe"));
 }
 
 #[test]
-fn softpipe_features_viewports_and_mistakes() {
-    let test = "tests::softpipe_features_viewports_and_mistakes";
+fn softpipe_passes_checks_of_features_viewports_and_mistakes() {
+    let test = "tests::softpipe_passes_checks_of_features_viewports_and_mistakes";
     in_child(test, &variables(SOFTPIPE), || insides("softpipe"));
 }
 
 #[test]
-fn zink_features_viewports_and_mistakes() {
-    let test = "tests::zink_features_viewports_and_mistakes";
+fn zink_passes_checks_of_features_viewports_and_mistakes() {
+    let test = "tests::zink_passes_checks_of_features_viewports_and_mistakes";
     in_child(test, &variables(ZINK), || insides("zink"));
 }

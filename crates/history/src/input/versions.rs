@@ -99,7 +99,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_lies_between_is_inferred() {
+    fn an_undrawn_release_between_equal_verdicts_is_inferred() {
         let case = CaseVersions {
             case: "a/b".to_owned(),
             finding: Some("a-finding".to_owned()),

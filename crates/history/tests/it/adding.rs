@@ -109,7 +109,7 @@ fn a_run_has_its_facts_and_labels() {
 }
 
 #[test]
-fn a_run_that_was_resumed_stands_for_the_one_before() {
+fn a_resumed_run_replaces_its_first_part() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("etalon.db");
     let mut writer = Writer::open(&path).unwrap();
@@ -189,7 +189,7 @@ fn times_form_a_series_for_each_machine() {
 }
 
 #[test]
-fn the_last_entry_about_a_subject_counts() {
+fn the_last_triage_entry_about_a_subject_counts() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("etalon.db");
     let mut writer = Writer::open(&path).unwrap();

@@ -27,7 +27,7 @@ fn assert_line(error: &HistoryError, path: &Path) {
 }
 
 #[test]
-fn what_is_no_history_is_refused_and_stays() {
+fn a_file_that_is_no_history_is_refused_and_left_alone() {
     let folder = tempfile::tempdir().unwrap();
     let text = folder.path().join("text.db");
     fs::write(
@@ -111,7 +111,7 @@ fn a_locked_file_is_waited_for_and_then_named() {
 }
 
 #[test]
-fn several_writers_add_at_a_time() {
+fn several_writers_can_add_at_the_same_time() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("etalon.db");
     thread::scope(|scope| {
@@ -158,7 +158,7 @@ fn a_full_disk_keeps_what_was_added_before() {
 }
 
 #[test]
-fn what_a_reader_found_when_it_began_stays_true() {
+fn a_reader_sees_the_history_as_it_was_at_its_start() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("etalon.db");
     let mut writer = Writer::open(&path).unwrap();

@@ -250,7 +250,7 @@ fn releases_of_a_line_are_runs_of_one_timeline_by_their_dates() {
 }
 
 #[test]
-fn what_the_repository_keeps_can_be_added() {
+fn recorded_runs_of_the_repository_can_be_added() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reports");
     let mut added = 0;
     for kept in [
@@ -272,7 +272,7 @@ fn what_the_repository_keeps_can_be_added() {
 }
 
 #[test]
-fn the_reader_of_benches_is_that_of_records() {
+fn benches_are_read_into_a_history_as_the_record_crate_reads_them() {
     // A round's medians are next to its ruler.
     let picture =
         r#"{"picture":{"case":"perf/a","adapter":"vulkan:a@2","verdict":"pass","asserted":1.0}}"#;

@@ -152,7 +152,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
     #[test]
-    fn what_was_added_comes_back(runs in runs(), seed in any::<u64>()) {
+    fn runs_come_back_as_they_were_added(runs in runs(), seed in any::<u64>()) {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("etalon.db");
         let mut order: Vec<&NewRun> = runs.iter().collect();

@@ -149,7 +149,7 @@ fn a_smoothed_piece_knows_its_distance_from_the_nearest_edge() {
 }
 
 #[test]
-fn parts_of_a_smoothed_piece_hold_all_of_it() {
+fn parts_of_a_smoothed_piece_cover_the_whole_piece() {
     for name in SCENES {
         let edges = edges(&wire(name, AntiAliasingMethod::None));
         for piece in edges.front.iter().chain(&edges.back) {

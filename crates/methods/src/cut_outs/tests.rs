@@ -20,7 +20,7 @@ const METHODS: [MethodName; 3] = [
 ];
 
 #[test]
-fn every_method_draws_and_the_truth_is_held_at_the_border() {
+fn every_method_draws_and_the_truth_clamps_at_the_border() {
     for method in METHODS {
         for (address, scale) in [(AddressMode::ClampToEdge, 0.25), (AddressMode::Repeat, 4.0)] {
             let wire = Wire {

@@ -35,7 +35,7 @@ fn settled_triangles_lie_on_the_grid_leave_no_gaps_and_touch_no_centre() {
 }
 
 #[test]
-fn an_edge_through_a_centre_is_noticed_and_moved_off() {
+fn an_edge_through_a_centre_is_found_and_moved_off() {
     let texels = |x: f64, y: f64| [(x * GRID) as i64, (y * GRID) as i64];
     let [a, b] = [texels(10.0, 10.0), texels(40.0, 40.0)];
     assert!(touches_centre(SIZE, a, b) && touches_centre(SIZE, b, a));

@@ -184,7 +184,7 @@ fn depth(polygon: &Polygon) -> f64 {
 }
 
 #[test]
-fn orders_are_what_they_say_and_the_list_has_another_one() {
+fn sorted_orders_go_from_far_to_near_and_the_list_has_another_order() {
     for name in SCENES {
         let glass = glass(name);
         let sorted = by_object(&glass);
@@ -251,7 +251,7 @@ fn passes_grow_with_what_is_peeled_and_with_nothing_else() {
 }
 
 #[test]
-fn thresholds_keep_a_share_that_is_alpha_and_none_is_close_to_it() {
+fn the_share_of_thresholds_below_alpha_is_alpha_and_none_is_close_to_it() {
     let alphas = [0.1, 0.4, 0.41, 0.6];
     let codes = many_samples::thresholds(3, &alphas);
     assert_eq!(codes.len(), (SIZE[0] * SIZE[1] * 4) as usize);
@@ -309,7 +309,7 @@ fn layers_that_overlap_have_thresholds_of_their_own() {
 }
 
 #[test]
-fn where_edges_are_no_question_none_comes_near_a_centre() {
+fn no_edge_comes_near_a_centre_unless_coverage_is_by_area() {
     let off = |value: f64| (value.fract() - 0.5).abs();
     for name in SCENES {
         let glass = glass(name);

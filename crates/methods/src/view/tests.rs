@@ -15,7 +15,7 @@ fn disc(sides: u32, turn: f64) -> Vec<DVec3> {
 }
 
 #[test]
-fn a_clipped_polygon_and_what_was_cut_off_make_the_whole() {
+fn a_clipped_polygon_and_its_cut_part_make_the_whole() {
     for i in 0..200 {
         let shape = disc(3 + i % 6, f64::from(i) * 0.7);
         let (sin, cos) = (f64::from(i) * 0.41).sin_cos();
@@ -86,7 +86,7 @@ fn a_point_is_seen_where_its_ray_meets_the_picture() {
 }
 
 #[test]
-fn nothing_is_left_beside_the_picture_or_before_the_near_plane() {
+fn visible_polygons_stay_within_the_picture_and_beyond_the_near_plane() {
     let faces = cuboid(DVec3::splat(-3.0), DVec3::splat(3.0), [1.0; 4]);
     for (z, some) in [(2.0, true), (3.05, true), (8.0, true), (-9.0, false)] {
         let eye = DVec3::new(0.5, 0.2, z);

@@ -26,7 +26,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_value_that_is_hard_to_find_is_nothing() {
+    fn the_expensive_colour_is_always_zero() {
         for steps in [0.0, 1.0, 7.0, 1000.0, -3.0, f32::NAN] {
             assert_eq!(cost([0, 1, 17, u32::MAX], 5, steps), [0.0; 4], "{steps}");
         }

@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn nodes_are_composed_nearest_first_in_whatever_order_they_came() {
+    fn nodes_are_composed_nearest_first_whatever_their_order() {
         let near = (0.25, [1.0, 0.0, 0.0, 0.5]);
         let middle = (0.5, [0.0, 1.0, 0.0, 0.5]);
         let far = (0.75, [0.0, 0.0, 1.0, 1.0]);

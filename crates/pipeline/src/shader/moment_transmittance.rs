@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn up_to_three_depths_are_told_apart() {
+    fn moments_separate_up_to_three_depths() {
         let depths = [0.15, 0.3, 0.45, 0.5, 0.62, 0.85];
         let alphas = [0.1, 0.5, 0.9];
         let mut worst = [0.0_f32; 3];

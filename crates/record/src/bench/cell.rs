@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn the_unit_is_what_differs() {
+    fn the_measure_of_a_cell_is_the_work_that_differs() {
         let work = |triangles, texels, cleared, resolved, read| Work {
             triangles,
             texels,

@@ -76,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_process_does_once_cancels() {
+    fn instructions_that_a_process_executes_once_cancel() {
         let even = counted(&[[2, 1_000_200], [8, 1_000_800], [14, 1_001_400]]);
         assert_eq!(even.per_frame(), Some(100.0));
         assert_eq!(even.scatter(), Some(0.0));

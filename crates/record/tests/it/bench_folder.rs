@@ -94,7 +94,7 @@ fn rounds_that_are_enough_are_not_missing() {
 }
 
 #[test]
-fn what_was_written_is_read() {
+fn a_written_bench_reads_back() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("below/bench");
     let lines = [
@@ -151,7 +151,7 @@ fn a_killed_bench_is_a_readable_prefix() {
 }
 
 #[test]
-fn impossible_lines_are_told_with_file_and_line() {
+fn impossible_lines_are_refused_with_file_and_line() {
     let pass = || picture(Verdict::Pass);
     let lines_with = |change: &dyn Fn(&mut Round)| {
         let mut round = round(0);

@@ -74,7 +74,7 @@ fn folder_with(name: &str, text: &[u8]) -> tempfile::TempDir {
 
 proptest! {
     #[test]
-    fn runs(spoilt in spoilings()) {
+    fn a_spoilt_run_is_read_or_refused(spoilt in spoilings()) {
         let folder = folder_with("run.jsonl", &spoilt.of(run_text()));
         let _ = FolderKind::of(folder.path());
         match Run::read(folder.path()) {
@@ -99,7 +99,7 @@ proptest! {
     }
 
     #[test]
-    fn frame_files(spoilt in spoilings()) {
+    fn a_spoilt_frame_is_read_or_refused(spoilt in spoilings()) {
         let folder = folder_with("frame.json", &spoilt.of(FRAME));
         match Run::read_frame(folder.path(), "frame.json") {
             Err(error) => told(&error),
@@ -110,7 +110,7 @@ proptest! {
     }
 
     #[test]
-    fn benches(spoilt in spoilings()) {
+    fn a_spoilt_bench_is_read_or_refused(spoilt in spoilings()) {
         let folder = folder_with("bench.jsonl", &spoilt.of(bench_text()));
         if let Err(error) = Bench::read(folder.path()) {
             told(&error);
@@ -118,7 +118,7 @@ proptest! {
     }
 
     #[test]
-    fn expectations(spoilt in spoilings()) {
+    fn spoilt_expectations_are_read_or_refused(spoilt in spoilings()) {
         let bytes = spoilt.of(expectations_text());
         let text = String::from_utf8_lossy(&bytes);
         match Expectations::parse(&text, Path::new("e.json")) {
@@ -188,7 +188,7 @@ fn no_frame_panics_or_hangs_a_reader() {
 
 /// Absurd sizes, counts and nesting are refused with a message, at once.
 #[test]
-fn absurdities_are_refused() {
+fn absurd_sizes_counts_and_nesting_are_refused() {
     let header = run_text().lines().next().unwrap();
     let deep = format!("{}{}", "[".repeat(200_000), "]".repeat(200_000));
     for text in [
@@ -224,7 +224,7 @@ fn absurdities_are_refused() {
 
 /// Some spoilt inputs are refused and some accepted, so they get beyond the first brace.
 #[test]
-fn spoiling_goes_deep_and_not_too_deep() {
+fn some_spoilt_inputs_are_accepted_and_some_refused() {
     let mut runner = proptest::test_runner::TestRunner::deterministic();
     let (mut taken, mut refused) = (0, 0);
     for _ in 0..400 {

@@ -258,7 +258,7 @@ proptest! {
     }
 
     #[test]
-    fn a_run_cut_anywhere_goes_on_and_ends_as_if_nothing_had_happened(
+    fn a_run_cut_anywhere_resumes_and_ends_as_if_nothing_had_happened(
         records in prop::collection::vec(record(), 1..5),
         cut_index in any::<prop::sample::Index>(),
         zeros in 0_usize..3,
@@ -283,7 +283,7 @@ proptest! {
 }
 
 #[test]
-fn only_the_same_run_goes_on() {
+fn only_the_same_run_is_resumed() {
     let folder = tempfile::tempdir().unwrap();
     drop(RunWriter::create(folder.path(), &header()).unwrap());
     let before = fs::read(folder.path().join("run.jsonl")).unwrap();
@@ -326,7 +326,7 @@ fn a_line_without_end_is_refused_before_it_is_read() {
 }
 
 #[test]
-fn a_list_of_cases_is_the_one_that_the_header_names() {
+fn a_list_of_cases_must_match_the_digest_in_the_header() {
     let folder = tempfile::tempdir().unwrap();
     let mut header = header();
     header.settings.selection = selection_digest(["a/1", "a/2"]);
@@ -351,7 +351,7 @@ fn written(folder: &Path, verdicts: &[Verdict]) -> String {
 }
 
 #[test]
-fn what_is_written_is_read() {
+fn a_written_run_reads_back() {
     let folder = tempfile::tempdir().unwrap();
     written(folder.path(), &Verdict::ALL);
     let run = Run::read(folder.path()).unwrap();
@@ -419,7 +419,7 @@ fn folders_without_a_readable_header_are_refused() {
 }
 
 #[test]
-fn runs_of_every_older_format_are_read_and_not_gone_on_with() {
+fn runs_of_every_older_format_are_read_but_not_resumed() {
     let samples = [
         (1, include_str!("../../../report/tests/data/methods.jsonl")),
         (2, include_str!("../data/format-2.jsonl")),
@@ -466,7 +466,7 @@ fn runs_of_every_older_format_are_read_and_not_gone_on_with() {
 }
 
 #[test]
-fn numbers_that_say_nothing_new_are_left_out() {
+fn redundant_numbers_are_left_out_of_a_record() {
     let mut record = Record::new("a/b", "cpu", Verdict::Pass);
     record.texels.total = 16;
     record.assertions = vec![Assertion {
@@ -545,7 +545,7 @@ fn a_folder_of_an_earlier_version_loses_what_its_records_name() {
 }
 
 #[test]
-fn frames_come_back_and_do_not_leave_the_folder() {
+fn frames_read_back_and_stay_in_the_folder() {
     let folder = tempfile::tempdir().unwrap();
     let writer = RunWriter::create(folder.path(), &header()).unwrap();
     let frame = FrameFile {
@@ -635,7 +635,7 @@ fn long_records_are_shortened_in_order() {
 }
 
 #[test]
-fn pictures_are_read_below_the_folder_alone() {
+fn pictures_are_read_only_below_the_folder() {
     let outer = tempfile::tempdir().unwrap();
     let folder = outer.path().join("run");
     fs::create_dir_all(folder.join("pictures")).unwrap();
@@ -687,7 +687,7 @@ fn blank_lines_and_a_byte_order_mark_change_nothing() {
 }
 
 #[test]
-fn a_broken_header_is_no_line_to_remove() {
+fn a_broken_header_is_no_damaged_record() {
     let folder = tempfile::tempdir().unwrap();
     written(folder.path(), &[Verdict::Pass]);
     let path = folder.path().join("run.jsonl");
@@ -710,7 +710,7 @@ fn a_broken_header_is_no_line_to_remove() {
 /// A link in a folder from somebody else can lead to any file of the machine.
 #[cfg(unix)]
 #[test]
-fn a_key_that_nothing_reads_is_refused_wherever_it_stands_in_a_header() {
+fn an_unknown_key_is_refused_anywhere_in_a_header() {
     let folder = tempfile::tempdir().unwrap();
     RunWriter::create(folder.path(), &header()).unwrap();
     let path = folder.path().join("run.jsonl");

@@ -53,7 +53,7 @@ fn check(id: &str, scene: &Scene, limits: &Limits, rules: &Rules) {
 
 /// A case of each file, a different one per API; with `ETALON_TESTS=all`, every case of the quick profile.
 #[test]
-fn samples_of_a_picture_are_what_each_of_them_is_alone() {
+fn samples_judged_together_have_the_sets_that_each_has_alone() {
     let everything = std::env::var_os("ETALON_TESTS").is_some_and(|v| v == "all");
     let library = Library::built_in();
     let apis = [Api::Vulkan, Api::OpenGl, Api::OpenGlEs, Api::WebGpu];

@@ -153,7 +153,7 @@ fn sorted(set: &etalon_frame::TexelSet) -> Vec<etalon_frame::WorldBox> {
 }
 
 #[test]
-fn a_mesh_elsewhere_is_one_event() {
+fn triangles_that_miss_a_texel_are_one_event_of_its_story() {
     let mut positions = Vec::new();
     for i in 0..1000 {
         let x = -1.0 + f64::from(i) / 2000.0;

@@ -92,7 +92,7 @@ fn a_depth_between_those_of_the_vertices_may_pass_them_by_the_error_of_interpola
 }
 
 #[test]
-fn a_comparison_that_cannot_be_told_leaves_two_joint_outcomes() {
+fn an_undecided_comparison_leaves_two_joint_outcomes() {
     let scene = scene(
         &format!(r#"{COLOR},"depth":{{"format":"depth24plus","clear":0.5}}"#),
         r#"{"mesh":{"kind":"full","z":0.5},"shader":"uniform_color",
@@ -183,7 +183,7 @@ fn a_story_names_operations_and_citations() {
 }
 
 #[test]
-fn a_story_tells_which_stencil_reference_counts() {
+fn a_story_names_the_stencil_reference_that_counts() {
     let draw = |early: &str| {
         format!(
             r#"{{"mesh":{{"kind":"full"}},"shader":"exported_color","textures":["t"],"early_tests":"{early}",
@@ -283,7 +283,7 @@ fn load_operations_and_clears_store_what_the_first_clear_stores() {
 }
 
 #[test]
-fn clears_stand_between_their_draws() {
+fn clears_are_executed_between_their_draws() {
     let draw = r#"{"mesh":{"kind":"full"},"shader":"uniform_color","params":{"color":[1,0,0,1]}}"#;
     let set = passes(
         Api::Vulkan,
@@ -313,7 +313,7 @@ fn clears_stand_between_their_draws() {
 }
 
 #[test]
-fn what_a_query_encloses_beside_draws_may_count_in_vulkan_alone() {
+fn commands_between_the_draws_of_a_query_may_count_only_in_vulkan() {
     let range = |api: Api, queries: &str, clears: &str| {
         let draw = |compare: &str| {
             format!(
@@ -345,7 +345,7 @@ fn what_a_query_encloses_beside_draws_may_count_in_vulkan_alone() {
 }
 
 #[test]
-fn nothing_is_asserted_of_what_depends_on_discarded_contents() {
+fn values_that_depend_on_discarded_contents_are_not_asserted() {
     let draw = |compare: &str| {
         format!(
             r#","draws":[{{"mesh":{{"kind":"full"}},"shader":"uniform_color","counters":["passed"],
@@ -420,7 +420,7 @@ fn depth_and_stencil_are_resolved_each_by_its_mode() {
 }
 
 #[test]
-fn a_resolve_of_what_may_be_nan_may_be_anything() {
+fn a_resolve_of_a_possible_nan_may_be_anything() {
     // A colour with alpha 0, by which advanced blending divides.
     let text = r#"{"about":"t","spec":["t"],"scene":{"attachments":{
         "many":{"format":"rgba16float","size":[1,1],"samples":2},
@@ -503,7 +503,7 @@ fn clipping_limits(api: Api, version: [u8; 2], promise: bool) -> Limits {
 }
 
 #[test]
-fn a_point_beside_the_viewport_is_discarded_where_the_text_says_so() {
+fn a_point_beside_the_viewport_is_discarded_if_the_specification_says_so() {
     for (api, version, promise, may) in [
         (Api::OpenGl, [3, 3], false, false),
         (Api::OpenGl, [4, 5], false, false),
@@ -542,7 +542,7 @@ fn a_point_before_the_near_plane_may_be_drawn_in_vulkan_without_the_promise() {
 }
 
 #[test]
-fn a_line_may_leave_the_viewport_where_the_text_lets_it() {
+fn a_line_may_leave_the_viewport_if_the_specification_permits_it() {
     for (api, may) in [
         (Api::OpenGl, false),
         (Api::WebGpu, false),
@@ -670,7 +670,7 @@ fn opengl_3_may_clamp_biased_depths_at_vertices() {
 }
 
 #[test]
-fn the_step_of_a_float_bias_is_that_of_what_clipping_leaves() {
+fn the_step_of_a_float_bias_is_that_of_the_clipped_primitive() {
     let allows = |positions: &str, depth: f32| {
         let scene = case(&format!(
             r#"{{"about":"t","spec":["t"],"scene":{{
@@ -733,7 +733,7 @@ fn may_draws_become_nan(stored: [f32; 4], draws: &[&str]) -> bool {
 }
 
 #[test]
-fn what_overflows_on_the_way_may_become_nan() {
+fn a_blend_that_can_overflow_on_the_way_may_become_nan() {
     let multiply = r#""advanced_blend":"multiply","params":{"color":[0,0,0,255]}"#;
     assert!(may_become_nan([0.0, 0.0, 0.0, 2e38], multiply));
     assert!(!may_become_nan([0.0, 0.0, 0.0, 1.0], multiply));

@@ -69,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn every_permission_has_a_citation_of_its_text() {
+    fn every_permission_cites_its_own_specification() {
         for limits in all_limits() {
             let rules = Rules::of(&limits);
             assert_eq!(rules.name, limits.api.name());
@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn weaker_evidence_only_narrows() {
+    fn leaving_out_weak_evidence_only_narrows_the_rules() {
         for limits in all_limits() {
             let rules = Rules::of(&limits);
             assert_eq!(rules.bound_by(Grade::Disputed), rules);
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn the_texts_of_two_versions_differ() {
+    fn the_citations_of_two_versions_differ() {
         let rules_of = |major, minor| {
             let mut limits = test_limits::limits(Api::OpenGl);
             limits.version = ApiVersion::new(major, minor);
@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn promises_narrow_vulkan() {
+    fn promised_properties_narrow_the_rules_of_vulkan() {
         let mut limits = test_limits::limits(Api::Vulkan);
         let open = Rules::of(&limits);
         assert_eq!(open.early_coverage.value, EarlyUpdates::Either);

@@ -379,7 +379,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_there_or_excused_is_not_denied() {
+    fn a_feature_that_is_there_or_exempt_is_not_denied() {
         let needed = [Requirement::Drawing(TextureFormat::Rgba8Unorm)];
         assert!(denied(&limits(Api::Vulkan), &needed).is_none());
         let mut excused = limits_of(Api::Vulkan, 1, 3);
@@ -389,7 +389,7 @@ mod tests {
     }
 
     #[test]
-    fn every_row_names_its_text() {
+    fn every_row_names_its_specification() {
         for row in rows() {
             let name = match row.api {
                 Api::Vulkan => "Vulkan",

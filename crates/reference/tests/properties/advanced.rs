@@ -166,7 +166,7 @@ fn opaque(mode: AdvancedBlend, s: f32, d: u32) -> CodeInterval {
 }
 
 #[test]
-fn the_ends_are_exact() {
+fn dodge_and_burn_are_judged_exactly_at_their_ends() {
     let (dodge, burn) = (AdvancedBlend::ColorDodge, AdvancedBlend::ColorBurn);
     let (white, black) = (CodeInterval::exact(255), CodeInterval::exact(0));
     assert_eq!(opaque(dodge, 1.0, 0), black);

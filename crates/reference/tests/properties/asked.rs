@@ -34,7 +34,7 @@ fn all_limits() -> Vec<Limits> {
 }
 
 #[test]
-fn rules_that_agree_on_what_was_asked_give_the_same_sets() {
+fn rules_that_agree_on_the_recorded_questions_give_the_same_sets() {
     let library = Library::built_in();
     let quick = library.cases(Profile::Quick);
     let is_small = |id: &str| {
@@ -95,7 +95,7 @@ fn rules_that_agree_on_what_was_asked_give_the_same_sets() {
 }
 
 #[test]
-fn a_clone_was_asked_for_nothing() {
+fn a_clone_of_rules_records_no_questions() {
     let rules = Rules::of(&limits(APIS[0]));
     assert_eq!(rules.asked().len(), 0);
     let _ = rules.store.value();
@@ -178,7 +178,7 @@ fn large_pictures_of_one_geometry_have_the_sets_that_each_has_alone() {
 }
 
 #[test]
-fn a_key_tells_what_is_drawn_and_not_how() {
+fn a_scene_key_depends_on_what_is_drawn_and_not_how() {
     let library = Library::built_in();
     let named = library
         .cases(Profile::Quick)

@@ -59,7 +59,7 @@ fn signed_blending_is_clamped_as_the_version_says() {
 }
 
 #[test]
-fn logic_operations_apply_to_srgb_by_3_3_alone() {
+fn logic_operations_may_apply_to_srgb_only_in_opengl_3_3() {
     let scene = scene(
         r#"{"attachments":{"c":{"format":"rgba8unorm-srgb","size":[4,4],"clear":[1,1,1,1]}},
             "passes":[{"color":["c"],"draws":[{"mesh":{"kind":"full"},"shader":"uniform_color","params":{"color":[1,1,1,1]},
@@ -122,7 +122,7 @@ fn alpha_to_coverage_may_precede_forced_early_tests_without_a_promise() {
 }
 
 #[test]
-fn the_cts_wants_early_updates_of_fragments_that_are_discarded() {
+fn the_cts_requires_early_updates_of_discarded_fragments() {
     let scene = scene(
         r#"{"attachments":{"c":{"format":"rgba8unorm","size":[4,4]},"s":{"format":"stencil8","clear":5},
              "t":{"format":"rgba8unorm","texels":{"kind":"rows","values":[[0,0,0,0],[0,0,0,0],[0,0,0,0],[0,0,0,0]]}}},
@@ -141,7 +141,7 @@ fn the_cts_wants_early_updates_of_fragments_that_are_discarded() {
 }
 
 #[test]
-fn depth_and_stencil_of_masked_samples_change_each_by_itself_in_opengl() {
+fn depth_and_stencil_of_masked_samples_change_independently_in_opengl() {
     let scene = scene(
         r#"{"attachments":{"c":{"format":"rgba8unorm","size":[4,4],"samples":4,"clear":[0,0,0,0]},
              "d":{"format":"depth32float-stencil8","samples":4,"clear":{"depth":1,"stencil":5}}},
@@ -164,7 +164,7 @@ fn depth_and_stencil_of_masked_samples_change_each_by_itself_in_opengl() {
 }
 
 #[test]
-fn alpha_to_one_is_sure_of_the_first_output_alone() {
+fn alpha_to_one_is_certain_only_for_the_first_output() {
     let target = |name: &str| {
         format!(r#""{name}":{{"format":"rgba8unorm","size":[4,4],"samples":4,"clear":[0,0,0,0]}}"#)
     };
@@ -259,7 +259,7 @@ fn masked(early: &str, samples: u32, mask: u32) -> Scene {
 }
 
 #[test]
-fn the_cts_wants_early_updates_of_samples_that_a_shader_masks() {
+fn the_cts_requires_early_updates_of_samples_that_a_shader_masks() {
     let scene = masked("forced", 4, 13);
     let mut vulkan = version(Api::Vulkan, 1, 3);
     assert_eq!(allowed(&scene, &vulkan, 1, &[6]), ALWAYS);
@@ -279,7 +279,7 @@ fn the_cts_wants_early_updates_of_samples_that_a_shader_masks() {
 }
 
 #[test]
-fn the_mask_that_a_shader_writes_acts_on_one_sample_as_each_text_says() {
+fn the_mask_that_a_shader_writes_acts_on_one_sample_as_each_specification_says() {
     let scene = masked("implicit", 1, 2);
     for limits in [version(Api::Vulkan, 1, 0), limits(Api::WebGpu)] {
         assert_eq!(allowed(&scene, &limits, 0, &[5]), ALWAYS);
@@ -328,7 +328,7 @@ fn the_reference_that_a_shader_writes_counts_in_the_bits_of_the_attachment() {
 }
 
 #[test]
-fn without_a_fragment_shader_stencil_runs_and_opengl_says_so_by_a_reading_alone() {
+fn stencil_runs_without_a_fragment_shader_but_opengl_has_another_reading() {
     let scene = scene(
         r#"{"attachments":{"s":{"format":"stencil8","size":[4,4],"clear":5}},
             "passes":[{"depth_stencil":"s","draws":[{"mesh":{"kind":"full"},"shader":"vertex_only",
@@ -384,7 +384,7 @@ fn counted(early: &str, draws: &str) -> Scene {
 }
 
 #[test]
-fn a_fragment_that_fails_its_late_tests_has_a_run_as_each_text_says() {
+fn a_fragment_that_fails_its_late_tests_is_shaded_as_each_specification_says() {
     let scene = counted("implicit", "COUNTED");
     let exact = (16, Some(16));
     assert_eq!(runs(&scene, &version(Api::Vulkan, 1, 3)), [(16, None); 2]);
@@ -400,7 +400,7 @@ fn a_fragment_that_fails_its_late_tests_has_a_run_as_each_text_says() {
 }
 
 #[test]
-fn forced_early_tests_prevent_runs_as_each_text_says() {
+fn forced_early_tests_prevent_shader_runs_as_each_specification_says() {
     let scene = counted("forced", "COUNTED");
     let none = (0, Some(0));
     assert_eq!(runs(&scene, &version(Api::Vulkan, 1, 3)), [none, (0, None)]);
@@ -426,7 +426,7 @@ fn a_fragment_that_is_overwritten_may_go_without_a_run_in_es() {
 }
 
 #[test]
-fn samples_at_edges_are_covered_where_the_text_says_so() {
+fn samples_at_edges_are_covered_if_the_specification_says_so() {
     // A triangle whose right edge goes through the middle of column 1.
     let scene = scene(
         r#"{"attachments":{"c":{"format":"rgba8unorm","size":[4,4],"samples":4,"clear":[0,0,0,0]}},
@@ -448,7 +448,7 @@ fn samples_at_edges_are_covered_where_the_text_says_so() {
 }
 
 #[test]
-fn a_half_float_that_overflows_is_no_nan_by_musts_in_vulkan_alone() {
+fn an_overflowing_half_float_is_certainly_no_nan_only_in_vulkan() {
     let scene = scene(
         r#"{"attachments":{"c":{"format":"rgba16float","size":[4,4],"clear":[0,0,0,0]}},
             "passes":[{"color":["c"],"draws":[{"mesh":{"kind":"full"},"shader":"uniform_color",
@@ -485,7 +485,7 @@ const WHITE: &str = r#""shader":"uniform_color","params":{"color":[1,1,1,1]}"#;
 const OTHERS: [(Api, u8, u8); 2] = [(Api::OpenGl, 3, 3), (Api::OpenGlEs, 3, 2)];
 
 #[test]
-fn a_line_before_the_near_plane_is_clipped_in_vulkan_by_the_cts_alone() {
+fn only_the_cts_requires_vulkan_to_clip_a_line_before_the_near_plane() {
     let (drawn, kept) = ([255; 4], [0; 4]);
     let before = line(
         WHITE,
@@ -550,7 +550,7 @@ fn clip_distances_of_a_line_are_disputed_in_vulkan_alone() {
 }
 
 #[test]
-fn a_line_along_an_axis_has_no_gap_where_it_is_a_parallelogram() {
+fn a_line_along_an_axis_has_no_gap_if_lines_are_parallelograms() {
     let (drawn, kept) = ([255; 4], [0; 4]);
     let scene = line(
         WHITE,
@@ -595,7 +595,7 @@ fn a_small_depth_is_as_precise_as_the_terms_it_is_made_of() {
 }
 
 #[test]
-fn the_slope_of_a_bias_is_the_larger_growth_in_webgpu() {
+fn the_slope_of_a_bias_is_the_larger_derivative_in_webgpu() {
     // The depth grows by a 64th per texel across and down: 0.3125 at the sample.
     let scene = scene(
         r#"{"attachments":{"c":{"format":"rgba8unorm","size":[4,4]},"d":{"format":"depth32float","clear":1}},

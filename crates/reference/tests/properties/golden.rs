@@ -160,7 +160,7 @@ fn sums_and_differences_stop_at_the_ends() {
 }
 
 #[test]
-fn products_constants_and_saturation_are_the_textbooks() {
+fn products_constants_and_saturation_give_textbook_values() {
     // Multiply: 0.6 * 0.4 = 0.24, 0.2 * 1, 1 * 0.6, 0.
     blended(
         &both("add", "dst", "zero"),

@@ -146,7 +146,7 @@ proptest! {
     #![proptest_config(config(400))]
 
     #[test]
-    fn what_is_drawn_behind_the_eye_is_legal(inputs in inputs()) {
+    fn frames_of_geometry_behind_the_eye_are_legal(inputs in inputs()) {
         let eye = |([x, y, _], w): &([f32; 3], f32)| [x * w, y * w, *w] == [0.0; 3];
         prop_assume!(!inputs.vertices.iter().any(eye));
         assert_legal(&inputs)?;

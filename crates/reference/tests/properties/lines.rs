@@ -64,7 +64,7 @@ fn a_line_that_is_missing_is_a_gap() {
 }
 
 #[test]
-fn a_line_may_lie_a_texel_beside_and_lack_one_fragment() {
+fn a_line_may_be_shifted_by_a_texel_and_lack_one_fragment() {
     let scene = line(HORIZONTAL, LIST);
     let drawn = draw(&scene);
     for row in [3, 5] {
@@ -90,7 +90,7 @@ fn a_line_may_lie_a_texel_beside_and_lack_one_fragment() {
 }
 
 #[test]
-fn a_fragment_that_changes_nothing_may_be_anywhere() {
+fn only_fragments_that_change_something_can_be_missing() {
     let never = format!(r#"{LIST},"write_mask":"""#);
     let scissored = format!(r#"{LIST},"scissor":[0,0,16,2]"#);
     let half = format!(r#"{LIST},"scissor":[0,0,8,8]"#);

@@ -75,7 +75,7 @@ fn the_usual_step_is_found_and_leaves_few_codes() {
 }
 
 #[test]
-fn another_step_is_legal_in_all_columns_alike_and_in_no_single_one() {
+fn another_bias_step_is_legal_only_if_all_columns_have_it() {
     let scene = linear();
     let larger = |column: usize, code: u32| code + CONSTANTS[column] / 2;
     // One and a half steps per unit, in the lower half too.
@@ -118,7 +118,7 @@ fn a_step_beyond_what_vulkan_allows_is_refused_there_and_legal_in_opengl() {
 }
 
 #[test]
-fn half_a_step_of_floats_is_refused_and_webgpu_has_two_readings() {
+fn half_a_float_bias_step_is_refused_and_webgpu_has_two_readings() {
     let scene = crate::common::scene(
         r#"{"attachments":{"depth":{"format":"depth32float","size":[4,4],"clear":0}},
             "passes":[{"color":[],"depth_stencil":"depth","draws":[

@@ -197,7 +197,7 @@ fn is_exact(set: &LegalSet) -> bool {
 }
 
 #[test]
-fn what_an_earlier_pass_left_is_read_exactly() {
+fn output_of_an_earlier_pass_is_read_exactly() {
     for (format, samples) in [("rgba8unorm", 1), ("rgb10a2unorm", 4), ("rgba16float", 1)] {
         let scene = scene(&format!(
             r#"{{"attachments":{{
@@ -368,7 +368,7 @@ fn coordinates_of_several_samples_may_be_those_of_any_point_of_the_texel() {
 }
 
 #[test]
-fn a_sampler_on_what_was_drawn_asserts_nothing_false() {
+fn sampling_a_drawn_texture_asserts_nothing_false() {
     for format in ["rgba8unorm", "rgba16float"] {
         let scene = scene(&format!(
             r#"{{"attachments":{{
@@ -429,7 +429,7 @@ fn check_sampled(id: &str, scene: &Scene, most: u64) {
 }
 
 #[test]
-fn a_sampled_judgement_is_the_full_one_where_it_looks() {
+fn a_judgement_of_some_texels_agrees_with_the_full_one_on_them() {
     check_sampled("peeled", &peeled(3), 5);
     let library = Library::built_in();
     // The large pictures of these are judged only on a lattice, since whole ones would take long.
@@ -466,7 +466,7 @@ fn the_nearest_texel_of_a_drawn_texture_is_followed() {
 }
 
 #[test]
-fn a_texel_between_two_of_a_drawn_texture_is_either() {
+fn a_coordinate_between_two_drawn_texels_may_select_either() {
     // The coordinate of the middle columns is the border of two texels.
     let scene = scene(
         r#"{"attachments":{

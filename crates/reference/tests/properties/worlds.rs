@@ -109,7 +109,7 @@ fn samples_on_edges_count_exactly_once_where_the_rules_say_so() {
 }
 
 #[test]
-fn a_sample_at_the_hub_of_many_triangles_is_open_and_nothing_else_is() {
+fn only_a_sample_at_the_hub_of_many_triangles_is_open() {
     let hub = [3.5, 3.5];
     let rim: Vec<[f64; 2]> = (0..24)
         .map(|i| {

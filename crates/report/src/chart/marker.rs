@@ -100,7 +100,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     #[test]
-    fn fourteen_methods_are_told_apart_by_shape_by_line_and_by_hue() {
+    fn fourteen_methods_differ_in_shape_line_and_hue() {
         let different = |style: &dyn Fn(usize) -> String| {
             let styles: BTreeSet<String> = (0..STYLES).map(style).collect();
             assert_eq!(styles.len(), STYLES, "{styles:?}");

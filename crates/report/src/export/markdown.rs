@@ -325,7 +325,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn text_loses_its_meaning() {
+    fn text_loses_its_meaning_as_markdown() {
         assert_eq!(escaped("a|b<i>", 99), "a&#124;b&#60;i&#62;");
         assert_eq!(escaped("@me", 99), "&#64;\u{2060}me");
         assert_eq!(escaped("a\nb", 99), "a&#92;nb");

@@ -146,7 +146,7 @@ mod tests {
     use etalon_record::{Expected, Seconds};
 
     #[test]
-    fn what_speaks_against_a_run_is_failed_or_broken_and_nothing_else_is() {
+    fn exactly_unexpected_records_are_failed_or_broken() {
         for verdict in Verdict::ALL {
             for (is_due, expected) in [(false, false), (true, false), (false, true), (true, true)] {
                 let mut record = Record::new("a/b", "cpu", verdict);

@@ -392,7 +392,7 @@ mod tests {
     }
 
     #[test]
-    fn ids_come_back_from_what_they_share() {
+    fn ids_are_stored_as_differences_from_the_one_before() {
         let ids: Vec<Rc<str>> = ["a/𝄞x", "a/𝄞y", "b"].map(Rc::from).to_vec();
         let text = cases(&ids, &[0, 1, 2]).to_string();
         assert_eq!(text, r#"[[0,"a/𝄞x"],[4,"y"],[0,"b"]]"#);

@@ -52,7 +52,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_family_is_what_stands_before_the_axes() {
+    fn a_family_is_an_id_without_its_axes() {
         let cases: Vec<Rc<str>> = ["b/x/a=1", "a/y/a=1", "b/x/a=2"].map(Rc::from).to_vec();
         let families = Families::new(&cases);
         assert_eq!(families.names, ["a/y", "b/x"]);

@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn breaks_are_told_in_sentences() {
+    fn breaks_are_described_in_sentences() {
         let sentence = |curve: &[(f64, f64)]| {
             let found = find(curve, false).unwrap();
             found.sentence("m", "alpha", "alpha 0 to 1")

@@ -494,7 +494,7 @@ mod tests {
     }
 
     #[test]
-    fn only_what_was_drawn_at_the_same_parameters_is_held_together() {
+    fn only_methods_with_the_same_parameters_are_compared() {
         let setting_of =
             |method: &str, value| Made::new(&format!("t/wedge/method={method}")).at("o", value);
         // A covering array: each method has its own value, except two methods with 4.

@@ -320,7 +320,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn codes_of_floats_and_of_eight_bits_meet_as_shares_only() {
+    fn codes_of_floats_and_of_8_bits_are_compared_only_as_shares() {
         let row = |encoding, mean, max| {
             let legal = Accuracy {
                 aspect: Aspect::Color,

@@ -55,7 +55,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_beats_what_is_on_the_front() {
+    fn no_point_beats_a_point_on_the_front() {
         assert_eq!(front(&[]), [0; 0]);
         assert_eq!(front(&[(1.0, 1.0)]), [0]);
         // The third point beats the second, and the last equals the first.
@@ -68,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn the_front_is_what_the_definition_says() {
+    fn the_front_agrees_with_its_definition() {
         let mut state = 7_u32;
         let mut next = || {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);

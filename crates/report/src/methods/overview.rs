@@ -286,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn the_answer_is_what_no_other_method_beats() {
+    fn the_answer_names_methods_that_no_other_beats() {
         let points = [
             timed("rough", 0.0002, 0.2),
             timed("sorted", 0.0009, 0.0018),

@@ -208,7 +208,7 @@ mod tests {
     use crate::methods::tests::made::{Made, run};
 
     #[test]
-    fn only_equals_are_ranked_and_one_alone_is_not() {
+    fn only_methods_at_one_setting_are_ranked_and_a_lone_one_is_not() {
         let candidate = |method: &str, opening, error: f64| {
             Made::new(&format!("aa/wedge/method={method}"))
                 .at("opening", opening)

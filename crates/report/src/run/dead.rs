@@ -40,7 +40,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn they_are_grouped_and_few() {
+    fn dead_expectations_are_grouped_and_few_are_listed() {
         let entry = |kind, n: u32| Dead {
             kind,
             place: format!("e.json: entry {n}"),

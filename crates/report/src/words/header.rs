@@ -46,7 +46,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn settings_are_told_where_they_are_set() {
+    fn only_changed_settings_are_listed() {
         assert!(settings(&Settings::default()).is_empty());
         let some = Settings {
             repeat: Some(3),

@@ -46,7 +46,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_lost_process_is_told_in_one_sentence() {
+    fn a_lost_process_is_described_in_one_sentence() {
         let mut end = ProcessEnd {
             signal: Some(6),
             seconds: 0.25,

@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn a_texel_is_told_in_one_line() {
+    fn a_texel_is_described_in_one_line() {
         let mut texel = WrongTexel {
             x: 3,
             y: 4,
@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn values_keep_what_matters() {
+    fn texts_of_values_keep_signs_and_special_values() {
         let float = |v: f32| value_text(ChannelEncoding::Float32, v.to_bits());
         assert_eq!(float(-0.0), "-0.0");
         assert_eq!(float(f32::NAN), "NaN");

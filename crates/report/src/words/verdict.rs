@@ -118,7 +118,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn symbols_differ() {
+    fn symbols_of_verdicts_differ() {
         let mut symbols: Vec<_> = Verdict::ALL.iter().map(|v| symbol(*v)).collect();
         symbols.sort_unstable();
         symbols.dedup();

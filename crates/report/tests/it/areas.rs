@@ -115,7 +115,7 @@ fn a_cell_is_a_number_and_a_bar() {
 }
 
 #[test]
-fn the_number_is_what_is_new_or_else_what_is_known() {
+fn the_number_counts_new_failures_or_else_known_ones() {
     let folder = tempfile::tempdir().unwrap();
     write_twenty(folder.path());
     let html = fs::read_to_string(write(folder.path()).unwrap().html).unwrap();
@@ -200,7 +200,7 @@ const ORDER: [&str; 15] = [
 ];
 
 #[test]
-fn a_page_tells_what_changed_what_is_new_what_is_known_and_what_was_not_drawn() {
+fn a_page_lists_changed_new_known_and_undrawn_cases() {
     let folder = tempfile::tempdir().unwrap();
     write_twenty(folder.path());
     let run = Run::read(folder.path()).unwrap();

@@ -265,7 +265,7 @@ fn the_table_ranks_within_a_kind() {
 }
 
 #[test]
-fn a_diff_tells_what_is_worse() {
+fn a_diff_lists_what_is_worse() {
     let folders = [(); 3].map(|()| tempfile::tempdir().unwrap());
     let before = write(folders[0].path(), &header(), 2e-3, Verdict::Pass);
     let same = write(folders[1].path(), &header(), 2e-3, Verdict::Pass);

@@ -27,7 +27,7 @@ fn text() -> &'static str {
 
 proptest! {
     #[test]
-    fn reports(spoilt in spoilings()) {
+    fn a_report_of_a_spoilt_run_holds_no_foreign_markup(spoilt in spoilings()) {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join("run.jsonl"), spoilt.of(text())).unwrap();
         let _ = Bench::read(folder.path());

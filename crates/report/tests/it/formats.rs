@@ -114,7 +114,7 @@ fn lists_of_deqp_runner_are_written_on_request_and_kept_up_to_date() {
 }
 
 #[test]
-fn all_files_are_named_and_there() {
+fn all_named_files_exist() {
     for (name, folder) in runs() {
         let written = write(folder.path()).unwrap();
         assert!(written.all().all(Path::is_file), "{name}");
@@ -167,7 +167,7 @@ fn junit_is_read_by_another_parser() {
 }
 
 #[test]
-fn junit_tells_what_became_of_processes_and_repetitions() {
+fn junit_describes_the_ends_of_processes_and_the_repetitions() {
     let folder = tempfile::tempdir().unwrap();
     every_verdict(folder.path());
     let written = write(folder.path()).unwrap();
@@ -278,7 +278,7 @@ fn ids_that_deqp_runner_cannot_read_are_left_out_and_counted() {
 }
 
 #[test]
-fn missing_records_are_missing_in_lists_of_deqp_runner() {
+fn missing_records_are_marked_in_lists_of_deqp_runner() {
     let folder = tempfile::tempdir().unwrap();
     truncated(folder.path());
     let written = write(folder.path()).unwrap();

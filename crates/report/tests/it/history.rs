@@ -39,7 +39,7 @@ fn value(files: &BTreeMap<String, String>, name: &str) -> Value {
 }
 
 #[test]
-fn the_worst_news_come_first_and_what_is_known_last() {
+fn the_worst_news_come_first_and_known_failures_last() {
     let folder = tempfile::tempdir().unwrap();
     let to = folder.path().join("page");
     write_history(&made(folder.path()), &Labels::new(), &to, true).unwrap();

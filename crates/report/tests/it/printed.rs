@@ -97,7 +97,7 @@ pub(crate) fn hunt() -> Hunt {
 }
 
 #[test]
-fn run_in_a_terminal() {
+fn a_run_prints_as_recorded_in_a_terminal() {
     let folder = tempfile::tempdir().unwrap();
     every_verdict(folder.path());
     let run = Run::read(folder.path()).unwrap();
@@ -110,7 +110,7 @@ fn run_in_a_terminal() {
 }
 
 #[test]
-fn run_in_files() {
+fn a_run_is_written_to_files_as_recorded() {
     let folder = tempfile::tempdir().unwrap();
     every_verdict(folder.path());
     let written = write(folder.path()).unwrap();
@@ -121,7 +121,7 @@ fn run_in_files() {
 }
 
 #[test]
-fn runs_compared() {
+fn compared_runs_print_as_recorded() {
     let two = Two::new();
     let old: Vec<_> = (0..4).map(|i| rich(&format!("blend/f/case={i}"))).collect();
     let mut new = old.clone();
@@ -141,7 +141,7 @@ fn runs_compared() {
 }
 
 #[test]
-fn benches() {
+fn benches_print_as_recorded() {
     let folder = tempfile::tempdir().unwrap();
     let [before, after] = ["before", "after"].map(|name| folder.path().join(name));
     let old = bench::write(&before, &bench::header(), 2e-3, Verdict::Pass);
@@ -159,7 +159,7 @@ fn benches() {
 }
 
 #[test]
-fn hunts() {
+fn hunts_print_as_recorded() {
     let folder = tempfile::tempdir().unwrap();
     let written = write_hunt(folder.path(), &hunt()).unwrap();
     assert_snapshot!("hunt-table", hunt_table(&hunt(), WIDE));

@@ -66,7 +66,7 @@ fn outcome(case: Node<'_, '_>) -> Option<String> {
 }
 
 #[test]
-fn junit_tells_failures_errors_and_skips_apart() {
+fn junit_distinguishes_failures_errors_and_skips() {
     let folder = tempfile::tempdir().unwrap();
     let records = every_verdict(folder.path());
     let (_, junit) = read(&write(folder.path()).unwrap());

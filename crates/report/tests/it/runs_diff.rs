@@ -97,7 +97,7 @@ fn each_planted_change_is_found_as_what_it_is() {
 }
 
 #[test]
-fn of_a_blocked_case_nothing_is_known() {
+fn blocking_a_case_is_worse_and_unblocking_it_is_better_only_if_it_passes() {
     let direction = |[before, after]: [Verdict; 2]| {
         let two = Two::new();
         let record = |verdict| [Record::new("blend/f/case=2", "gl:a", verdict)];
@@ -186,7 +186,7 @@ fn frames_are_compared_texel_by_texel_and_shown() {
 }
 
 #[test]
-fn frames_that_cannot_be_read_are_told_and_stop_nothing() {
+fn unreadable_frames_give_a_warning_and_stop_nothing() {
     let two = Two::new();
     let record = with_frame(&two.before(), |_| {});
     with_frame(&two.after(), |_| {});
@@ -244,7 +244,7 @@ fn the_same_run_twice_is_no_change() {
 }
 
 #[test]
-fn cases_in_one_run_only_are_worse_when_the_second_was_to_have_them() {
+fn a_case_in_one_run_only_is_worse_if_the_second_run_selected_it() {
     let ids = ["a/f/c=0", "a/f/c=1", "a/f/c=2"];
     let pass = |id: &&str| Record::new(*id, "gl:a", Verdict::Pass);
     let records: Vec<Record> = ids.iter().map(pass).collect();
@@ -300,7 +300,7 @@ fn selected(folder: &Path, selection: &[&str], shard: Option<Shard>, recorded: &
 }
 
 #[test]
-fn a_case_that_both_select_and_the_second_lacks_is_worse() {
+fn a_case_that_both_runs_select_and_the_second_lacks_is_worse() {
     let two = Two::new();
     selected(&two.before(), &["a", "b", "c"], None, &["a", "b", "c"]);
     // The second run selects other cases, too, and lacks one that both select.
@@ -322,7 +322,7 @@ fn a_case_that_both_select_and_the_second_lacks_is_worse() {
 }
 
 #[test]
-fn what_could_not_be_told_is_not_green() {
+fn an_undecided_case_is_not_green() {
     let two = Two::new();
     selected(&two.before(), &["a", "b"], None, &["a", "b"]);
     record_all(
@@ -373,7 +373,7 @@ fn an_adapter_that_vanished_is_worse_and_one_that_came_is_not() {
 }
 
 #[test]
-fn a_run_that_was_cut_off_is_told() {
+fn a_run_that_was_cut_off_gives_a_warning() {
     let two = Two::new();
     let records: Vec<Record> = (0..3).map(|i| rich(&format!("a/{i}"))).collect();
     record_all(&two.before(), &one_adapter(3), &records);
@@ -396,7 +396,7 @@ fn a_run_that_was_cut_off_is_told() {
 }
 
 #[test]
-fn adapters_are_matched_by_name_or_alone_or_as_named() {
+fn adapters_are_matched_by_name_as_the_only_ones_or_as_named() {
     let run = |folder: &Path, names: &[&str], verdict: Verdict| {
         let adapters = names.iter().map(|n| adapter(n, Api::OpenGl)).collect();
         let records: Vec<_> = names
@@ -445,7 +445,7 @@ fn adapters_are_matched_by_name_or_alone_or_as_named() {
 }
 
 #[test]
-fn headers_stand_side_by_side() {
+fn headers_are_shown_side_by_side() {
     let two = Two::new();
     let mut new = one_adapter(1);
     new.provenance.commit = Some("9999999".to_owned());
@@ -481,7 +481,7 @@ fn headers_stand_side_by_side() {
 }
 
 #[test]
-fn times_are_told_and_decide_nothing() {
+fn times_are_shown_and_decide_nothing() {
     let two = Two::new();
     let records: Vec<Record> = (0..3).map(|i| rich(&format!("a/{i}"))).collect();
     let mut slow = records.clone();

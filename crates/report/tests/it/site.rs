@@ -74,7 +74,7 @@ fn linked(site: &Path) -> usize {
 }
 
 #[test]
-fn a_site_of_a_run_has_whole_links() {
+fn a_site_of_a_run_has_no_broken_links() {
     let folder = tempfile::tempdir().unwrap();
     let run = folder.path().join("nightly");
     fs::create_dir(&run).unwrap();
@@ -157,7 +157,7 @@ fn a_site_replaces_nothing_but_a_site() {
 }
 
 #[test]
-fn what_a_killed_process_left_beside_a_site_blocks_no_other() {
+fn leftovers_of_a_killed_process_do_not_block_a_site() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
     let (run, site, old) = (path("run"), path("site"), path(".site.old"));
@@ -204,7 +204,7 @@ fn copy(from: &Path, to: &Path) {
 }
 
 #[test]
-fn a_site_has_nothing_that_it_did_not_make() {
+fn a_site_contains_only_what_the_suite_wrote() {
     let folder = tempfile::tempdir().unwrap();
     let run = folder.path().join("run");
     fs::create_dir(&run).unwrap();

@@ -22,7 +22,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn clocks_are_averaged_where_they_are_told() {
+    fn clock_rates_are_averaged_if_the_system_lists_them() {
         let text = "processor\t: 0\ncpu MHz\t\t: 2000.000\n\nprocessor\t: 1\ncpu MHz\t\t: 3000.5\n";
         assert_eq!(mean(text), Some(2500.25));
         assert_eq!(mean("processor : 0\nBogoMIPS : 50.00\n"), None);

@@ -161,7 +161,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn both_programs_print_their_counts() {
+    fn counts_of_perf_and_valgrind_are_parsed() {
         let perf = "# started on Fri Nov 27\n\n1234567,,instructions:u,1000,100.00,,\n";
         assert_eq!(total(InstructionCounter::Perf, perf), Some(1_234_567));
         let missing = "<not supported>,,instructions:u,0,100.00,,\n";

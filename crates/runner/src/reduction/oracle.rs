@@ -189,7 +189,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_crash_alone_is_no_success_alone() {
+    fn a_failure_that_crashes_alone_is_unsteady() {
         let symptom = |verdict| Symptom::of(&Record::new("a", "gl:x", verdict));
         let fail = symptom(Verdict::Fail);
         let unsteady = Unconfirmed::of(&fail, symptom(Verdict::Crash));

@@ -345,7 +345,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_time_left_grows_with_the_first_case_and_shrinks_with_the_last_ones() {
+    fn the_estimated_time_grows_with_the_first_case_and_shrinks_with_the_last() {
         let after = |ms, done, left| time_left(Duration::from_millis(ms), done, left);
         // Five slow cases: the first one alone shows that the others will take long.
         assert_eq!(after(0, 0, 4), 0.0);

@@ -46,7 +46,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn adapters_share_the_time_and_inherit_what_others_leave() {
+    fn adapters_share_the_time_and_inherit_time_that_others_leave() {
         let limit = Duration::from_secs(60);
         let budget = Budget::new(limit, 3, 2);
         let begun = Instant::now();

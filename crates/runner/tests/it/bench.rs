@@ -212,7 +212,7 @@ fn died(reasons: &[Reason]) -> bool {
 }
 
 #[test]
-fn a_wrong_picture_has_no_time() {
+fn a_wrong_picture_is_not_timed() {
     let (record, outcome) = marked("wrong");
     assert_eq!(record.picture.verdict, Verdict::Fail);
     let first = |reason: &Reason| matches!(reason, Reason::FirstWrong { at: [0, 0], .. });
@@ -289,7 +289,7 @@ fn a_picture_that_changes_is_flaky() {
 }
 
 #[test]
-fn a_folder_that_cannot_be_written_to_is_told_before_anything_is_timed() {
+fn an_unwritable_folder_is_an_error_before_anything_is_timed() {
     let folder = tempfile::tempdir().unwrap();
     let cases = cases(folder.path(), CASES);
     let blocked = folder.path().join("fill.json");

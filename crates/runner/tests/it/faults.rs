@@ -168,7 +168,7 @@ fn behind(mut launch: Launch, script: &str) -> Launch {
 }
 
 #[test]
-fn a_launcher_that_prints_or_brings_no_worker_is_told_from_a_driver() {
+fn a_launcher_that_prints_or_starts_no_worker_is_not_taken_for_a_driver() {
     for (script, word) in [
         (
             "echo Welcome to the machine",
@@ -255,13 +255,13 @@ fn a_worker_that_does_not_greet_is_broken_and_says_how() {
 }
 
 #[test]
-fn a_worker_that_closes_its_pipe_is_not_waited_for_for_ever() {
+fn a_worker_that_closes_its_pipe_is_waited_for_a_limited_time() {
     let text = broken(&script("exec sleep 100 >&-"));
     assert!(text.contains("closed its pipe"), "{text}");
 }
 
 #[test]
-fn an_adapter_that_is_not_there_says_why() {
+fn an_unavailable_adapter_says_why() {
     match Worker::start(&launch("unavailable")) {
         Err(StartError::Unavailable(u)) => {
             assert_eq!(u, Unavailable::new("the moon is full", "wait"));
@@ -355,7 +355,7 @@ fn text(record: &Record) -> &str {
 }
 
 #[test]
-fn nothing_goes_wrong_by_itself() {
+fn a_worker_without_a_fault_passes() {
     only_marked(launch("none"), Verdict::Pass);
 }
 
@@ -380,7 +380,7 @@ fn garbage_on_the_pipe_costs_one_case() {
 }
 
 #[test]
-fn what_a_backend_reports_becomes_the_verdict() {
+fn an_error_that_a_backend_reports_becomes_the_verdict() {
     for step in ["prepare", "submit", "read"] {
         for (what, verdict) in [
             ("lost", Verdict::DeviceLost),

@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn a_field_has_so_many_primitives_as_are_asked_for() {
+    fn a_field_has_as_many_primitives_as_asked() {
         let field = |kind, count, spare| {
             let mut builder = Builder::new([16, 8]);
             let (cell, texel) = (None, [0; 2]);

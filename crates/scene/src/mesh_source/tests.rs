@@ -65,7 +65,7 @@ fn every_edge_keeps_away_from_every_centre() {
 }
 
 #[test]
-fn clockwise_is_clockwise() {
+fn a_clockwise_mesh_has_negative_areas() {
     let source = MeshSource::Full {
         z: 0.5,
         value: Splat([1.0; 4]),

@@ -48,7 +48,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn spikes_go_and_steps_stay() {
+    fn spikes_are_removed_and_steps_stay() {
         let mut values = vec![0.0; 20];
         values[5] = 1.0;
         values[6] = 2.0;
@@ -66,7 +66,7 @@ mod tests {
     }
 
     #[test]
-    fn two_paces_in_turn_are_both_kept() {
+    fn two_alternating_paces_are_both_kept() {
         let values: Vec<f64> = (0..60)
             .map(|i| if i * i % 7 < 3 { 0.0 } else { 0.2 })
             .collect();

@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn the_place_is_that_of_the_definition() {
+    fn the_best_place_has_the_largest_divergence() {
         for seed in 0..50 {
             let mut random = Rand64::new(seed);
             let values: Vec<f64> = (0..30)
@@ -101,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn equal_or_few_values_have_no_place() {
+    fn equal_or_few_values_have_no_best_place() {
         assert_eq!(best_place(&[5.0; 12], 4), None);
         assert_eq!(best_place(&[1.0, 2.0, 3.0], 2), None);
         assert_eq!(best_place(&[], 2), None);

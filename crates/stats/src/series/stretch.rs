@@ -380,7 +380,7 @@ mod tests {
     }
 
     #[test]
-    fn student_s_test_is_that_of_the_textbook() {
+    fn student_s_test_gives_the_textbook_value() {
         // Means 3 and 6, variances 2.5 each: t = -3 / sqrt(2.5 * (2 / 5)) = -3, p = 0.0171 at 8 degrees.
         let test = sums(&[1.0, 2.0, 5.0, 3.0, 4.0, 8.0, 4.0, 6.0, 7.0, 5.0]).step(0, 5, 10);
         assert!((test.shift - 3.0).abs() < 1e-12);
@@ -423,7 +423,7 @@ mod tests {
     }
 
     #[test]
-    fn the_clearest_place_of_noise_keeps_its_level() {
+    fn noise_has_a_clear_place_as_rarely_as_the_level_says() {
         // The approximation can have fewer false changes, but not many more.
         let (mut found, trials) = (0.0, 4000);
         let runs = 100;

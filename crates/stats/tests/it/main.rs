@@ -27,7 +27,7 @@ fn most(trials: u32, probability: f64) -> u32 {
 }
 
 #[test]
-fn the_bound_on_counts_is_the_binomial_one() {
+fn the_bound_on_counts_is_binomial() {
     // Poisson's distribution with a mean of 20 has 0.999999 of its mass up to 45 or so.
     let bound = most(20_000, LEVEL);
     assert!((43..=47).contains(&bound), "{bound}");

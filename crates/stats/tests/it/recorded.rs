@@ -49,7 +49,7 @@ fn drawn(rounds: &mut [Round], each: usize, random: &mut Rand64) -> (Vec<Round>,
 }
 
 #[test]
-fn a_clock_that_slowed_down_is_seen_as_such() {
+fn a_clock_that_slowed_down_is_recognized() {
     let rounds = recorded(DRIFTING);
     let comparison = compare(&bench(&rounds[..30], 1.0), &bench(&rounds[30..], 1.0));
     assert_eq!(comparison.outcome, Conclusion::CannotTell(Why::Drift));

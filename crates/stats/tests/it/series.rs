@@ -32,7 +32,7 @@ fn level(random: &mut Rand64, runs: usize, level: f64, noise: f64) -> Vec<f64> {
 }
 
 #[test]
-fn small_series_by_hand() {
+fn changes_of_small_series_agree_with_those_by_hand() {
     // A step of a tenth, and nothing else.
     let times = [
         10.0, 10.1, 9.9, 10.0, 10.1, 9.9, 10.0, 10.1, 11.0, 11.1, 10.9, 11.0, 11.1, 10.9, 11.0,
@@ -65,7 +65,7 @@ fn small_series_by_hand() {
 }
 
 #[test]
-fn series_that_say_nothing() {
+fn short_or_constant_series_have_no_changes() {
     for times in [&[][..], &[1.0], &[1.0, 2.0, 3.0], &[7.5; 300]] {
         let changes = found(times);
         assert!(
@@ -90,7 +90,7 @@ fn series_that_say_nothing() {
 }
 
 #[test]
-fn what_is_no_time_is_refused() {
+fn an_invalid_time_is_refused() {
     for time in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let error = change_points(&points(&[1.0, time])).unwrap_err();
         assert!(
@@ -114,7 +114,7 @@ fn what_is_no_time_is_refused() {
 }
 
 #[test]
-fn a_point_is_what_a_bench_gives() {
+fn a_point_has_the_medians_of_a_bench() {
     let rounds: Vec<[f64; 1]> = (0..9).map(|i| [1.0 + 0.01 * f64::from(i)]).collect();
     let samples = Samples::new(&rounds).unwrap();
     let point = TimedRun::from(&samples);
@@ -256,7 +256,7 @@ fn scale_and_direction_of_a_series_do_not_matter() {
 }
 
 #[test]
-fn run_by_run_gives_the_same_as_all_at_once() {
+fn adding_run_by_run_gives_the_same_as_all_at_once() {
     for seed in 0..12 {
         let mut random = Rand64::new(seed);
         let mut times = Vec::new();
@@ -285,7 +285,7 @@ fn run_by_run_gives_the_same_as_all_at_once() {
 }
 
 #[test]
-fn intervals_and_places_hold_what_was_planted() {
+fn intervals_and_places_contain_the_planted_steps() {
     let (mut held, mut inside, mut total) = (0, 0, 0);
     for seed in 0..400 {
         let mut random = Rand64::new(seed);
@@ -336,7 +336,7 @@ fn score(machine: Machine, size: f64) -> Score {
 }
 
 #[test]
-fn planted_steps_are_found_and_little_else() {
+fn planted_steps_are_found_with_few_false_alarms() {
     // Machine, size, floors of recall and precision.
     for (number, size, recall, precision) in [
         (0, 0.02, 0.95, 0.95),
@@ -408,7 +408,7 @@ fn recorded(name: &str) -> (Vec<TimedRun>, Vec<usize>) {
 }
 
 #[test]
-fn recorded_steps_are_found_and_little_else() {
+fn recorded_steps_are_found_with_few_false_alarms() {
     // The machine changed its pace at times, once seven runs before a step.
     let (points, steps) = recorded("recorded.csv");
     assert_eq!(

@@ -268,7 +268,7 @@ fn a_machine_that_slows_down_as_a_whole_is_no_change() {
 }
 
 #[test]
-fn reasons_not_to_tell_are_told_apart() {
+fn reasons_for_an_undecided_comparison_are_distinguished() {
     let mut random = Rand64::new(8);
     let few = bench(&mut random, QUIET, 6, 1.0);
     let slow = bench(&mut random, QUIET, 6, 3.0);
@@ -299,7 +299,7 @@ fn reasons_not_to_tell_are_told_apart() {
 }
 
 #[test]
-fn medians_lie_in_their_intervals_as_often_as_is_said() {
+fn medians_are_in_their_intervals_as_often_as_stated() {
     for rounds in [7, 12, 25] {
         let mut random = Rand64::new(rounds as u128);
         // Without drift and neighbours the median is known.
@@ -331,7 +331,7 @@ fn medians_lie_in_their_intervals_as_often_as_is_said() {
 }
 
 #[test]
-fn a_summary_tells_what_is_in_the_samples() {
+fn a_summary_has_the_figures_of_its_samples() {
     let rounds: Vec<Vec<f64>> = (0..10)
         .map(|r| (0..5).map(|f| f64::from(1 + f + r)).collect())
         .collect();
@@ -350,7 +350,7 @@ fn a_summary_tells_what_is_in_the_samples() {
 }
 
 #[test]
-fn an_unsteady_ruler_is_told_from_one_that_moved() {
+fn an_unsteady_ruler_is_distinguished_from_one_that_moved() {
     let mut random = Rand64::new(9);
     let unsteady = Noise {
         ruler: 0.3,

@@ -35,7 +35,7 @@ fn two_panes_come_in_the_order_of_their_depths() {
 }
 
 #[test]
-fn three_panes_in_part_of_the_picture() {
+fn three_panes_blend_only_in_the_part_that_they_cover() {
     for coverage in BOTH {
         let part = |depth, color| rectangle([1.0, 1.0], [3.0, 2.0], depth, color);
         let surfaces = vec![part(0.5, GREEN), part(-0.25, RED), part(0.75, BLUE)];
@@ -92,7 +92,7 @@ fn panes_a_hair_apart_keep_their_order() {
 }
 
 #[test]
-fn layers_accumulate_as_a_power() {
+fn the_coverage_of_equal_layers_is_a_power() {
     for (alpha, layers) in [(0.01, 500), (0.25, 16), (0.5, 64)] {
         let surfaces = (0..layers).map(|i| flat(f64::from(i), [1.0, 1.0, 1.0, alpha]));
         let what = scene([4, 4], TexelCoverage::Area, surfaces.collect());
@@ -122,7 +122,7 @@ fn panes_that_pass_through_each_other_swap_along_the_line() {
 }
 
 #[test]
-fn three_panes_through_one_point_make_six_orders() {
+fn three_panes_through_one_point_have_six_orders() {
     // At 60 degrees to each other through the middle, each the nearest in a third of all directions.
     let turned = |degrees: f64, color: [f64; 4]| {
         let (sin, cos) = degrees.to_radians().sin_cos();
@@ -160,7 +160,7 @@ fn half_plane(a: f64, b: f64, d: f64) -> f64 {
 }
 
 #[test]
-fn half_planes_cover_what_the_formula_says() {
+fn half_planes_cover_the_share_of_the_formula() {
     for degrees in (0..360).step_by(7).chain([1, 89, 91, 181, 269]) {
         for offset in [-0.6, -0.31, 0.0, 0.1, 0.45] {
             let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
@@ -265,7 +265,7 @@ fn distances_and_fog_are_integrated_to_the_logarithm() {
 }
 
 #[test]
-fn a_distance_beyond_the_planes_is_held_to_them() {
+fn a_distance_beyond_the_planes_is_clamped_to_them() {
     let (near, far) = (1.0, 3.0);
     // From -1 to 3 across four texels: 0 in the first one, 1 in the last two.
     let shown = pane(|x, _| x - 1.0, Paint::Distance { near, far });

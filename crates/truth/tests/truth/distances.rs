@@ -93,7 +93,7 @@ fn differences_are_counted_texel_by_texel() {
 }
 
 #[test]
-fn codes_stand_for_linear_values_and_missing_channels_for_nothing() {
+fn codes_are_compared_as_linear_values_and_missing_channels_as_zero() {
     let srgb = image(TextureFormat::Rgba8UnormSrgb, |_, _| {
         vec![0.5, 0.25, 0.125, 1.0]
     });
@@ -133,7 +133,7 @@ fn values_that_are_not_finite_differ_by_one() {
 }
 
 #[test]
-fn what_cannot_be_compared_has_no_distance() {
+fn incomparable_pictures_have_no_distance() {
     let expected = plain([0.5; 3]);
     let good = image(TextureFormat::Rgba8Unorm, |_, _| vec![0.5; 4]);
     assert!(distance(&expected, &good).is_some());
@@ -190,7 +190,7 @@ fn two_known_pictures_have_the_flip_that_pages_must_find() {
 }
 
 #[test]
-fn flip_is_that_of_its_authors() {
+fn flip_agrees_with_the_code_of_its_authors() {
     let mut state = 1_u32;
     let mut byte = || {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);

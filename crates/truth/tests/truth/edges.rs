@@ -47,7 +47,7 @@ fn a_fan_around_a_centre_covers_it_once() {
 
 /// Strips that all cross in one texel.
 #[test]
-fn too_many_pieces_are_sampled_and_the_error_is_said() {
+fn too_many_pieces_are_sampled_and_the_error_is_stated() {
     let strips = (0..200_u32).map(|i| {
         let angle = f64::from(i) / 200.0 * std::f64::consts::PI;
         let (sin, cos) = angle.sin_cos();
@@ -78,7 +78,7 @@ fn too_many_pieces_are_sampled_and_the_error_is_said() {
 }
 
 #[test]
-fn what_is_no_polygon_covers_nothing() {
+fn degenerate_polygons_cover_nothing() {
     let nothing: Vec<Vec<[f64; 3]>> = vec![
         vec![],
         vec![[1.0, 1.0, 0.0]],
@@ -106,7 +106,7 @@ fn what_is_no_polygon_covers_nothing() {
 }
 
 #[test]
-fn a_paint_that_means_nothing_covers_nothing() {
+fn an_invalid_paint_covers_nothing() {
     let texture = |size: [u32; 2], texels: usize| StraightTexture {
         size,
         texels: vec![[1.0; 4]; texels],
@@ -174,7 +174,7 @@ fn repeated_corners_and_corners_on_edges_change_nothing() {
 }
 
 #[test]
-fn an_empty_picture_is_empty() {
+fn a_picture_without_texels_is_empty() {
     for size in [[0, 4], [4, 0], [0, 0]] {
         let what = scene(
             size,
@@ -186,7 +186,7 @@ fn an_empty_picture_is_empty() {
 }
 
 #[test]
-fn wild_texture_coordinates_end() {
+fn huge_texture_coordinates_end_with_a_finite_error() {
     let texture = StraightTexture {
         size: [3, 5],
         texels: (0..15).map(|i| [f64::from(i) / 15.0; 4]).collect(),

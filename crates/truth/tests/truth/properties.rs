@@ -248,7 +248,7 @@ proptest! {
     }
 
     #[test]
-    fn any_numbers_end_without_a_panic(
+    fn arbitrary_corners_and_paints_cause_no_panic(
         corners in vec(uniform3(prop_oneof![
             -1e3..1e3_f64,
             select(vec![0.0, -0.0, 1e-308, 1e308, -1e308, f64::NAN, f64::INFINITY, 0.5, 1.0]),
@@ -265,7 +265,7 @@ proptest! {
 
 /// Threads take parts of a picture: no texel may depend on how it is divided.
 #[test]
-fn a_part_of_a_picture_is_as_the_picture_of_that_part() {
+fn a_part_of_a_picture_equals_the_picture_of_that_part() {
     let ramp = |shift: f64| FlatSurface {
         corners: vec![
             [-9.0 - shift, 3.0, 0.2],

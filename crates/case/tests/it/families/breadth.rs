@@ -95,7 +95,7 @@ fn the_second_source_weighs_alpha_by_other_factors_than_colour() {
 }
 
 #[test]
-fn every_logic_operation_is_told_from_every_other() {
+fn every_logic_operation_is_distinguished_from_every_other() {
     for family in ["rgba8unorm", "rgb10a2unorm"] {
         let cases = all_cases(&format!("blend/logic/format={family}/"));
         let operations: BTreeSet<_> = cases.iter().filter_map(target_logic).collect();
@@ -162,7 +162,7 @@ fn advanced_blends_meet_premultiplied_colours_of_every_kind() {
 }
 
 #[test]
-fn one_case_alone_needs_advanced_blends_that_are_coherent() {
+fn only_one_case_needs_coherent_advanced_blending() {
     let coherent = Requirement::Feature(Feature::AdvancedBlendCoherent);
     let needs = |case: &Case| case.requirements().contains(&coherent);
     let cases = all_cases("blend/advanced").into_iter().filter(needs);

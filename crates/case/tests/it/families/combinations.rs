@@ -66,7 +66,7 @@ fn draws_that_share_a_pipeline_come_back_to_their_state() {
 }
 
 #[test]
-fn a_draw_that_is_discarded_stands_between_draws_of_one_state() {
+fn a_discarded_draw_is_between_draws_of_one_state() {
     for case in all_cases("sequence/after-discarded/") {
         let draws = draws(&case);
         let [first, discarded, second, again, third] = draws.as_slice() else {
@@ -119,7 +119,7 @@ fn passes_without_draws_come_last_and_each_kind_of_resolve_is_tried() {
 }
 
 #[test]
-fn each_target_is_cleared_on_load_where_each_other_one_is_not() {
+fn every_pair_of_targets_has_a_case_that_clears_one_and_loads_the_other() {
     let mut pairs = BTreeSet::new();
     for case in all_cases("sequence/loads-by-target/") {
         let pass = &case.scene.passes[0];
@@ -139,7 +139,7 @@ fn each_target_is_cleared_on_load_where_each_other_one_is_not() {
 }
 
 #[test]
-fn the_middle_of_each_viewport_lies_outside() {
+fn the_middle_of_each_viewport_is_outside_its_attachment() {
     for case in all_cases("scissor/viewport-middle-outside/") {
         let pass = &case.scene.passes[0];
         let size = case.scene.pass_size(pass).map(|side| side as f32);

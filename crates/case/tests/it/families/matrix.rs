@@ -56,7 +56,7 @@ fn the_matrix_has_its_cells_and_the_quick_profile_some_of_each_group() {
 }
 
 #[test]
-fn the_cases_of_a_cell_differ_in_the_work_that_it_measures_alone() {
+fn the_cases_of_a_cell_differ_only_in_the_work_that_it_measures() {
     for (cell, cases) in cells(Profile::Quick) {
         let (less, more) = (cases[0].scene.work(), cases[1].scene.work());
         let size = cases[0].scene.attachments[0].size;

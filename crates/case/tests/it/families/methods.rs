@@ -128,7 +128,7 @@ fn ids_begin_with_the_method_and_files_name_a_parameter() {
 }
 
 #[test]
-fn every_method_is_explained_and_every_claim_names_methods_that_there_are() {
+fn every_method_is_explained_and_every_claim_names_existing_methods() {
     let library = Library::built_in();
     let mut methods: BTreeSet<(String, String)> = BTreeSet::new();
     let mut families: BTreeSet<(String, String)> = BTreeSet::new();

@@ -261,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn a_release_without_a_date_stands_in_its_order() {
+    fn a_release_without_a_date_takes_its_place_by_version() {
         let dates = [None, Some(10), None, Some(20), None];
         let mut runs: Vec<NewRun> = ["1", "2", "3", "4", "5"]
             .iter()

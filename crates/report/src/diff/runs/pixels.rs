@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn images_of_other_shapes_are_not_held_against_each_other() {
+    fn images_of_different_shapes_are_not_compared() {
         let file = |images: Vec<FrameImage>| FrameFile {
             images,
             ..FrameFile::default()

@@ -200,7 +200,7 @@ fn every_claim_has_figures_that_reproduce_and_figures_that_refute_it() {
 
 /// A comparison needs all of its methods at the same setting.
 #[test]
-fn nothing_is_measured_where_a_method_is_missing_or_stands_elsewhere() {
+fn a_claim_is_not_measured_if_a_method_is_missing_or_has_another_setting() {
     let lonely = [Made::new("elsewhere/scene/method=other").at("k", 1.0)];
     for claim in claims() {
         assert_eq!(
@@ -286,7 +286,7 @@ fn the_fragments_of_a_prepass_do_not_count_as_shaded() {
 }
 
 #[test]
-fn as_much_is_not_less_and_a_wide_interval_decides_nothing() {
+fn an_equal_time_is_not_less_and_a_wide_interval_decides_nothing() {
     let title = "Multisampling takes less time";
     let times = |msaa: f64, full: f64, spread: f64| {
         [("msaa-4", msaa), ("supersampling-2x2", full)].map(|(method, wall)| Made {
@@ -362,7 +362,7 @@ fn gaps_that_nothing_resolves_are_not_measured() {
 }
 
 #[test]
-fn cases_that_are_told_together_keep_their_range_and_their_places() {
+fn figures_of_grouped_cases_keep_their_range_and_settings() {
     let record = |value: f64, alpha: f64, off: f64| {
         Made::new(&format!(
             "transparency/windows/method={}",

@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn nobody_and_one_voter_make_no_consensus() {
+    fn fewer_than_two_voters_make_no_consensus() {
         lies(&[], Votes::Nobody, &[], "not drawn");
         lies(&[NotSupported, Skipped], Votes::Nobody, &[], "not drawn");
         lies(
@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn right_verdicts_agree_and_say_how() {
+    fn right_verdicts_agree_and_exceptions_are_named() {
         lies(&[Pass, Pass], Votes::Agree, &[], "all agree: pass");
         let text = "all agree: pass; imprecise only on c";
         lies(&[Pass, Pass, Imprecise], Votes::Agree, &[], text);
@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn wrong_verdicts_agree_too() {
+    fn wrong_verdicts_can_agree_too() {
         let text = "all agree: fail; crash only on b";
         lies(&[Fail, Crash, Fail], Votes::Agree, &[], text);
     }

@@ -244,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn texts_end_where_the_room_does_and_the_unexpected_goes_first() {
+    fn texts_fill_the_room_and_unexpected_records_go_first() {
         let mut records: Vec<Record> = (0..4000)
             .map(|i| {
                 let mut r = Record::new(format!("a/{i}"), "b", Verdict::Pass);
@@ -262,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn there_are_signs_for_all_kinds_of_cells() {
+    fn every_kind_of_cell_has_a_sign() {
         assert!(SIGNS.len() >= Verdict::ALL.len() * 3);
         assert!(!SIGNS.contains(&(NO_RECORD as u8)));
     }

@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn a_record_tells_what_it_holds_and_no_more() {
+    fn a_record_lists_only_the_facts_that_it_holds() {
         let mut record = Record::new("a/b", "cpu", Verdict::Pass);
         assert_eq!(of(&record), []);
         record.verdict = Verdict::Crash;
