@@ -110,8 +110,8 @@ pub(crate) fn enumerate(backend: &str) -> Result<Vec<HardwareDevice>, String> {
     serde_json::from_slice(&bytes).map_err(|e| format!("listing devices gave an invalid list: {e}"))
 }
 
-/// Makes the names of devices unique: the second of a name gets `-2`, the third `-3`. `taken` are the names of described
-/// adapters.
+/// Makes the names of devices unique: the second of a name gets `-2`, the third `-3`. `taken` are the names of
+/// described adapters.
 pub(crate) fn unique_names(
     taken: &BTreeSet<String>,
     found: Vec<HardwareDevice>,

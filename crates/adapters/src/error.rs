@@ -12,7 +12,7 @@ pub enum AdapterError {
         "{file}: {source}; --adapters takes a JSON file with the format of crates/adapters/adapters.json"
     )]
     Unreadable {
-        /// The file.
+        /// The path of the file.
         file: String,
         /// The system's error.
         source: io::Error,
@@ -20,13 +20,13 @@ pub enum AdapterError {
     /// A file is too long.
     #[error("{file}: longer than 1 MiB")]
     TooLong {
-        /// The file.
+        /// The path of the file.
         file: String,
     },
     /// A file is not text.
     #[error("{file}: not UTF-8: {source}")]
     NotText {
-        /// The file.
+        /// The path of the file.
         file: String,
         /// The first fault.
         source: std::string::FromUtf8Error,
@@ -36,7 +36,7 @@ pub enum AdapterError {
         "{file}: {source}; a file of adapters is a JSON array of objects with name and backend"
     )]
     NotAList {
-        /// The file.
+        /// The path of the file.
         file: String,
         /// The parser's error.
         source: serde_json::Error,
@@ -44,33 +44,33 @@ pub enum AdapterError {
     /// A file has too many entries.
     #[error("{file}: {entries} entries, at most {limit} are allowed; split the file")]
     TooManyEntries {
-        /// The file.
+        /// The path of the file.
         file: String,
         /// The number of entries.
         entries: usize,
-        /// The largest number.
+        /// The largest number of entries.
         limit: usize,
     },
     /// An entry is wrong on every machine.
     #[error("{file}: entry {number} (`{name}`): {reason}")]
     WrongEntry {
-        /// The file.
+        /// The path of the file.
         file: String,
         /// The number of the entry, counted from 1.
         number: usize,
         /// The entry's name.
         name: String,
-        /// The reason.
+        /// The reason why the entry is refused.
         reason: String,
     },
     /// An entry describes something that does not exist on this machine.
     #[error("{file}: entry `{name}`: {reason}")]
     UnusableEntry {
-        /// The file.
+        /// The path of the file.
         file: String,
         /// The entry's name.
         name: String,
-        /// The reason.
+        /// The reason why the entry is refused.
         reason: String,
     },
     /// Two releases of a line have one version.
@@ -80,13 +80,13 @@ pub enum AdapterError {
         names[1]
     )]
     SameVersion {
-        /// The file.
+        /// The path of the file.
         file: String,
         /// The names of the two adapters.
         names: [String; 2],
-        /// The version.
+        /// The version that both releases state.
         version: String,
-        /// The line.
+        /// The name of the driver whose releases they are.
         line: String,
     },
     /// A line has fewer than two releases.
@@ -100,9 +100,9 @@ pub enum AdapterError {
         }
     )]
     TooFewReleases {
-        /// The file.
+        /// The path of the file.
         file: String,
-        /// The line.
+        /// The name of the driver whose releases they are.
         line: String,
         /// The number of its releases.
         releases: usize,
@@ -115,7 +115,7 @@ pub enum AdapterError {
     /// No adapter has a name.
     #[error("there is no adapter `{name}`{suggestion}; known are: {}", known.join(", "))]
     Unknown {
-        /// The name.
+        /// The name that no adapter has.
         name: String,
         /// Similar names, as [`etalon_glob::did_you_mean`] suggests them.
         suggestion: String,

@@ -20,8 +20,8 @@ const HEAD_TIMEOUT: Duration = Duration::from_secs(2);
 const ANSWER_TIMEOUT: Duration = Duration::from_secs(20);
 /// The pause between checks of an incomplete head, and before the next connection if too many wait.
 const PAUSE: Duration = Duration::from_millis(10);
-/// The number of connections whose heads are awaited at the same time. One more ends the oldest. Addresses do not count:
-/// behind a proxy all have the same.
+/// The number of connections whose heads are awaited at the same time. One more ends the oldest. Addresses do not
+/// count: behind a proxy all have the same.
 const MOST_WAITING: usize = 16;
 /// The largest greeting of a page in bytes.
 pub(crate) const MAX_GREETING: usize = 1 << 20;

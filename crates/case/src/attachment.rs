@@ -31,7 +31,7 @@ pub(crate) fn find(name: &str, attachments: &[Attachment]) -> Result<usize, At> 
         })
 }
 
-/// An attachment, with its contents.
+/// Returns an attachment with its contents.
 pub(crate) fn attachment(
     name: &str,
     wire: &AttachmentWire,

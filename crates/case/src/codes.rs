@@ -54,7 +54,7 @@ fn float(exponent_bits: u8, mantissa_bits: u8, signed: bool, channel: u32, texel
     ((sign << exponent_bits | exponent) << mantissa_bits) | mantissa
 }
 
-/// MurmurHash3's finaliser.
+/// Returns a hash of a number: MurmurHash3's finaliser.
 fn mixed(mut n: u32) -> u32 {
     n = (n ^ 0x9e37_79b9).wrapping_mul(0x85eb_ca6b);
     n = (n ^ (n >> 13)).wrapping_mul(0xc2b2_ae35);

@@ -1,4 +1,4 @@
-//! How a draw's vertices reach the pipeline: checks that the draw call can express it.
+//! Vertex fetching of draws: checks that a draw call can express it.
 
 use crate::error::At;
 use crate::wire::{FetchWire, InstancesWire};

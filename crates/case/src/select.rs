@@ -14,7 +14,7 @@ pub struct Selection<'a> {
     pub cases: Vec<CaseRef<'a>>,
 }
 
-/// Why a selection failed.
+/// The reason why a selection failed.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum SelectError {
     /// A glob does not parse.

@@ -1,4 +1,5 @@
-//! Discovery for commands: prints what the user must know of adapters, and lets an interruption end the process.
+//! Discovery for commands: prints what the user must know about adapters, and lets an interruption end the
+//! process.
 
 use crate::failure::Failure;
 use crate::interruption::OpeningGuard;

@@ -48,7 +48,7 @@ impl Failure {
         }
     }
 
-    /// Returns the failure of an error in what the user gave; a full disk is incomplete.
+    /// Returns the failure for an error in the user's input; a full disk makes a result incomplete.
     pub(crate) fn of(error: impl Error + 'static) -> Self {
         if is_full(&error) {
             Self::incomplete(error)

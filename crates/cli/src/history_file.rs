@@ -20,7 +20,7 @@ pub(crate) struct DatabaseArguments {
 }
 
 impl DatabaseArguments {
-    /// The file.
+    /// Returns the path of the history file.
     pub(crate) fn path(&self) -> PathBuf {
         let named = || std::env::var_os(VARIABLE).filter(|name| !name.is_empty());
         let file = self.file.clone().or_else(|| named().map(PathBuf::from));
@@ -37,7 +37,7 @@ pub(crate) struct LabelArguments {
 }
 
 impl LabelArguments {
-    /// The labels.
+    /// Returns the labels.
     ///
     /// # Errors
     /// If a text is not a label.
@@ -66,7 +66,7 @@ pub(crate) struct OnlyArguments {
 }
 
 impl OnlyArguments {
-    /// The labels.
+    /// Returns the labels.
     ///
     /// # Errors
     /// If a text is not a label.

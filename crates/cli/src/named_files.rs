@@ -60,7 +60,7 @@ impl NamedFiles<'_> {
     }
 }
 
-/// A file of one kind that a command writes where the user names it, and writes again there.
+/// A file of one kind that a command writes to a path that the user names, and can overwrite there.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Renewed {
     /// A page.
@@ -77,7 +77,7 @@ pub(crate) const ORDER_HEAD: &str =
 
 impl Renewed {
     fn is_one(self, bytes: &[u8]) -> bool {
-        /// A part of every page's last line.
+        /// Text in the last line of every page.
         const MADE: &[u8] = b"Made by etalon from ";
         match self {
             Self::Page => {

@@ -210,7 +210,7 @@ fn taken(parts: &[String]) -> Option<String> {
     (is_taken && !path.contains(char::is_control)).then_some(path)
 }
 
-/// What a sparse file is called.
+/// The words for a sparse file in error messages.
 const SPARSE: &str = "a sparse file, which `tar` packs without --sparse";
 
 fn entry_type(kind: EntryType) -> &'static str {

@@ -6,7 +6,7 @@ use fearless_simd::{dispatch, f32x16, prelude::*};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// What the processor reaches at most with some threads.
+/// The highest rates that the processor reaches with a number of threads.
 #[derive(Clone, Copy, Debug)]
 pub struct ProcessorRates {
     /// The number of threads.
@@ -17,8 +17,8 @@ pub struct ProcessorRates {
     pub operations: f64,
 }
 
-/// The words that are copied, for all threads together: 64 MiB to 64 MiB, more than most caches. Tests need no meaningful
-/// rates.
+/// The words that are copied, for all threads together: 64 MiB to 64 MiB, more than most caches. Tests need no
+/// meaningful rates.
 const WORDS: usize = if cfg!(debug_assertions) {
     1 << 16
 } else {

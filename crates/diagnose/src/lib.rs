@@ -1,4 +1,4 @@
-//! What failures have in common.
+//! The features that failures have in common.
 //!
 //! A [`Symptom`] is the way in which a record failed. A [`Signature`] contains the parts of a scene that
 //! distinguish failures. [`Traits`] combine both, and measure how similar a failure is to a known one. A

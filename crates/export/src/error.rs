@@ -7,7 +7,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Why a history could not be exported.
+/// The reason why a history could not be exported.
 #[derive(Debug, Error)]
 pub enum ExportError {
     /// The history cannot be read.

@@ -1,4 +1,4 @@
-//! What an adapter says about itself.
+//! The facts that an adapter reports about itself.
 
 use crate::device_offer::DeviceOffer;
 use serde::{Deserialize, Serialize};
@@ -23,7 +23,7 @@ pub struct AdapterInfo {
     pub api_version: String,
     /// True if the device is known to be the processor.
     pub software: bool,
-    /// What the device offers, in backend `webgpu`.
+    /// The features and limits that the device offers, in backend `webgpu`.
     #[serde(default)]
     pub offer: Option<DeviceOffer>,
 }

@@ -1,4 +1,4 @@
-//! What a WebGPU device offers.
+//! The features and limits that a WebGPU device offers.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

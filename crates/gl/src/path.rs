@@ -1,5 +1,4 @@
-//! How OpenGL draws on a path: the values that a context supports, and their meaning for an attachment, a
-//! draw or a read.
+//! Paths in OpenGL: the values that a context supports, and their meaning for an attachment, a draw or a read.
 //!
 //! Other modules call the functions here and do not read the path, so a new value changes only these
 //! functions.

@@ -447,7 +447,7 @@ fn copy(
     codes
 }
 
-/// Records where the codes are that were just copied.
+/// Records the places of the codes that were just copied.
 fn note_planes(plan: ReadBackPath, format: TextureFormat) {
     let plane = |aspect, texel, channels, form| recording::plane(aspect, texel, channels, form);
     let place = |bit, bits| vec![[bit, bits]];

@@ -1,4 +1,5 @@
-//! Matching: all steps that a text can have reached, character by character. Steps without a jump need only one of them.
+//! Matching: all steps that a text can have reached, character by character. Steps without a jump need only one
+//! of them.
 
 use crate::step::MatchStep;
 

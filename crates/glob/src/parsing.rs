@@ -5,7 +5,7 @@ use std::iter::Peekable;
 use std::str::Chars;
 use thiserror::Error;
 
-/// Why a text is not a glob.
+/// The reason why a text is not a glob.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum GlobError {
     /// A `[` without its `]`.

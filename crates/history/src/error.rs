@@ -76,7 +76,7 @@ pub enum HistoryError {
     /// The system refused to read or write.
     #[error("cannot {action} {}: {source}", path.display())]
     Io {
-        /// `read`, `create`.
+        /// The attempted action: `read`, `create`.
         action: &'static str,
         /// The file or folder.
         path: PathBuf,

@@ -112,7 +112,7 @@ mod tests {
     use etalon_frame::{AdapterInfo, Api, ApiVersion, Feature};
     use std::path::Path;
 
-    /// An adapter of OpenGL 3.3 with one sample.
+    /// Returns an adapter of OpenGL 3.3 with one sample.
     fn adapter() -> AdapterRecord {
         let mut limits = CpuBackend::new("cpu").limits().clone();
         (limits.api, limits.version) = (Api::OpenGl, ApiVersion::new(3, 3));

@@ -1,5 +1,5 @@
-//! What a record keeps of its drawings: validation messages, verdicts that differ, and fewer wrong texels if a frame
-//! file shows the rest.
+//! The results of its drawings that a record keeps: validation messages, verdicts that differ, and fewer wrong
+//! texels if a frame file shows the rest.
 
 use etalon_record::{Fresh, MAX_VALIDATION, Reason, Record, Verdict};
 
@@ -11,7 +11,7 @@ const SHOWN_WRONG: usize = 8;
 /// The maximum number of bytes of one validation message that a record keeps.
 const MESSAGE_BYTES: usize = 1000;
 
-/// How much the record of a failure shows.
+/// The amount of detail in the record of a failure.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ShownDetail {
     /// Everything: the failure is new, or all known ones are kept.

@@ -77,7 +77,7 @@ struct FailedTrip {
     expected: Option<String>,
 }
 
-/// Why a case is not drawn.
+/// The reason why a case is not drawn.
 #[derive(Debug, PartialEq)]
 pub struct Blocked {
     /// The ids of the round trips that failed.

@@ -54,8 +54,8 @@ pub fn settled(mut record: Record, expectations: &Expectations, adapter: &Adapte
     record
 }
 
-/// Returns true if a verdict is bad, and neither the expectations nor the case expect it: another drawing should confirm
-/// it.
+/// Returns true if a verdict is bad, and neither the expectations nor the case expect it: another drawing should
+/// confirm it.
 pub fn is_unexpectedly_bad(
     record: &Record,
     expectations: &Expectations,

@@ -1,7 +1,8 @@
 //! The guard of a program: a process between the program and its user.
 //!
-//! Guard and program are in one process group. The guard's standard input is a pipe from the process that uses the
-//! program. When that process ends, even by SIGKILL and before the program has done anything, the guard kills the group.
+//! Guard and program are in one process group. The guard's standard input is a pipe from the process that uses
+//! the program. When that process ends, even by SIGKILL and before the program has done anything, the guard kills
+//! the group.
 
 use etalon_process::Parent;
 use std::ffi::OsString;
@@ -10,7 +11,7 @@ use std::process::{Command, ExitStatus, Stdio};
 use std::thread;
 use std::time::Duration;
 
-/// The time that a program may take to end by itself.
+/// The time that a program has to end by itself.
 const GRACE: Duration = Duration::from_secs(5);
 
 /// Runs a program, named by its words, until it or standard input ends. Returns its exit status. `input` is true if the

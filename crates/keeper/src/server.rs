@@ -17,7 +17,7 @@ use thiserror::Error;
 
 /// The part of a word that is replaced by the path of the socket.
 const SOCKET: &str = "{socket}";
-/// How long a server has to start listening.
+/// The time that a server has to start listening.
 const START: Duration = Duration::from_secs(10);
 /// The pause between checks of a socket.
 const PAUSE: Duration = Duration::from_millis(10);

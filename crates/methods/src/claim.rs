@@ -43,23 +43,23 @@ pub enum ClaimedValues {
 pub enum Test {
     /// The quantity of one method.
     Value {
-        /// The quantity.
+        /// The measured quantity.
         quantity: Quantity,
         /// The method.
         of: &'static str,
-        /// The condition.
+        /// The condition under which the claim is true.
         holds: FigureCondition,
     },
     /// A sum of one quantity over several methods, divided by another such sum; each term is a method and
     /// its factor.
     Ratio {
-        /// The quantity.
+        /// The measured quantity.
         quantity: Quantity,
         /// The numerator.
         of: &'static [(&'static str, f64)],
         /// The denominator.
         over: &'static [(&'static str, f64)],
-        /// The condition.
+        /// The condition under which the claim is true.
         holds: FigureCondition,
     },
     /// Two methods with the same error.
@@ -69,11 +69,11 @@ pub enum Test {
     },
     /// The quantity at the largest value of the parameter, divided by the quantity at the smallest.
     Trend {
-        /// The quantity.
+        /// The measured quantity.
         quantity: Quantity,
         /// The method.
         of: &'static str,
-        /// The condition.
+        /// The condition under which the claim is true.
         holds: FigureCondition,
     },
     /// A method that is within 1 % RMSE at every value, compared with one that exceeds it at some value.
@@ -98,7 +98,7 @@ pub enum Test {
         of: &'static str,
         /// The method that it is compared with.
         over: &'static str,
-        /// The condition.
+        /// The condition under which the claim is true.
         holds: FigureCondition,
     },
     /// A method with `samples + 1` levels of its parameter, from 0 to 1: within 0.5 % RMSE on the levels,
@@ -113,7 +113,7 @@ pub enum Test {
     HalfCodes {
         /// The method.
         of: &'static str,
-        /// The condition.
+        /// The condition under which the claim is true.
         holds: FigureCondition,
     },
 }

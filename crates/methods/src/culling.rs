@@ -28,49 +28,49 @@ const BACKGROUND: [f64; 3] = [0.12, 0.14, 0.2];
 pub enum CullingWire {
     /// A closed box through which the eye flies; the near plane cuts it on the way.
     FlyThrough {
-        /// The culling.
+        /// The faces or objects that are culled.
         method: CullingMethod,
         /// The distance of the eye from the middle of the box, whose sides are 2 long: 0 to 8.
         eye: f64,
     },
     /// A box without a lid, tilted towards the viewer.
     OpenMesh {
-        /// The culling.
+        /// The faces or objects that are culled.
         method: CullingMethod,
         /// The tilt in degrees, -90 to 90.
         angle: f64,
     },
     /// A box and its mirror image, which has the other winding.
     Mirrored {
-        /// The culling.
+        /// The faces or objects that are culled.
         method: CullingMethod,
         /// The angle by which the box is turned in degrees, -180 to 180.
         angle: f64,
     },
     /// A box with transparent faces around another box.
     SeeThrough {
-        /// The culling.
+        /// The faces or objects that are culled.
         method: CullingMethod,
         /// The faces' alpha, 0 to 1.
         alpha: f64,
     },
     /// A torus, with its triangles from back to front, so that depth tests save nothing.
     ClosedMesh {
-        /// The culling.
+        /// The faces or objects that are culled.
         method: CullingMethod,
         /// The number of segments around the torus's hole, 4 to 64; its tube has half as many.
         segments: u32,
     },
     /// A grid of boxes, one draw per box; the picture shows a ninth of the grid.
     Field {
-        /// The culling.
+        /// The faces or objects that are culled.
         method: CullingMethod,
         /// The number of objects, 1 to 1024.
         objects: u32,
     },
 }
 
-/// The culling.
+/// The faces or objects that are culled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum CullingMethod {
@@ -90,7 +90,7 @@ pub enum CullingMethod {
 
 /// The draws of a scene and the polygons that should be seen.
 struct ShownSolids {
-    /// The draws.
+    /// The draws that the method makes.
     draws: Vec<Draw>,
     /// All polygons that can be visible.
     polygons: Vec<Polygon>,

@@ -30,7 +30,7 @@ pub struct Wire {
     pub(crate) scene: SceneName,
     /// The method.
     pub(crate) method: MethodName,
-    /// What the texture shows beyond its border, which the cards reach.
+    /// The texture's content beyond its border, which the cards reach.
     #[serde(default = "clamp")]
     pub(crate) address: AddressMode,
     /// The size of a texture's texel in texels of the picture, 0.25 to 4.

@@ -70,7 +70,7 @@ pub(crate) struct Opened {
     pub(crate) software: bool,
 }
 
-/// What comes next for a case.
+/// The next step of a case.
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum NextStep {

@@ -49,7 +49,7 @@ struct Pending {
     stage: SessionStage,
 }
 
-/// What the device answers next, or has answered.
+/// The answer that the device gives next, or has given.
 enum SessionStage {
     /// The frames of the case.
     Drawn,

@@ -16,7 +16,7 @@ use std::path::Path;
 /// The maximum number of bytes of a frame that is shown.
 const MAX_FRAME: u64 = 256 << 20;
 
-/// What a worker of the page knows: nothing before a run begins.
+/// The state of a worker of the page: empty before a run begins.
 #[derive(Default)]
 pub struct Suite {
     session: Option<Session>,

@@ -16,13 +16,13 @@ pub trait Arithmetic {
 
     /// Returns a value that is exactly this float.
     fn constant(&mut self, value: f32) -> Self::Real;
-    /// Sum.
+    /// Returns the sum.
     fn add(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
-    /// Difference.
+    /// Returns the difference.
     fn sub(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
-    /// Product.
+    /// Returns the product.
     fn mul(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
-    /// Quotient; infinite or NaN for a divisor of zero.
+    /// Returns the quotient; infinite or NaN for a divisor of zero.
     fn div(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;
     /// Returns the smaller of two values.
     fn min(&mut self, a: Self::Real, b: Self::Real) -> Self::Real;

@@ -14,7 +14,8 @@ use std::path::Path;
 /// in what a driver does at exit.
 pub const WORKER_END: &str = "worker/end";
 
-/// Adds records to a list. Of records that say the same of an adapter, an unexpected one stays, or else the first.
+/// Adds records to a list. If several records state the same about an adapter, keeps an unexpected one, or else
+/// the first.
 pub fn add(list: &mut Vec<Record>, more: impl IntoIterator<Item = Record>) {
     let ending = |record: &Record| record.process.as_ref().map(|p| (p.signal, p.exit));
     for record in more {

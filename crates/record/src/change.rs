@@ -1,4 +1,4 @@
-//! What the step from one verdict to another means.
+//! The meaning of the step from one verdict to another.
 
 use crate::verdict::Verdict;
 use etalon_stats::Standing;

@@ -205,7 +205,7 @@ impl Expectations {
     ) -> HashMap<usize, Vec<usize>> {
         let firsts: BTreeSet<usize> = reaches.iter().flatten().map(|reach| reach.first).collect();
         if firsts.is_empty() {
-            // Nobody asks for the ids.
+            // No entry needs the ids.
             return HashMap::new();
         }
         let firsts: Vec<usize> = firsts.into_iter().collect();
@@ -226,7 +226,7 @@ impl Expectations {
     }
 }
 
-/// What a search for dead expectations found.
+/// The result of a search for dead expectations.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DeadSearch {
     /// The dead expectations.
@@ -241,17 +241,17 @@ fn spend(left: &Cell<u64>) -> bool {
     left.get() > 0
 }
 
-/// What the expectations excused in a run.
+/// The use of each expectation in a run.
 struct Excuses<'r> {
     /// By adapter of the run: the cases that were recorded on it.
     recorded: Vec<BTreeSet<&'r str>>,
     /// By expectation: the run's adapters that it is about.
     adapters: Vec<Vec<usize>>,
-    /// By expectation: what became of its cases.
+    /// By expectation: the fate of its cases.
     outcomes: Vec<DrawnOutcome>,
 }
 
-/// What became of the cases of an expectation.
+/// The fate of an expectation's cases in a run.
 #[derive(Clone, Copy, Default)]
 struct DrawnOutcome {
     /// True if a run can show whether the expectation is needed.
@@ -362,7 +362,7 @@ fn is_pattern(glob: &str) -> bool {
 struct SortedNames {
     sorted: Vec<String>,
     matches: HashMap<String, Vec<usize>>,
-    /// What each list of globs reached so far.
+    /// The names that each list of globs matched so far, by index.
     reaches: HashMap<Vec<String>, Rc<BTreeSet<usize>>>,
 }
 
@@ -425,7 +425,7 @@ fn matches(glob: &str, names: &[String]) -> Vec<usize> {
     near.filter(|index| glob.is_match(&names[*index])).collect()
 }
 
-/// Returns the range of the sorted names that begin like this.
+/// Returns the range of the sorted names that begin with a prefix.
 fn beginning(prefix: &str, names: &[String]) -> Range<usize> {
     let start = names.partition_point(|name| name.as_str() < prefix);
     let length = names[start..].partition_point(|name| name.starts_with(prefix));

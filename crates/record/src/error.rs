@@ -138,17 +138,17 @@ pub enum RecordError {
     Another {
         /// The folder.
         path: PathBuf,
-        /// The difference.
+        /// The first difference.
         reason: String,
     },
     /// Two folders do not hold parts of one run.
     #[error("{} and {} cannot be merged: {reason}", one.display(), other.display())]
     Apart {
-        /// A folder.
+        /// One of the two folders.
         one: PathBuf,
         /// The other folder.
         other: PathBuf,
-        /// The difference.
+        /// The first difference.
         reason: String,
     },
     /// A folder cannot be merged with any other.
@@ -204,7 +204,7 @@ pub enum RecordError {
         case: String,
         /// The adapter.
         adapter: String,
-        /// The limit.
+        /// The largest number of bytes of a record.
         limit: usize,
     },
     /// A value has no JSON form.

@@ -14,8 +14,8 @@ use std::sync::{Arc, OnceLock};
 pub struct Expectations {
     all: Vec<Arc<Known>>,
     globs: Vec<Arc<EntryGlobs>>,
-    /// The globs over case ids, made when the first case is looked up. Expectations that are all about one adapter share
-    /// it with those they were chosen from.
+    /// The globs over case ids, made when the first case is looked up. Expectations that are all about one
+    /// adapter share it with those they were chosen from.
     index: Arc<OnceLock<GlobIndex>>,
     /// The name of the only adapter that the expectations are about, if they were chosen for it.
     only: Option<String>,

@@ -52,7 +52,7 @@ pub struct Entry {
     pub expires: Option<String>,
 }
 
-/// What an expectation's file says beyond what is looked up.
+/// The parts of an expectation's file that matching does not use.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum KnownSource {
     /// An entry of a list.

@@ -44,7 +44,7 @@ pub enum Reason {
         origin: [usize; 3],
         /// The least legal number of fragments, and the greatest number that the frame can contain.
         fragments: [usize; 2],
-        /// The clause.
+        /// The clause of the specification.
         citation: String,
     },
     /// Only a part of the picture was judged.
@@ -58,7 +58,7 @@ pub enum Reason {
     IllegalLiteral {
         /// The literal value.
         value: f64,
-        /// Its channel.
+        /// The channel of the texel that the value is for.
         channel: u8,
         /// Its texel.
         at: [u32; 2],
@@ -71,7 +71,7 @@ pub enum Reason {
         samples: u64,
         /// Where the first difference was found.
         pair: ComparedPair,
-        /// The clause.
+        /// The clause of the specification.
         citation: String,
     },
     /// The verdict is that of the case's scene in this variant.
@@ -121,7 +121,7 @@ pub enum Reason {
 
     /// The expectation of the verdict has expired.
     Expired {
-        /// The day.
+        /// The last day on which the expectation counted.
         day: String,
         /// The reason of the expectation.
         reason: String,
@@ -142,7 +142,7 @@ pub struct Denial {
     pub api: Api,
     /// The version of the API.
     pub version: ApiVersion,
-    /// The clause.
+    /// The clause of the specification.
     pub citation: String,
 }
 

@@ -285,8 +285,8 @@ impl Seconds {
     }
 }
 
-/// How much the legal set and the yardstick assert about one aspect. A *channel* here is one channel of one
-/// sample.
+/// The amount that the legal set and the yardstick assert about one aspect. A *channel* here is one channel of
+/// one sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "WrittenAssertion", into = "WrittenAssertion")]
 pub struct Assertion {

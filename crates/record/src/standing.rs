@@ -1,4 +1,4 @@
-//! What a verdict says about a driver.
+//! The meaning of a verdict for a driver.
 
 use crate::verdict::Verdict;
 use etalon_stats::Standing;

@@ -25,8 +25,8 @@ use etalon_scene::{Draw, Interpolation};
 /// and the viewport's product and sum; all doubled, since two planes can cut an edge.
 const ROUNDINGS: f64 = 8.0;
 
-/// How far beyond a viewport a primitive is tracked, in texels. Nothing farther out can reach into the
-/// viewport.
+/// The distance beyond a viewport up to which a primitive is tracked, in texels. Nothing farther out can reach
+/// into the viewport.
 const BEYOND: f64 = 64.0;
 
 /// The fraction of w by which the near and far planes are moved outwards, so that rounded vertices stay

@@ -36,7 +36,7 @@ struct KeptGeometry {
     scene: Scene,
     limits: Limits,
     texels: Texels,
-    /// The rules, which know what was asked.
+    /// The rules, which record the permissions that were asked for.
     rules: Rules,
     geometry: Arc<Geometry>,
 }

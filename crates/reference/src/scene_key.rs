@@ -1,4 +1,4 @@
-//! What the legal sets of a scene depend on.
+//! The parts of a scene that its legal sets depend on.
 
 use etalon_scene::{Fetch, Mesh, Path, RESTART, Scene};
 use std::hash::{DefaultHasher, Hasher};

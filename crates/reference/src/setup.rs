@@ -21,7 +21,7 @@ use std::num::NonZeroU64;
 /// one needs the adapter's grid.
 const MOST_ON_COARSEST: usize = 256;
 
-/// What a pass's samples say about shapes.
+/// Functions that filter shapes by the judged samples of a pass.
 pub(crate) struct Filter<'a> {
     /// Returns false if a shape misses all judged samples.
     pub(crate) keeps: &'a dyn Fn(&Shape) -> bool,

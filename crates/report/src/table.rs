@@ -1,4 +1,5 @@
-//! Tables: a column is its name and the cell that it makes of a row. A page, a terminal and Markdown show the same table.
+//! Tables: a column is its name and the cell that it makes of a row. A page, a terminal and Markdown show the
+//! same table.
 
 use crate::numbers::capital;
 use crate::terminal::TableOptions;
@@ -54,12 +55,12 @@ impl Cell {
         Self { html, ..self }
     }
 
-    /// The colour of the cell on a terminal.
+    /// Sets the colour of the cell on a terminal.
     pub(crate) fn color(self, color: Option<Color>) -> Self {
         Self { color, ..self }
     }
 
-    /// The content on a page.
+    /// Returns the content on a page.
     pub(crate) fn shown(&self) -> Markup {
         let text = self.text.as_deref().unwrap_or("–");
         self.html.clone().unwrap_or_else(|| html! { (text) })
@@ -70,7 +71,7 @@ impl Cell {
         text.map_or_else(|| "·".to_owned(), |text| plain(text, LONGEST))
     }
 
-    /// The element on a page.
+    /// Returns the element on a page.
     pub(crate) fn element(&self, name: &str) -> Markup {
         let attribute = |(name, value): &(&str, String)| html! { " " (name) "=" (PreEscaped("\"")) (value) (PreEscaped("\"")) };
         let attributes = self.attributes.iter().map(attribute);
@@ -151,7 +152,7 @@ macro_rules! columns {
 }
 
 impl<'a, R> Table<'a, R> {
-    /// A table without columns yet, with its classes on a page.
+    /// Returns a table without columns, with its classes on a page.
     pub(crate) fn new(class: &'static str) -> Self {
         Self {
             class,
@@ -161,7 +162,7 @@ impl<'a, R> Table<'a, R> {
         }
     }
 
-    /// The caption on a page.
+    /// Sets the caption on a page.
     pub(crate) fn caption(mut self, text: impl Into<String>) -> Self {
         self.caption = Some((text.into(), true));
         self
@@ -173,7 +174,7 @@ impl<'a, R> Table<'a, R> {
         self
     }
 
-    /// The class of a row on a page.
+    /// Sets the class of a row on a page.
     pub(crate) fn row_class(mut self, class: impl Fn(&R) -> &'static str + 'a) -> Self {
         self.row_class = Box::new(class);
         self
@@ -193,7 +194,7 @@ impl<'a, R> Table<'a, R> {
         self
     }
 
-    /// The table on a page.
+    /// Returns the table on a page.
     pub(crate) fn page(&self, rows: impl IntoIterator<Item = R>) -> Markup {
         let class = |class: &'static str| (!class.is_empty()).then_some(class);
         html! {
@@ -212,7 +213,7 @@ impl<'a, R> Table<'a, R> {
         }
     }
 
-    /// The table on a page: the first rows, then the others behind a summary.
+    /// Returns the table on a page: the first rows, then the other rows folded behind a summary.
     pub(crate) fn folded(&self, rows: &[R]) -> Markup
     where
         R: Copy,

@@ -110,7 +110,7 @@ pub struct BenchSummary {
     pub unexpected: u64,
 }
 
-/// Why a bench could not be completed.
+/// The reason why a bench could not be completed.
 #[derive(Debug, Error)]
 pub enum BenchError {
     /// The bench folder could not be started; nothing was timed.

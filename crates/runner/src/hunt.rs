@@ -28,11 +28,11 @@ pub struct HuntPlan<'a> {
 pub struct Hunted {
     /// The record of each bug, in the order of the plan.
     pub records: Vec<MutantRecord>,
-    /// What each case caught, in the order of the plan's cases.
+    /// The bugs that each case caught, in the order of the plan's cases.
     pub catches: Vec<Catches>,
 }
 
-/// What one case caught.
+/// The bugs that one case caught.
 #[derive(Clone, Debug, Default)]
 pub struct Catches {
     /// The indices of the bugs that failed.
@@ -41,7 +41,8 @@ pub struct Catches {
     pub cost: Duration,
 }
 
-/// Draws and judges the cases with every bug planted. `open` returns the backend with the named bug, and each thread calls `drawn` after each case.
+/// Draws and judges the cases with every bug planted. `open` returns the backend with the named bug, and each
+/// thread calls `drawn` after each case.
 ///
 /// Every thread has its own part of the bugs and draws the cases in order, so that state that a bug carries
 /// from one case to the next is always the same.
@@ -175,7 +176,7 @@ fn broken(case: &Case, message: String) -> Sighting {
     }
 }
 
-/// Draws a case's scenes once each. If the mutant panics, it is reported as broken, and the hunt goes on.
+/// Draws a case's scenes once each. If the mutant panics, it is reported as broken, and the hunt continues.
 fn draw(backend: &dyn Backend, case: &Case) -> Result<Vec<Frame>, String> {
     match catch_unwind(AssertUnwindSafe(|| draw_frames(backend, case))) {
         Ok(outcome) => outcome.map_err(|e| e.to_string()),

@@ -98,7 +98,7 @@ impl Launch {
     }
 }
 
-/// Why a worker did not start.
+/// The reason why a worker did not start.
 #[derive(Debug, Error)]
 pub enum StartError {
     /// The worker reports that its adapter is unavailable.

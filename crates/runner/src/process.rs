@@ -319,8 +319,7 @@ impl WorkerProcess {
 }
 
 impl WorkerProcess {
-    /// Asks the worker to exit, and reports how it ended if that was not by itself and in order. Kills it if it does not
-    /// exit.
+    /// Asks the worker to exit, and reports how it ended unless it exited in order. Kills it if it does not exit.
     pub(crate) fn bad_end(mut self) -> Option<ProcessEnd> {
         self.requests = None;
         let Some(status) = self.wait(CLOSE_TIMEOUT) else {

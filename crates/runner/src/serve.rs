@@ -13,7 +13,7 @@ use std::sync::mpsc::{Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// The time that a worker may take to exit by itself after its parent has gone.
+/// The time that a worker has to exit by itself after its parent has ended.
 const GRACE: Duration = Duration::from_secs(5);
 /// The same while the driver is being opened.
 const GRACE_OPENING: Duration = Duration::from_secs(1);

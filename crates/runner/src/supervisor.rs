@@ -29,7 +29,7 @@ struct InARow {
     error: String,
 }
 
-/// How workers of one adapter failed after their last case. All supervisors of the adapter share this.
+/// The failures of the workers of one adapter after their last case. All supervisors of the adapter share this.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BadEnds(Arc<Mutex<Vec<ProcessEnd>>>);
 

@@ -157,7 +157,7 @@ pub struct Recorded {
     pub recording: Option<Recording>,
 }
 
-/// Why a case could not be drawn.
+/// The reason why a case could not be drawn.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum DrawError {
     /// The backend's error.

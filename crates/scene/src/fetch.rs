@@ -1,4 +1,4 @@
-//! How a draw's vertices are fetched: the numbers that a draw call takes in addition to its mesh.
+//! Vertex fetching of a draw: the numbers that a draw call takes in addition to its mesh.
 //!
 //! A [`Mesh`](crate::Mesh) is what is drawn, and the judge and rasterizers look at nothing else. A [`Fetch`]
 //! is the way a driver gets there: it changes buffers and arguments, but never the picture.
@@ -20,8 +20,8 @@ state_enum! {
 /// The 16-bit index that restarts a strip.
 pub const RESTART_16: u16 = u16::MAX;
 
-/// How vertices reach the pipeline. The default suits most draws: 32-bit indices, starting at the first
-/// vertex and index, not instanced.
+/// The way in which vertices reach the pipeline. The default suits most draws: 32-bit indices, starting at the
+/// first vertex and index, not instanced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Fetch {
     /// The size of an index.

@@ -133,10 +133,10 @@ impl<'de> Deserialize<'de> for SharedMesh {
 /// The vertices of one primitive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PrimitiveVertices {
-    /// A point.
+    /// A point, by the index of its vertex.
     Point(usize),
-    /// A line.
+    /// A line, by the indices of its vertices.
     Line([usize; 2]),
-    /// A triangle.
+    /// A triangle, by the indices of its vertices.
     Triangle([usize; 3]),
 }

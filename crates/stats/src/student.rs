@@ -2,8 +2,8 @@
 
 use statrs::function::beta::checked_beta_reg;
 
-/// Returns the probability that a variable of Student's distribution is farther from 0 than `t`; NaN without a degree of
-/// freedom.
+/// Returns the probability that a variable of Student's distribution is farther from 0 than `t`; NaN without a
+/// degree of freedom.
 pub(crate) fn two_sided(t: f64, freedom: f64) -> f64 {
     if t.is_infinite() {
         return 0.0;

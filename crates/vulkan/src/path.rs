@@ -1,5 +1,4 @@
-//! How Vulkan draws on a path: the values that a device supports, and their meaning for an attachment, a pass
-//! or a draw.
+//! Paths in Vulkan: the values that a device supports, and their meaning for an attachment, a pass or a draw.
 //!
 //! Other modules call the functions here and do not read the path, so a new value changes only these
 //! functions.

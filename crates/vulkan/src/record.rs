@@ -53,8 +53,8 @@ impl AttachmentPlan {
         }
     }
 
-    /// Returns true if a shader reads it back: it has several samples, which copies cannot read, or its path
-    /// says so.
+    /// Returns true if a shader reads the image back: it has several samples, which copies cannot read, or its
+    /// path says so.
     pub(crate) fn is_read_by_shader(&self) -> bool {
         self.samples > 1 || self.end == PathEnd::ShaderRead
     }

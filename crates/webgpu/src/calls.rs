@@ -216,16 +216,16 @@ pub struct BindGroup {
 pub enum Binding {
     /// A part of a buffer.
     Buffer {
-        /// The buffer.
+        /// The index of the buffer.
         buffer: usize,
         /// The first byte.
         offset: u64,
         /// The number of bytes.
         size: u64,
     },
-    /// A texture view.
+    /// The index of a texture view.
     View(usize),
-    /// A sampler.
+    /// The index of a sampler.
     Sampler(usize),
 }
 
@@ -252,7 +252,7 @@ pub struct QuerySet {
 pub struct SetQuery {
     /// The type of the query's set.
     pub ty: QueryType,
-    /// The set.
+    /// The index of the query set.
     pub set: usize,
     /// The index in the set.
     pub index: u32,
@@ -278,7 +278,7 @@ pub struct RenderBundle {
 pub enum EncoderCommand {
     /// Fills the first bytes of a buffer with zeros.
     ClearBuffer {
-        /// The buffer.
+        /// The index of the buffer.
         buffer: usize,
         /// The number of bytes.
         size: u64,
@@ -323,9 +323,9 @@ pub enum EncoderCommand {
     },
     /// Writes the results of all queries of a set to a buffer.
     Resolve {
-        /// The set.
+        /// The index of the query set.
         set: usize,
-        /// The buffer.
+        /// The index of the buffer.
         buffer: usize,
         /// The first byte.
         offset: u64,
@@ -337,7 +337,7 @@ pub enum EncoderCommand {
 /// Rows of texels in a buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct BufferRows {
-    /// The buffer.
+    /// The index of the buffer.
     pub buffer: usize,
     /// The first byte.
     pub offset: u64,
@@ -455,7 +455,7 @@ pub enum PassCommand {
     Begin(SetQuery),
     /// Ends the active query of a type.
     End(QueryType),
-    /// Executes a bundle.
+    /// Executes the bundle with this index.
     Execute(usize),
     /// A command that bundles can also contain.
     Draw(DrawCommand),
@@ -464,59 +464,59 @@ pub enum PassCommand {
 /// A command in a pass or a bundle.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum DrawCommand {
-    /// Sets the pipeline.
+    /// Sets the pipeline with this index.
     SetPipeline(usize),
     /// Sets the only bind group.
     SetBindGroup {
-        /// The group.
+        /// The index of the bind group.
         group: usize,
         /// The dynamic offset of its uniform buffer.
         offset: Option<u32>,
     },
     /// Sets a vertex buffer.
     SetVertexBuffer {
-        /// The slot.
+        /// The slot that the pipeline reads the buffer from.
         slot: u32,
-        /// The buffer.
+        /// The index of the buffer.
         buffer: usize,
         /// The range of bytes.
         place: Range<u64>,
     },
     /// Sets the index buffer.
     SetIndexBuffer {
-        /// The buffer.
+        /// The index of the buffer.
         buffer: usize,
         /// The range of bytes.
         place: Range<u64>,
         /// The size of an index.
         format: IndexFormat,
     },
-    /// Draws.
+    /// Draws without indices.
     Draw {
-        /// The vertices.
+        /// The indices of the first vertex and of the one after the last.
         vertices: Range<u32>,
-        /// The instances.
+        /// The indices of the first instance and of the one after the last.
         instances: Range<u32>,
     },
     /// Draws with indices.
     DrawIndexed {
-        /// The indices.
+        /// The positions of the first index and of the one after the last, in the index buffer.
         indices: Range<u32>,
         /// The number added to each index.
         base_vertex: i32,
-        /// The instances.
+        /// The indices of the first instance and of the one after the last.
         instances: Range<u32>,
     },
     /// Draws, with the arguments from a buffer.
     DrawIndirect {
-        /// The buffer.
+        /// The index of the buffer.
         buffer: usize,
         /// The first byte.
         offset: u64,
     },
     /// Draws with indices, with the arguments from a buffer.
     DrawIndexedIndirect {
-        /// The buffer.
+        /// The index of the buffer.
         buffer: usize,
         /// The first byte.
         offset: u64,

@@ -36,7 +36,7 @@ pub struct Hello {
     pub browser: Named,
     /// The adapter of the device.
     pub adapter: BrowserAdapter,
-    /// What the device offers.
+    /// The features and limits that the device offers.
     #[serde(flatten)]
     pub offer: DeviceOffer,
 }

@@ -1,5 +1,4 @@
-//! How WebGPU draws on a path: the values that a device has, and what each means for an attachment, a draw or
-//! a read.
+//! Paths in WebGPU: the values that a device has, and their meaning for an attachment, a draw or a read.
 //!
 //! Other modules call the functions here and do not read the path, so a new value changes only these
 //! functions.

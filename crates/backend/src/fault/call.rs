@@ -122,7 +122,7 @@ faults! {
     LoadDepthIgnored = "load-depth-ignored" in "paths/depth-stencil/*/start=load-operation/*" of Vulkan WebGpu;
     /// Load operations do not clear stencil.
     LoadStencilIgnored = "load-stencil-ignored" in "paths/depth-stencil/*/start=load-operation/*" of Vulkan WebGpu;
-    /// What is drawn in a render pass object is not stored.
+    /// Drawing in a render pass object is not stored.
     StoreDropped = "store-dropped" in "paths/two-passes/*/pass=render-pass/*" of Vulkan;
     // The OpenGL backend reads through attachments too, so it would see what it drew there unless it copies
     // first.

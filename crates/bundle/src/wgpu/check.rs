@@ -10,8 +10,8 @@ use etalon_backend::Recording;
 
 /// The types and functions for the table, in Rust.
 const RUST: &str = r#"
-/// How the bits of a channel are compared: as a number, a signed number, a float of 16 bits (by its sign and magnitude),
-/// a float of 32 bits, or a byte that a shorter code was widened to.
+/// The comparison of the bits of a channel: as a number, a signed number, a float of 16 bits (by its sign and
+/// magnitude), a float of 32 bits, or a byte that a shorter code was widened to.
 #[allow(dead_code)]
 enum Order {
     Unsigned,

@@ -161,7 +161,8 @@ pub(crate) enum DerivedValues {
 }
 
 impl DerivedValues {
-    /// Returns the value for the axis's value of this number, and its place; `None` if there is none.
+    /// Returns the derived value for the axis's value with this index, and its place; `None` if the axis has no
+    /// such value.
     pub(crate) fn get(&self, axis: &[AxisValue], number: usize) -> Option<(&Value, PathStep)> {
         match self {
             Self::Listed(values) => Some((values.get(number)?, PathStep::Index(number))),

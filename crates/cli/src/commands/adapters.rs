@@ -69,7 +69,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     Ok(0)
 }
 
-/// The usable adapters in columns, by the API whose rules judge them.
+/// Returns the usable adapters in columns, by the API whose rules judge them.
 fn usable(adapters: &[&AdapterRecord]) -> String {
     let widest = |text: fn(&AdapterRecord) -> String| {
         let widths = adapters.iter().map(|adapter| text(adapter).chars().count());

@@ -377,8 +377,8 @@ impl Bundled<'_> {
         Ok(files)
     }
 
-    /// Returns the report. `run` is the command that runs the program, and `built` the program's last line of output, if
-    /// it ran here; `files` are the files next to the report.
+    /// Returns the report. `run` is the command that runs the program, and `built` the program's last line of
+    /// output, if it ran here; `files` are the files next to the report.
     fn report(
         &self,
         evidence: &DriverResults,

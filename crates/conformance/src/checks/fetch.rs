@@ -1,4 +1,4 @@
-//! How vertices reach the pipeline: indices, offsets and instances, which must not change the picture.
+//! Vertex fetching: indices, offsets and instances, which must not change the picture.
 
 use super::CheckEnd;
 use crate::frames::{BLUE, Expect, GREEN, RED};

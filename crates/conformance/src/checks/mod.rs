@@ -25,7 +25,7 @@ mod uploads;
 
 use crate::subject::{CheckResult, CheckedBackend, Missing};
 
-/// A check ends early if the limits deny a scene.
+/// The result of a check, which ends early if the limits deny a scene.
 type CheckEnd = Result<(), Missing>;
 
 /// A check of a driver.

@@ -285,8 +285,7 @@ impl TileDrawing<'_, '_> {
         };
     }
 
-    /// Widens the range of stencil values to include every value that a face might have written, to all
-    /// texels or to some.
+    /// Widens the range of stencil values by every value that a face can have written to all or some texels.
     #[inline(always)]
     fn widen_stencils(
         &mut self,

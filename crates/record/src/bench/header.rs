@@ -42,7 +42,7 @@ pub struct BenchHeader {
     pub absent: Vec<AbsentAdapter>,
 }
 
-/// What the processor reaches at most with some threads.
+/// The highest rates that the processor reaches with a number of threads.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ProcessorLimits {

@@ -400,7 +400,7 @@ macro_rules! rules {
                 $((!other.$field.was_asked() || self.$field.value == other.$field.value))&&+
             }
 
-            /// Asks for what was asked of other rules.
+            /// Asks for the permissions that other rules were asked for.
             pub(crate) fn ask(&self, other: &Self) {
                 $(if other.$field.was_asked() {
                     self.$field.value();

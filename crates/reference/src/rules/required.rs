@@ -1,4 +1,4 @@
-//! What each version of an API requires of every implementation: formats, limits and features, as rows
+//! The requirements of each version of an API for every implementation: formats, limits and features, as rows
 //! with their citations.
 //!
 //! Only requirements that a driver can deny are listed. A row for a requirement that a backend assumes from

@@ -7,9 +7,10 @@
 //! - both runs select a case, by their lists of cases, and the second has no record of it;
 //! - the second run lacks an adapter of the first, unless the pair to compare was named.
 //!
-//! If nothing is worse, and a run is empty or incomplete, the exit code is 3: what it lacks can be worse. *Better* and *other* are by the same table. A case that one run does not select is neither, and so are
-//! other pixels, counters or distances under the same verdict. Times decide nothing, because a run takes each
-//! once and while doing other work.
+//! If nothing is worse, and a run is empty or incomplete, the exit code is 3: what it lacks can be worse.
+//! *Better* and *other* are by the same table. A case that one run does not select is neither, and so are other
+//! pixels, counters or distances under the same verdict. Times decide nothing, because a run takes each once and
+//! while doing other work.
 
 mod compare;
 mod data;
@@ -91,7 +92,7 @@ pub fn diff(
     Ok(found)
 }
 
-/// The sort key: first the direction (worse, better, other), then the severity, then case file and case.
+/// Returns the sort key: first the direction (worse, better, other), then the severity, then case file and case.
 fn order(change: &CaseChange) -> (ChangeDirection, Reverse<u8>, &str, &str, &[String; 2]) {
     let severity = match change.direction {
         ChangeDirection::Better => change.verdict[0],

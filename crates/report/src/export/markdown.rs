@@ -76,7 +76,7 @@ impl MarkdownText {
     }
 }
 
-/// The file.
+/// Returns the content of `summary.md`.
 pub(crate) fn summary(run: &Run, news: Option<&RunNews>) -> String {
     let mut text = MarkdownText {
         text: String::new(),
@@ -308,7 +308,7 @@ fn escaped(text: &str, longest: usize) -> String {
     result
 }
 
-/// A name or a command as code, which no filter touches; as escaped text if code cannot hold it.
+/// Returns a name or a command as code, which no filter touches; as escaped text if code cannot hold it.
 fn code(text: &str, longest: usize) -> String {
     let shown = plain(text, longest);
     let held =

@@ -38,7 +38,7 @@ const KINDS: [(NewsLineKind, &str, usize); 6] = [
 ];
 
 impl NewsLineKind {
-    /// The class that colours a line.
+    /// Returns the class that colours a line.
     pub(super) fn colour(self) -> &'static str {
         KINDS[self as usize].1
     }

@@ -36,8 +36,8 @@ pub(crate) struct MatrixEntry {
     pub(crate) of_base: Option<f64>,
     /// The cell's rate divided by the rate of clearing.
     pub(crate) of_clear: Option<f64>,
-    /// What the cell reaches of the processor's limits, if the adapter draws with the processor and they were
-    /// measured.
+    /// The shares of the processor's limits that the cell reaches, if the adapter draws with the processor and
+    /// they were measured.
     pub(crate) reached: Option<Reached>,
 }
 

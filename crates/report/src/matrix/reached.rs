@@ -1,4 +1,4 @@
-//! What a cell reaches of the processor's limits.
+//! The shares of the processor's limits that a cell reaches.
 
 use etalon_record::{CellRate, ProcessorLimits};
 

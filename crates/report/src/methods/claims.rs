@@ -20,7 +20,7 @@ fn checked<'a>(methods: &Methods<'a>) -> (Vec<Checked<'a>>, Vec<Checked<'a>>) {
         .partition(|checked| !(checked.figures.is_empty() && checked.blind.is_empty()))
 }
 
-/// The outcomes of claims for a terminal.
+/// Returns the outcomes of claims for a terminal.
 pub(super) fn lines(methods: &Methods<'_>) -> Vec<String> {
     let (drawn, others) = checked(methods);
     let line = |checked: &Checked<'_>| {
@@ -35,7 +35,7 @@ pub(super) fn lines(methods: &Methods<'_>) -> Vec<String> {
     lines
 }
 
-/// The table of claims.
+/// Returns the table of claims.
 pub(super) fn section(methods: &Methods<'_>) -> Markup {
     let (drawn, others) = checked(methods);
     html! {

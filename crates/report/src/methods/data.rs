@@ -67,7 +67,7 @@ pub(crate) struct SceneSeries<'a> {
     pub(crate) series: Vec<MethodSeries<'a>>,
 }
 
-/// A method with its settings, along a parameter if it has one.
+/// A method with its settings, ordered along its parameter if it has one.
 pub(crate) struct MethodSeries<'a> {
     pub(crate) method: &'a str,
     /// Axis values, other than the method and the parameter, that differ within the scene:

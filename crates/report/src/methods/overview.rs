@@ -28,7 +28,7 @@ struct TimedMethod<'a> {
     error: f64,
 }
 
-/// The charts of all questions, with the choice of an adapter and of a budget.
+/// Returns the charts of all questions, with the choice of an adapter and of a budget.
 pub(super) fn section(methods: &Methods<'_>, shown: &[ShownScene<'_, '_>]) -> Markup {
     html! {
         section id="overview" {
@@ -53,7 +53,7 @@ pub(super) fn section(methods: &Methods<'_>, shown: &[ShownScene<'_, '_>]) -> Ma
     }
 }
 
-/// A slider, whose stops the script knows.
+/// Returns a slider, whose stops the script knows.
 fn limit(id: &str, name: &str) -> Markup {
     html! {
         label for=(id) { (name) " " output for=(id) { "any" } " " input id=(id) type="range" min="0" step="1"; }
@@ -84,7 +84,7 @@ impl<'s, 'a> AnsweredQuestion<'s, 'a> {
         }
     }
 
-    /// The scene in which the most methods were timed, with these methods; `None` if no method was timed.
+    /// Returns the scene in which the most methods were timed, with these methods; `None` if no method was timed.
     fn fullest(&self) -> Option<(&'s ShownScene<'s, 'a>, &[TimedMethod<'a>])> {
         let timed = self.timed.iter().enumerate();
         let fullest = timed.max_by_key(|(place, points)| (points.len(), std::cmp::Reverse(*place)));
@@ -93,7 +93,7 @@ impl<'s, 'a> AnsweredQuestion<'s, 'a> {
     }
 }
 
-/// The sentences of all questions for a terminal, one per adapter.
+/// Returns the sentences of all questions for a terminal, one per adapter.
 pub(super) fn lines(methods: &Methods<'_>, shown: &[ShownScene<'_, '_>]) -> Vec<String> {
     let mut lines = Vec::new();
     for question in &methods.questions {
@@ -176,7 +176,7 @@ fn timed<'a>(shown: &ShownScene<'_, 'a>) -> Vec<TimedMethod<'a>> {
         .collect()
 }
 
-/// The chart of a scene on an adapter. Its axes fit all adapters.
+/// Returns the chart of a scene on an adapter. Its axes fit all adapters.
 fn chart(
     question: &Question<'_>,
     shown: &ShownScene<'_, '_>,

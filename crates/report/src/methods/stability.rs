@@ -33,25 +33,25 @@ impl CurveBreak<'_> {
     }
 }
 
-/// The parameters along which some method of the scene has a curve.
+/// Returns the parameters along which some method of the scene has a curve.
 fn parameters<'a>(scene: &SceneSeries<'a>) -> BTreeSet<&'a str> {
     let curves = scene.series.iter().filter(|s| s.values().len() > 1);
     curves.filter_map(|s| s.parameter).collect()
 }
 
-/// The curves along a parameter.
+/// Returns the curves along a parameter.
 fn curves<'s, 'a>(scene: &'s SceneSeries<'a>, parameter: &str) -> Vec<&'s MethodSeries<'a>> {
     let along = |s: &&MethodSeries<'a>| s.parameter == Some(parameter) && s.values().len() > 1;
     scene.series.iter().filter(along).collect()
 }
 
-/// The scale of a parameter in a scene.
+/// Returns the scale of a parameter in a scene.
 fn scale(series: &[&MethodSeries<'_>]) -> Scale {
     let values: Vec<f64> = series.iter().flat_map(|s| s.values()).collect();
     Scale::fitting(&values)
 }
 
-/// Every method's break in a scene, in order. Adapters with equal breaks are grouped.
+/// Returns every method's break in a scene, in order. Adapters with equal breaks are grouped.
 pub(super) fn found<'a>(shown: &ShownScene<'_, 'a>) -> Vec<CurveBreak<'a>> {
     let (methods, scene) = (shown.methods, shown.scene);
     let mut result: Vec<CurveBreak<'a>> = Vec::new();
@@ -92,7 +92,7 @@ pub(super) fn found<'a>(shown: &ShownScene<'_, 'a>) -> Vec<CurveBreak<'a>> {
     result
 }
 
-/// The settings on both sides of each crossing of a curve.
+/// Returns the settings on both sides of each crossing of a curve.
 fn between<'a>(series: &MethodSeries<'a>, found: &Break) -> Vec<[SceneSetting<'a>; 2]> {
     let Break::Crossings(crossings) = found else {
         return Vec::new();
@@ -153,7 +153,7 @@ pub(super) fn list(shown: &ShownScene<'_, '_>) -> Markup {
     }
 }
 
-/// The breaks of all scenes for a terminal.
+/// Returns the breaks of all scenes for a terminal.
 pub(super) fn lines(methods: &Methods<'_>, shown: &[ShownScene<'_, '_>]) -> Vec<String> {
     let breaks = shown.iter().flat_map(|shown| {
         let broken = found(shown).into_iter().filter(CurveBreak::crosses);
@@ -169,7 +169,7 @@ pub(super) fn lines(methods: &Methods<'_>, shown: &[ShownScene<'_, '_>]) -> Vec<
     breaks.map(line).collect()
 }
 
-/// The adapters that a break was found on.
+/// Returns the adapters that a break was found on.
 pub(super) fn who(methods: &Methods<'_>, found: &CurveBreak<'_>) -> String {
     if found.adapters.len() == methods.adapters.len() {
         "all adapters".to_owned()
@@ -316,7 +316,7 @@ fn panel(
     chart(HEIGHT, &title, &about, &body)
 }
 
-/// The caption that explains the charts of stability.
+/// Returns the caption that explains the charts of stability.
 pub(super) fn caption() -> Markup {
     html! {
         p {

@@ -76,7 +76,7 @@ fn candidates<'s, 'a>(
     of_kind.filter_map(|(series, point)| Some((series, point, point.error()?)))
 }
 
-/// The most accurate method; if several are equal, the fastest of them.
+/// Returns the most accurate method; if several are equal, the fastest of them.
 fn accurate<'s, 'a, 'c>(
     candidates: &'c [RankedMethod<'s, 'a>],
 ) -> Option<&'c RankedMethod<'s, 'a>> {
@@ -107,7 +107,7 @@ fn fast<'a>(methods: &Methods<'a>, candidates: &[RankedMethod<'_, 'a>]) -> Fast<
     }
 }
 
-/// The section of `index.html` that leads to the page of methods.
+/// Returns the section of `index.html` that leads to the page of methods.
 pub(crate) fn section(methods: &Methods<'_>) -> Markup {
     let mut table = Table::<Best<'_>>::new("text")
         .head(
@@ -149,8 +149,8 @@ pub(crate) fn section(methods: &Methods<'_>) -> Markup {
     }
 }
 
-/// The methods of a run for a terminal, in the order of their page: the answer to each question, break points, scenes,
-/// claims.
+/// Returns the methods of a run for a terminal, in the order of their page: the answer to each question, break
+/// points, scenes, claims.
 pub(crate) fn lines(methods: &Methods<'_>) -> String {
     let shown = methods.shown();
     let parts = [
@@ -181,7 +181,7 @@ pub(crate) fn lines(methods: &Methods<'_>) -> String {
     text
 }
 
-/// A line per scene.
+/// Returns a line per scene.
 fn scenes(methods: &Methods<'_>) -> Vec<String> {
     let several = methods.kinds().len() > 1;
     let line = |best: Best<'_>| {

@@ -133,7 +133,7 @@ impl RunNews {
     }
 }
 
-/// The last run of an adapter before this one, on the same branch, that has any of these cases.
+/// Returns the last run of an adapter before this one, on the same branch, that has any of these cases.
 fn last<'h>(
     history: &'h History,
     now: &Now<'_>,

@@ -6,7 +6,7 @@ use crate::words::{Tone, headline, plain};
 use etalon_record::{Record, Run};
 use maud::{Markup, html};
 
-/// The table of the unexpected records beside the selected cases.
+/// Returns the table of the unexpected records beside the selected cases.
 pub(super) fn section(run: &Run) -> Markup {
     let unexpected = run.beside.iter().filter(|r| r.unexpected());
     let records: Vec<&Record> = unexpected.collect();

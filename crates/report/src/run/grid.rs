@@ -101,17 +101,17 @@ impl<'a> RunGrid<'a> {
         &self.run.records[index]
     }
 
-    /// All case files.
+    /// Returns all case files.
     pub(crate) fn files(&self) -> impl Iterator<Item = &GridFile<'a>> {
         self.areas.iter().flat_map(|area| &area.files)
     }
 
-    /// All cases.
+    /// Returns all cases.
     pub(crate) fn cases(&self) -> impl Iterator<Item = &CaseRow<'a>> {
         self.files().flat_map(|file| &file.cases)
     }
 
-    /// The records on one adapter, by area, case file and case.
+    /// Returns the records on one adapter, by area, case file and case.
     pub(crate) fn on(&self, adapter: usize) -> impl Iterator<Item = &'a Record> {
         let indices = self.areas.iter().flat_map(move |area| area.on(adapter));
         indices.map(|index| self.record(index))
@@ -119,14 +119,14 @@ impl<'a> RunGrid<'a> {
 }
 
 impl AreaFiles<'_> {
-    /// The records on one adapter, in the order of case files and cases.
+    /// Returns the records on one adapter, in the order of case files and cases.
     pub(crate) fn on(&self, adapter: usize) -> impl Iterator<Item = usize> {
         self.files.iter().flat_map(move |f| f.on(adapter))
     }
 }
 
 impl GridFile<'_> {
-    /// The records on one adapter, in the order of cases.
+    /// Returns the records on one adapter, in the order of cases.
     pub(crate) fn on(&self, adapter: usize) -> impl Iterator<Item = usize> {
         self.cases.iter().filter_map(move |c| c.records[adapter])
     }
@@ -188,7 +188,7 @@ impl VerdictTally {
         tally
     }
 
-    /// Verdict, tone and count, the most serious first.
+    /// Returns verdict, tone and count, the most serious first.
     pub(crate) fn entries(&self) -> impl Iterator<Item = (Verdict, Tone, u64)> {
         self.counts.iter().map(|((_, _, v, t), n)| (*v, *t, *n))
     }
@@ -201,7 +201,7 @@ impl VerdictTally {
             .sum()
     }
 
-    /// Bad verdicts that were expected or due.
+    /// Returns the number of bad verdicts that were expected or due.
     pub(crate) fn excused(&self) -> u64 {
         self.entries()
             .filter(|(_, t, _)| *t == Tone::Excused)

@@ -1,8 +1,8 @@
 //! `index.html` of a run.
 //!
-//! The page tells what changed since the last run, what is new, what is known and what was not drawn, in this order;
-//! then come the matrix and everything else. All of it but two parts needs no script; the script adds the table of all cases, with
-//! search and filters, and the view of one case. Every view has an address:
+//! The page tells what changed since the last run, what is new, what is known and what was not drawn, in this
+//! order; then come the matrix and everything else. All parts but two work without a script; the script adds the
+//! table of all cases, with search and filters, and the view of one case. Every view has an address:
 //! `index.html#q=less&on=cpu`, `index.html#case=depth/compare/compare=less`.
 
 mod assertions;
@@ -132,7 +132,7 @@ fn head(run: &Run, dead: &[Dead], news: Option<&RunNews>, methods: bool, drivers
     }
 }
 
-/// The state of the run, in the order of the page: what is missing, changed, new, known and not drawn.
+/// Returns the state of the run, in the order of the page: what is missing, changed, new, known and not drawn.
 fn state(run: &Run, dead: &[Dead], news: Option<&RunNews>) -> Markup {
     let tally = VerdictTally::of(run.all_records());
     let beside = run.unexpected_beside();
@@ -187,7 +187,7 @@ fn state(run: &Run, dead: &[Dead], news: Option<&RunNews>) -> Markup {
     }
 }
 
-/// Where the run comes from.
+/// Returns the section on the origin of the run.
 fn about(run: &Run) -> Markup {
     let settings = words::settings(&run.header.settings);
     html! {

@@ -19,18 +19,19 @@ pub(crate) struct ReasonRecords {
 }
 
 impl ReasonRecords {
-    /// The number of records.
+    /// Returns the number of records.
     pub(crate) fn records(&self) -> u64 {
         self.adapters.iter().map(|(_, n)| n).sum()
     }
 
-    /// The adapters with their numbers of records: `gl:softpipe 12`.
+    /// Returns the adapters with their numbers of records: `gl:softpipe 12`.
     pub(crate) fn each(&self) -> Vec<String> {
         let adapters = self.adapters.iter();
         adapters.map(|(name, n)| format!("{name} {n}")).collect()
     }
 
-    /// `blocked: texture format r8unorm does not survive`; what is not supported needs no word before it.
+    /// Returns the verdict and the reason: `blocked: texture format r8unorm does not survive`. The reason alone
+    /// if the verdict is NotSupported.
     pub(crate) fn sentence(&self) -> String {
         match self.verdict {
             Verdict::NotSupported => self.text.clone(),
@@ -39,12 +40,12 @@ impl ReasonRecords {
     }
 }
 
-/// The number of records of several reasons.
+/// Returns the number of records of several reasons.
 pub(crate) fn total(reasons: &[ReasonRecords]) -> u64 {
     reasons.iter().map(ReasonRecords::records).sum()
 }
 
-/// The reasons why cases of a run were not drawn, by verdict, the most frequent first.
+/// Returns the reasons why cases of a run were not drawn, by verdict, the most frequent first.
 pub(crate) fn undrawn(run: &Run) -> Vec<ReasonRecords> {
     let place = |verdict| UNDRAWN.iter().position(|v| *v == verdict);
     let mut reasons = reasons(run, |record| {
@@ -54,8 +55,8 @@ pub(crate) fn undrawn(run: &Run) -> Vec<ReasonRecords> {
     reasons
 }
 
-/// The expectations that failures of a run met, the most frequent first. Selftests that are due to fail are not
-/// among them.
+/// Returns the expectations that failures of a run met, the most frequent first. Selftests that are due to fail
+/// are not among them.
 pub(crate) fn known(run: &Run) -> Vec<ReasonRecords> {
     let mut reasons = reasons(run, |record| {
         let expected = record.expected.as_ref();
@@ -66,7 +67,7 @@ pub(crate) fn known(run: &Run) -> Vec<ReasonRecords> {
     reasons
 }
 
-/// The records that have a reason, by verdict and reason.
+/// Returns the records that have a reason, by verdict and reason.
 fn reasons(run: &Run, reason: impl Fn(&Record) -> Option<String>) -> Vec<ReasonRecords> {
     let mut found: BTreeMap<(Verdict, String), BTreeMap<usize, u64>> = BTreeMap::new();
     let adapters = &run.header.adapters;

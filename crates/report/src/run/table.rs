@@ -28,9 +28,9 @@ const BROKEN: [Verdict; 7] = [
     Verdict::InternalError,
 ];
 
-/// A table with a row per adapter, then the reasons why cases were not drawn, then a line per unexpected record
-/// (20 at most), then what is missing. A bad verdict that was expected or due is counted under `expected` only,
-/// so that a row's counts add up to its records; the rate counts records per second of drawing and judging.
+/// Returns a table with a row per adapter, then the reasons why cases were not drawn, then a line per unexpected
+/// record (20 at most), then what is missing. A bad verdict that was expected or due is counted under `expected`
+/// only, so that a row's counts add up to its records; the rate counts records per second of drawing and judging.
 /// Always ends in a newline.
 pub fn table(run: &Run, options: TableOptions) -> String {
     if run.records.is_empty() {
@@ -130,7 +130,7 @@ fn adapters(rows: &[(&str, Vec<&Record>)], options: TableOptions) -> String {
     text
 }
 
-/// The number of records of cases that were not drawn, and the reasons, with counts per adapter.
+/// Returns the number of records of cases that were not drawn, and the reasons, with counts per adapter.
 fn not_drawn(run: &Run, options: TableOptions) -> String {
     let reasons = undrawn(run);
     if reasons.is_empty() {

@@ -34,7 +34,7 @@ pub struct RunReports {
 }
 
 impl RunReports {
-    /// Every file, the page for people first.
+    /// Returns every file, the page for people first.
     pub fn all(&self) -> impl Iterator<Item = &Path> {
         let single = [
             Some(&self.html),
@@ -47,7 +47,7 @@ impl RunReports {
     }
 }
 
-/// What the reports of a run are made from.
+/// The sources of the reports of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct RunReport<'a> {
     /// The run folder, for frames, pictures and dead expectations.

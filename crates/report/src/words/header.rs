@@ -14,7 +14,7 @@ pub fn api_name(api: Api) -> &'static str {
     }
 }
 
-/// `Example CPU, 4 cores, Linux 6.12`.
+/// Returns a machine in words: `Example CPU, 4 cores, Linux 6.12`.
 pub(crate) fn machine(machine: &Machine) -> String {
     format!(
         "{}, {}, {}",
@@ -24,7 +24,7 @@ pub(crate) fn machine(machine: &Machine) -> String {
     )
 }
 
-/// The settings of a run that differ from the defaults, one text each.
+/// Returns the settings of a run that differ from the defaults, one text each.
 pub(crate) fn settings(settings: &Settings) -> Vec<String> {
     let s = settings;
     let texts = [

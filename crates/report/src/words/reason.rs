@@ -151,7 +151,7 @@ fn denied(denial: &Denial, needed: &str) -> String {
     )
 }
 
-/// Returns the API and its version, if it has one.
+/// Returns the API, with its version if it has one.
 fn version_text(api: Api, version: ApiVersion) -> String {
     match version {
         ApiVersion::UNKNOWN => api.to_string(),

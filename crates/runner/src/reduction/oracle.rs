@@ -76,7 +76,7 @@ pub(super) struct DriverOracle<'a> {
     /// The symptom of the smallest case so far, and its record.
     symptom: Symptom,
     record: Record,
-    /// Why a worker that a candidate ended did not start again.
+    /// The reason why a worker that a candidate ended did not start again.
     error: Option<StartError>,
     /// True once the search is being stopped.
     stop: &'a AtomicBool,

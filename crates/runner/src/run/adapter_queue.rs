@@ -306,7 +306,7 @@ fn time_left(elapsed: Duration, done: u64, left: usize) -> f64 {
     elapsed.as_secs_f64() * left as f64 / (done + 1) as f64
 }
 
-/// What a free thread does.
+/// The next action of a free thread.
 pub(super) enum Next<'q> {
     Draw(&'q AdapterQueue),
     /// It waits, since the threads of the queues will be done before another worker could help them.

@@ -129,7 +129,7 @@ impl RunSummary {
     }
 }
 
-/// Why a run could not be completed.
+/// The reason why a run could not be completed.
 #[derive(Debug, Error)]
 pub enum RunError {
     /// The run folder could not be started; nothing was drawn.

@@ -143,7 +143,7 @@ fn milliseconds(seconds: f64) -> String {
 }
 
 impl RulerSeries {
-    /// The change points.
+    /// Returns the change points.
     pub(super) fn changes(&self) -> &[ChangePoint] {
         &self.changes.points
     }

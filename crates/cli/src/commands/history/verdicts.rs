@@ -78,7 +78,7 @@ impl Verdicts {
         }))
     }
 
-    /// The last record.
+    /// Returns the last record.
     pub(super) fn last(&self) -> Option<&DrawnRecord> {
         self.records.last()
     }

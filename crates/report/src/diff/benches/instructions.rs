@@ -10,7 +10,7 @@ use tabled::settings::Color;
 /// The smallest change of a number of instructions that is reported, if its counts scatter less.
 pub(super) const SMALLEST: f64 = 0.01;
 
-/// How the instructions of a frame changed.
+/// The change in the instructions of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum InstructionOutcome {

@@ -30,8 +30,8 @@ pub(crate) fn section(grid: &RunGrid<'_>) -> Markup {
     }
 }
 
-/// The counters that were read back, that were asserted, and that had exactly one legal value: per area and
-/// kind, over all adapters.
+/// Returns the counters that were read back, that were asserted, and that had exactly one legal value: per area
+/// and kind, over all adapters.
 fn counters(grid: &RunGrid<'_>) -> Markup {
     let mut rows: BTreeMap<(usize, CounterKind), [u64; 3]> = BTreeMap::new();
     for (number, area) in grid.areas.iter().enumerate() {
@@ -70,8 +70,8 @@ struct SharedFigures<'a> {
     shown: [String; 6],
 }
 
-/// Grouped by the figures as they are shown: an adapter that lacks a case or two does not stand
-/// apart for that.
+/// Returns the figures of an area. Adapters are grouped by rounded figures, so a missing case does not split a
+/// group.
 fn figures<'a>(grid: &RunGrid<'a>, area: &AreaFiles<'a>) -> Vec<SharedFigures<'a>> {
     let mut sums: BTreeMap<(Aspect, usize), Assertion> = BTreeMap::new();
     for column in 0..grid.adapters.len() {

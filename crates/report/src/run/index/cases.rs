@@ -67,7 +67,7 @@ pub(crate) fn section(grid: &RunGrid<'_>, scripts: &[(String, String)]) -> Marku
     }
 }
 
-/// The element in which the script shows a case.
+/// Returns the element in which the script shows a case.
 pub(crate) fn view() -> Markup {
     html! { article id="case" aria-labelledby="case-title" hidden {} }
 }
@@ -123,7 +123,7 @@ fn numbered(names: &mut dyn Iterator<Item = &str>) -> Vec<(String, String)> {
         .collect()
 }
 
-/// A control of the filter: options with their values, after one that filters nothing.
+/// Returns a control of the filter: options with their values, after one that filters nothing.
 fn select(id: &str, label: &str, nothing: &str, options: Vec<(String, String)>) -> Markup {
     html! {
         div {
@@ -136,7 +136,7 @@ fn select(id: &str, label: &str, nothing: &str, options: Vec<(String, String)>) 
     }
 }
 
-/// The number of cases that differ on each adapter only, and the number that the adapters disagree on.
+/// Returns the number of cases that differ on each adapter only, and the number that the adapters disagree on.
 fn odd(grid: &RunGrid<'_>) -> (Vec<u64>, u64) {
     let mut odd = vec![0; grid.adapters.len()];
     let mut apart = 0;

@@ -13,7 +13,7 @@ use maud::{Markup, html};
 /// The most rows of each kind.
 const ROWS: usize = 500;
 
-/// The section: what broke, what was fixed, and the runs that this one was compared with.
+/// Returns the section: what broke, what was fixed, and the runs that this one was compared with.
 pub(super) fn section(news: &RunNews) -> Markup {
     let runs = news
         .since

@@ -29,7 +29,7 @@ pub(crate) enum Votes {
 }
 
 impl Votes {
-    /// The word in the page's data.
+    /// Returns the word in the page's data.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Nobody => "nobody",
@@ -133,7 +133,7 @@ impl Consensus {
     }
 }
 
-/// The verdict that most of one side have, then the others of that side: `pass; imprecise only on cpu`.
+/// Returns the verdict that most of one side have, then the others of that side: `pass; imprecise only on cpu`.
 /// Of two verdicts that are as frequent the milder one goes first.
 fn in_detail(side: &[(usize, Verdict)], names: &[&str]) -> String {
     let with = |v: Verdict| side.iter().filter(move |(_, other)| *other == v);

@@ -67,7 +67,7 @@ struct ListedFile<'a> {
 #[derive(Serialize)]
 struct ListedCase<'a>(&'a str, String, usize, Vec<u64>, Vec<usize>);
 
-/// The block, ready to be put into a page.
+/// Returns the block, ready to be put into a page.
 pub(crate) fn block(
     grid: &RunGrid<'_>,
     plan: &FindingPlan,
@@ -133,7 +133,7 @@ fn data<'a>(grid: &'a RunGrid<'_>, plan: &FindingPlan) -> Data<'a> {
     }
 }
 
-/// The kinds of cells that the run has, the most serious first, with the sign of each.
+/// Returns the kinds of cells that the run has, the most serious first, with the sign of each.
 fn cells(grid: &RunGrid<'_>) -> (Vec<CellLook>, HashMap<(Verdict, Tone), char>) {
     let tally = VerdictTally::of(&grid.run.records);
     let mut signs = HashMap::new();
@@ -193,7 +193,7 @@ fn facts_of_all(grid: &RunGrid<'_>) -> FactLists {
     (lists, group_of, texts, labels)
 }
 
-/// The bytes that a text takes in the block.
+/// Returns the number of bytes that a text takes in the block.
 fn escaped(text: &str) -> usize {
     let escaped = |c: char| match c {
         '<' => 6,

@@ -155,7 +155,7 @@ fn texels(record: &Record) -> Markup {
     }
 }
 
-/// The distance of a code from the allowed ones.
+/// Returns the distance of a code from the allowed ones.
 fn off(m: &ChannelMismatch) -> String {
     if m.encoding.is_nan(m.actual) {
         return "not a number".to_owned();

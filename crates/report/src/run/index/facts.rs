@@ -98,7 +98,7 @@ pub(crate) fn of(record: &Record) -> Vec<(Label, String)> {
     facts
 }
 
-/// The facts that an entry under Findings has, as a list.
+/// Returns the facts that an entry under Findings has, as a list.
 pub(crate) fn list(record: &Record) -> Markup {
     let facts = of(record).into_iter();
     let facts: Vec<_> = facts.filter(|((.., in_body), _)| *in_body).collect();
@@ -117,7 +117,7 @@ pub(crate) fn list(record: &Record) -> Markup {
     }
 }
 
-/// The counts of samples by outcome.
+/// Returns the counts of samples by outcome.
 fn counts(record: &Record) -> String {
     let t = &record.texels;
     format!(
@@ -164,7 +164,7 @@ fn counted(c: &CounterOutcome) -> String {
     )
 }
 
-/// The end of a text that is too long for the page.
+/// Returns a text, or only its end if it is too long for the page.
 fn end(text: &str) -> String {
     match text.char_indices().rev().nth(LONGEST) {
         None => text.to_owned(),

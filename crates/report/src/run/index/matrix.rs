@@ -18,7 +18,7 @@ const LYING: usize = 8;
 /// Columns under one head.
 type ColumnGroup<'a> = (&'a str, Vec<usize>);
 
-/// The section: areas and their case files by API, then areas by driver.
+/// Returns the section: areas and their case files by API, then areas by driver.
 pub(crate) fn section(grid: &RunGrid<'_>) -> Markup {
     let columns = || grid.adapters.iter().enumerate();
     let api_of = |name: &str| match grid.run.header.adapter(name) {
@@ -109,7 +109,7 @@ fn table(grid: &RunGrid<'_>, groups: &[ColumnGroup<'_>], caption: &str, files: b
     }
 }
 
-/// The name of a case file within its area.
+/// Returns the name of a case file within its area.
 fn within<'a>(area: &str, file: &'a str) -> &'a str {
     let name = file
         .strip_prefix(area)
@@ -117,7 +117,7 @@ fn within<'a>(area: &str, file: &'a str) -> &'a str {
     name.unwrap_or(file)
 }
 
-/// The cell of some records: a number and a bar. `edge` is true in the first column of a group.
+/// Returns the cell of some records: a number and a bar. `edge` is true in the first column of a group.
 fn cell<'r>(
     records: impl Iterator<Item = &'r Record>,
     edge: bool,
@@ -144,7 +144,7 @@ fn cell<'r>(
     }
 }
 
-/// The ends of a bar's parts, in percent.
+/// Returns the ends of a bar's parts, in percent.
 fn bar(tally: &VerdictTally) -> String {
     let mut end = 0;
     let parts = [
@@ -159,7 +159,7 @@ fn bar(tally: &VerdictTally) -> String {
     ends.collect::<Vec<_>>().join(";")
 }
 
-/// `3 fail, 12 fail (expected), 200 pass`.
+/// Returns the counts in words: `3 fail, 12 fail (expected), 200 pass`.
 fn words(tally: &VerdictTally) -> String {
     let entries = tally.entries();
     let words = entries.map(|(verdict, tone, n)| format!("{n} {}{}", name(verdict), tone.suffix()));

@@ -12,7 +12,7 @@ use maud::{Markup, html};
 /// The most rows of each list.
 const ROWS: usize = 500;
 
-/// The failures that were expected: a row per reason.
+/// Returns the failures that were expected: a row per reason.
 pub(super) fn known(run: &Run) -> Markup {
     let reasons = known_reasons(run);
     html! {
@@ -29,7 +29,7 @@ pub(super) fn known(run: &Run) -> Markup {
     }
 }
 
-/// The cases that were not drawn: a row per reason.
+/// Returns the cases that were not drawn: a row per reason.
 pub(super) fn not_drawn(run: &Run) -> Markup {
     let reasons = undrawn(run);
     html! {
@@ -63,7 +63,7 @@ fn table(caption: &str, reasons: &[ReasonRecords]) -> Markup {
     }
 }
 
-/// The adapters of a reason; many of them behind their number.
+/// Returns the adapters of a reason; if there are many, folded behind their number.
 fn adapters(reason: &ReasonRecords) -> Markup {
     let list = reason.each().join(", ");
     html! {
@@ -73,7 +73,7 @@ fn adapters(reason: &ReasonRecords) -> Markup {
     }
 }
 
-/// The dead expectations.
+/// Returns the dead expectations.
 pub(super) fn dead(dead: &[Dead]) -> Markup {
     html! {
         @if !dead.is_empty() {
