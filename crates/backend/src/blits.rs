@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn copies_undo_blits() {
+    fn copies_undo_the_blits() {
         let aspects = [Aspect::Depth, Aspect::Stencil];
         for (end, size) in ENDS.iter().flat_map(|end| [(*end, [5, 4]), (*end, [1, 7])]) {
             let blits = Blits::new(end, size).expect("it moves texels");

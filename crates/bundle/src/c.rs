@@ -90,7 +90,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_text_leaves_its_literal() {
+    fn hostile_texts_stay_in_their_literal() {
         assert_eq!(
             string("a\"; system(\"rm\\\n??/é"),
             "\"a\\\"; system(\\\"rm\\\\\\n?\\?/\\303\\251\""
@@ -100,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn no_text_leaves_its_comment() {
+    fn hostile_texts_stay_in_their_comment() {
         for hostile in ["*/ int main", "*\u{0}/", "a\\\nb", "/* */", "??/", "*/*/"] {
             let text = comment(hostile);
             assert!(!text.contains("*/") && !text.contains("/*"), "{text}");

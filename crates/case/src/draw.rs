@@ -765,7 +765,7 @@ mod tests {
     }
 
     #[test]
-    fn shares_of_one_sample_are_allowed_and_senseless_ones_are_not() {
+    fn shares_for_one_sample_are_allowed_and_invalid_ones_are_not() {
         let shading = |share| Multisample {
             min_sample_shading: Some(share),
             ..Multisample::default()

@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn axes_of_one_length_do_not_go_in_step() {
+    fn axes_of_equal_length_do_not_advance_together() {
         let rows = rows(&[8, 8], Cover::Each(1));
         assert_eq!(rows.len(), 8);
         assert!(rows.iter().all(|r| r[0] != r[1]), "{rows:?}");

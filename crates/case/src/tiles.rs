@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tile_without_a_colour_has_none() {
+    fn a_tile_without_a_colour_is_not_drawn() {
         let draws = pass(json!({ "size": [3, 5], "colors": [1, null] }), "full");
         assert_eq!(draws.expect("it fits").draws.len(), 2);
     }

@@ -220,7 +220,7 @@ mod tests {
         assert_eq!(some.globs("blend/f", &drawn), None);
     }
     #[test]
-    fn globs_end_where_ids_do_and_take_axes_whole() {
+    fn globs_of_a_condition_match_whole_axes_and_end_with_the_id() {
         let ids: Vec<String> = ["a", "b"]
             .into_iter()
             .flat_map(|x| ["a", "b"].map(|y| format!("f/back-mode={x}/mode={y}")))

@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn a_vertex_behind_the_eye_opens_the_triangle() {
+    fn a_triangle_with_a_vertex_behind_the_eye_is_open_on_one_side() {
         // The third vertex is behind the eye and projects to below the first two; the part in front of the
         // eye is above them.
         let triangle = vertices([(0.0, 0.0, 1.0), (64.0, 0.0, 1.0), (32.0, 64.0, -1.0)]);

@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn a_counter_is_wrong_alone() {
+    fn a_counter_symptom_needs_right_texels() {
         let occlusion = symptom(r#"{ "counter": "samples-passed" }"#);
         let mut counted = record(&[]);
         counted.counters = vec![CounterOutcome {

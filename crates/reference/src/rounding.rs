@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn short_significands_round_away_on_both_sides() {
+    fn short_significands_widen_an_interval_on_both_sides() {
         let widened = |low, high| to_significand(2, Interval { low, high });
         for (low, high, outer) in [
             (0.3, 0.3, (0.25, 0.375)),

@@ -637,7 +637,7 @@ mod tests {
     }
 
     #[test]
-    fn samples_lie_side_by_side_and_large_images_are_cut() {
+    fn samples_are_shown_side_by_side_and_large_images_are_cut() {
         let four = strip(&image(4, [16, 16])).unwrap();
         assert_eq!(four.pictures[0].size, [(4 * 17 - 1) * 8, 128]);
         let large = strip(&image(1, [1280, 720])).unwrap();

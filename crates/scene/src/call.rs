@@ -302,7 +302,7 @@ mod tests {
     }
 
     #[test]
-    fn instances_are_parts_of_the_mesh() {
+    fn instances_draw_the_parts_of_an_instanced_mesh() {
         let colors = [[1.0; 4], [0.5; 4], [0.25; 4]];
         for indices in [None, Some(vec![0, 1, 2, RESTART, 1, 2, 3])] {
             let mut draw = draw(

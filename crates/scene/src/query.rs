@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn a_query_spans_what_its_scope_says() {
+    fn a_query_spans_the_draws_or_passes_of_its_scope() {
         let passes: &[&[&[usize]]] = &[&[&[0, 2], &[1, 0], &[1], &[0]], &[], &[&[0]]];
         assert_eq!(
             spans(&scene(QueryScope::Draw, passes)),

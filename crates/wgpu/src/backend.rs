@@ -353,7 +353,7 @@ mod tests {
     }
 
     #[test]
-    fn drivers_have_their_well_known_names() {
+    fn drivers_get_their_well_known_names() {
         let llvmpipe = "llvmpipe (llvm 15.0.6, 256 bits) llvmpipe";
         assert_eq!(driver(Via::Vulkan, llvmpipe), "lavapipe");
         assert_eq!(driver(Via::Gl, llvmpipe), "llvmpipe");

@@ -224,7 +224,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_structure_is_a_dictionary() {
+    fn a_structure_becomes_a_dictionary_in_the_script() {
         let size = Structure::of("wgpu::Extent3d")
             .with("width", Code::same("4"))
             .with("depth_or_array_layers", Code::same("1"));

@@ -266,7 +266,7 @@ mod tests {
         );
     }
     #[test]
-    fn no_text_leaves_its_literal() {
+    fn hostile_texts_stay_in_their_literal() {
         let code = string("a\"; b\\\n\u{202e}</script>\u{1f600}");
         assert_eq!(code.rust, "\"a\\\"; b\\\\\\n\\u{202e}</script>\\u{1f600}\"");
         assert_eq!(
@@ -308,7 +308,7 @@ mod tests {
     }
 
     #[test]
-    fn flags_are_a_union() {
+    fn flags_are_written_as_a_union() {
         let code = TEXTURE_USAGES.union(0x11);
         assert_eq!(
             code.rust,

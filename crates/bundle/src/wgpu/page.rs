@@ -165,7 +165,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_text_becomes_an_element() {
+    fn hostile_texts_become_no_element() {
         assert_eq!(escaped("a<script>&\n"), "a&lt;script&gt;&amp; ");
     }
 }

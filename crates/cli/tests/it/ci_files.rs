@@ -711,7 +711,7 @@ fn scripts() -> Vec<PathBuf> {
 }
 
 #[test]
-fn a_userland_is_made_only_where_nothing_is_lost() {
+fn a_userland_is_not_made_in_a_folder_with_foreign_files() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("own"), "kept").unwrap();
     let container = |arguments: &[&Path]| {

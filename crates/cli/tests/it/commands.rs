@@ -624,7 +624,7 @@ fn misspelt_names_get_a_suggestion() {
 }
 
 #[test]
-fn show_tells_a_case_and_draws_it() {
+fn show_describes_a_case_and_draws_it() {
     let folder = tempfile::tempdir().unwrap();
     let png = folder.path().join("case.png");
     let id = "stencil/masks-zero/compare=less/format=depth24plus-stencil8";
@@ -651,7 +651,7 @@ fn show_tells_a_case_and_draws_it() {
 }
 
 #[test]
-fn show_tells_the_kernels_of_a_case() {
+fn show_describes_the_kernels_of_a_case() {
     let shown = |id: &str| {
         let output = etalon(&["show", id, "--kernels"]).output().unwrap();
         String::from_utf8(output.stdout).unwrap()
@@ -667,7 +667,7 @@ fn show_tells_the_kernels_of_a_case() {
 }
 
 #[test]
-fn a_run_has_its_cases_beside_its_page() {
+fn a_run_writes_its_cases_next_to_its_page() {
     let out = tempfile::tempdir().unwrap();
     etalon(&[
         "run",

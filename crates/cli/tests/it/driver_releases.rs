@@ -184,7 +184,7 @@ fn a_release_of_chromium_is_unpacked_once() {
 }
 
 #[test]
-fn a_release_of_chromium_that_is_not_there_is_an_error() {
+fn a_missing_release_of_chromium_is_an_error() {
     let place = Place::new();
     for wrong in [&[][..], &["123"], &["123", "new", "more"]] {
         says(&place.run("chromium", wrong), 64, &["usage"]);
@@ -252,7 +252,7 @@ fn a_suite_of_debian_is_unpacked_once() {
 }
 
 #[test]
-fn a_suite_of_debian_that_is_not_there_is_an_error() {
+fn a_missing_suite_of_debian_is_an_error() {
     let place = Place::new();
     for wrong in [&[][..], &["sid"], &["sid", "new", "more"]] {
         says(&place.run("mesa", wrong), 64, &["usage"]);

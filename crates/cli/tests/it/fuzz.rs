@@ -240,7 +240,7 @@ fn the_rasterizer_passes_all_scenes() {
 }
 
 #[test]
-fn a_scene_that_ends_its_worker_is_kept_and_the_search_goes_on() {
+fn a_scene_that_ends_its_worker_is_kept_and_the_search_continues() {
     let folder = TempDir::new().unwrap();
     let adapter = "cpu:fault=abort@scissor";
     let (code, summary, error) = fuzz(adapter, folder.path(), &["--count", "60"]);

@@ -211,7 +211,7 @@ fn a_real_run_is_added_once() {
 }
 
 #[test]
-fn the_file_is_named_by_flag_or_variable_or_lies_beside_the_reports() {
+fn the_file_is_named_by_flag_or_variable_or_is_beside_the_reports() {
     let place = Place::new();
     let run = place.run(1, "1", &GOOD);
     let add = |variable: Option<&Path>| {

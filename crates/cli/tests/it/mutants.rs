@@ -140,7 +140,7 @@ fn a_survivor_without_proof_is_a_failure_and_the_report_names_it() {
 }
 
 #[test]
-fn a_glob_without_a_match_is_nothing_selected() {
+fn a_glob_without_a_match_selects_nothing() {
     etalon(&["mutants", "no/such/bug"]).code(4);
     etalon(&["mutants", "--case", "no/such/case"]).code(4);
     etalon(&["mutants", "--case", "selftest"]).code(4);

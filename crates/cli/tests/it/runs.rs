@@ -159,7 +159,7 @@ fn one_record_per_case_and_adapter() {
 }
 
 #[test]
-fn every_adapter_that_is_found_draws_a_bit_of_everything() {
+fn every_adapter_that_is_found_draws_some_cases_as_expected() {
     let output = etalon(&["adapters", "--format", "json"]).assert().code(0);
     let found: Value = serde_json::from_slice(&output.get_output().stdout).unwrap();
     let found: BTreeSet<String> = found

@@ -54,7 +54,7 @@ fn the_texture_is_full_at_one_border_and_empty_at_the_other() {
 }
 
 #[test]
-fn cards_are_sorted_and_their_borders_lie_on_those_of_texels() {
+fn cards_are_sorted_and_their_borders_coincide_with_those_of_texels() {
     for scale in [0.5, 0.75, 1.0, 1.5, 2.0, 4.0] {
         let cards = cards(scale);
         let depth = |card: &Polygon| card.corners.iter().map(|c| c[2]).sum::<f64>();

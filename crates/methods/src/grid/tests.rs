@@ -7,7 +7,7 @@ use crate::view::{View, cuboid};
 const SIZE: [u32; 2] = [128, 128];
 
 #[test]
-fn settled_triangles_lie_on_the_grid_leave_no_gaps_and_touch_no_centre() {
+fn settled_triangles_are_on_the_grid_without_gaps_and_touch_no_centre() {
     let eye = DVec3::new(1.0, 1.4, 2.6);
     let view = View::perspective(SIZE, [eye, DVec3::ZERO], 60.0, [0.1, 30.0]);
     let faces = cuboid(DVec3::splat(-1.0), DVec3::splat(1.0), [1.0; 4]);

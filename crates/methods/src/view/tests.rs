@@ -58,7 +58,7 @@ fn window_depth_is_0_at_the_near_and_1_at_the_far_plane() {
 }
 
 #[test]
-fn a_point_is_seen_where_its_ray_meets_the_picture() {
+fn a_point_appears_where_its_ray_meets_the_picture() {
     let eye = DVec3::new(0.0, 0.0, 5.0);
     let view = View::perspective(SIZE, [eye, DVec3::ZERO], 90.0, [1.0, 9.0]);
     // A square of 2 at distance 5, a fifth of the height that is seen there.

@@ -113,7 +113,7 @@ proptest! {
     #![proptest_config(config(4000))]
 
     #[test]
-    fn a_plain_advanced_blend_into_8_bits_lies_inside_every_judged_one(blend in blends()) {
+    fn a_plain_advanced_blend_into_8_bits_is_inside_every_judged_interval(blend in blends()) {
         let codes = plain(BYTE, &blend);
         for rules in all_rules() {
             let intervals = judged(&rules, BYTE, &blend);
@@ -122,7 +122,7 @@ proptest! {
     }
 
     #[test]
-    fn a_plain_advanced_blend_into_floats_lies_inside_every_judged_one(
+    fn a_plain_advanced_blend_into_floats_is_inside_every_judged_interval(
         (mode, src, dst) in blends()
     ) {
         let dst = dst.map(|c| (f32::from(c as u8) / 255.0).to_bits());

@@ -263,7 +263,7 @@ proptest! {
     }
 
     #[test]
-    fn a_plain_blend_into_8_bits_lies_inside_every_judged_one(blend in blends()) {
+    fn a_plain_blend_into_8_bits_is_inside_every_judged_interval(blend in blends()) {
         let encoding = ChannelEncoding::Unorm(8);
         let codes = plain(encoding, &blend);
         for rules in all_rules() {
@@ -273,7 +273,7 @@ proptest! {
     }
 
     #[test]
-    fn a_plain_blend_into_floats_lies_inside_every_judged_one(
+    fn a_plain_blend_into_floats_is_inside_every_judged_interval(
         (state, src, constant, dst, src1) in
             (state(), [value(), value(), value(), value()], [value(), value(), value(), value()],
              [value(), value(), value(), value()], [value(), value(), value(), value()])
@@ -298,7 +298,7 @@ proptest! {
     }
 
     #[test]
-    fn plain_stores_lie_inside_every_judged_one(
+    fn a_plain_store_is_inside_every_judged_interval(
         depth in prop_oneof![0.0_f32..=1.0, value(), (0_u32..=0x3f80_0000).prop_map(f32::from_bits)]
     ) {
         for encoding in [
@@ -327,7 +327,7 @@ proptest! {
     }
 
     #[test]
-    fn plain_decoding_and_storing_again_lies_inside_every_judged_one(code in 0_u32..1 << 24) {
+    fn a_plain_round_trip_of_a_code_is_inside_every_judged_interval(code in 0_u32..1 << 24) {
         for bits in [8, 16, 24] {
             let encoding = ChannelEncoding::Unorm(bits);
             let code = code & ((1 << bits) - 1);
@@ -349,7 +349,7 @@ proptest! {
     }
 
     #[test]
-    fn a_plain_window_position_in_the_viewport_lies_inside_every_judged_one(
+    fn a_plain_window_position_in_the_viewport_is_inside_every_judged_interval(
         position in [-1.0_f32..=1.0, -1.0_f32..=1.0, 0.0_f32..=1.0],
         viewport in viewport(),
     ) {
@@ -357,7 +357,7 @@ proptest! {
     }
 
     #[test]
-    fn a_plain_window_position_anywhere_lies_inside_every_judged_one(
+    fn a_plain_window_position_anywhere_is_inside_every_judged_interval(
         position in [-64.0_f32..=64.0, -64.0_f32..=64.0, 0.0_f32..=1.0],
         viewport in viewport(),
     ) {
@@ -384,7 +384,7 @@ proptest! {
     #![proptest_config(config(20_000))]
 
     #[test]
-    fn powers_and_roots_lie_inside_the_judged_ones((value, [below, above]) in argument()) {
+    fn powers_and_roots_are_inside_the_judged_intervals((value, [below, above]) in argument()) {
         let exact = f64::from(value);
         let judged = Range::same(Interval::between(exact - below, exact + above));
         for rules in all_rules() {

@@ -139,7 +139,7 @@ proptest! {
     #![proptest_config(config(3000))]
 
     #[test]
-    fn a_plain_fragment_lies_inside_every_judged_one(inputs in inputs()) {
+    fn a_plain_fragment_is_inside_every_judged_one(inputs in inputs()) {
         for shader in Shader::ALL.iter().copied() {
             let plain = plain(shader, &inputs);
             for rules in all_rules() {

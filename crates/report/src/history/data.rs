@@ -399,7 +399,7 @@ mod tests {
     }
 
     #[test]
-    fn files_hold_whole_texts() {
+    fn texts_are_never_split_between_files() {
         let mut packed = Files::default();
         let long = "x".repeat(60_000);
         for number in 0..3 {

@@ -318,7 +318,7 @@ fn the_summary_holds_no_markup_of_others() {
 }
 
 #[test]
-fn the_summary_tells_counts_records_and_commands() {
+fn the_summary_has_counts_records_and_commands() {
     let folder = tempfile::tempdir().unwrap();
     let mut records = every_verdict(folder.path());
     let header = header(records.len() as u64, vec![adapter("gl:a", Api::OpenGl)]);

@@ -564,7 +564,7 @@ fn hostile_names_of_methods_stay_text() {
 }
 
 #[test]
-fn pictures_of_methods_are_shown_when_they_are_pictures() {
+fn pictures_of_methods_are_shown_only_if_they_are_pictures() {
     let folder = tempfile::tempdir().unwrap();
     synthetic::methods::write(folder.path());
     let mut run = Run::read(folder.path()).unwrap();

@@ -51,7 +51,7 @@ fn kinds(change: Option<CaseChange>) -> (ChangeDirection, Vec<&'static str>) {
 }
 
 #[test]
-fn each_planted_change_is_found_as_what_it_is() {
+fn each_planted_change_is_found_with_its_kind() {
     let fail = planted(|r| r.verdict = Verdict::Fail);
     assert_eq!(
         kinds(fail),

@@ -221,7 +221,7 @@ proptest! {
     }
 
     #[test]
-    fn many_textures_lie_within_the_stated_error(
+    fn many_textured_pictures_are_within_the_stated_error(
         surfaces in vec(
             (texture(), vec(uniform2(-1.0..2.0), 4), 0.0..1.0_f64),
             4..9,

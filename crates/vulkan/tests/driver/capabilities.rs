@@ -57,7 +57,7 @@ fn adapters_are_named_by_their_drivers() {
 }
 
 #[test]
-fn a_device_that_is_not_there_is_unavailable() {
+fn a_missing_device_is_unavailable() {
     let options = VulkanOptions {
         device: 1000,
         validate: false,

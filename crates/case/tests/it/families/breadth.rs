@@ -175,7 +175,7 @@ fn target_logic(case: &Case) -> Option<LogicOperation> {
 }
 
 #[test]
-fn biases_go_both_ways() {
+fn every_family_of_biases_has_positive_and_negative_ones() {
     for family in all_families("depth/bias-") {
         let biases = all_cases(&family).into_iter().map(|c| {
             let draws = c.scene.passes.into_iter().flat_map(|p| p.draws);
@@ -294,7 +294,7 @@ fn clipping_meets_every_kind_of_w() {
 }
 
 #[test]
-fn interpolation_is_tried_in_every_way() {
+fn interpolation_is_tested_in_every_way() {
     let cases = all_cases("texture/interpolation/");
     let draws = || cases.iter().flat_map(|case| &case.scene.passes[0].draws);
     for shader in Shader::ALL {

@@ -21,7 +21,7 @@ fn state(draw: &Draw) -> Draw {
 }
 
 #[test]
-fn coverage_is_tried_where_the_first_target_has_no_alpha_to_store() {
+fn coverage_is_tested_with_a_first_target_that_stores_no_alpha() {
     let mut masked = BTreeSet::new();
     let mut formats = BTreeSet::new();
     for case in all_cases("multisample/coverage-targets/") {
@@ -151,7 +151,7 @@ fn the_middle_of_each_viewport_is_outside_its_attachment() {
 }
 
 #[test]
-fn vertices_lie_beside_each_side_of_the_viewport_and_inside() {
+fn vertices_are_beyond_each_side_of_the_viewport_and_inside() {
     for case in all_cases("scissor/viewport-beside/") {
         let draw = &case.scene.passes[0].draws[0];
         let places = draw.mesh.vertices.iter().map(|v| v.position);
@@ -173,7 +173,7 @@ fn vertices_lie_beside_each_side_of_the_viewport_and_inside() {
 }
 
 #[test]
-fn references_lie_outside_of_masks_that_write() {
+fn many_references_have_no_bit_in_a_nonzero_write_mask() {
     let mut outside = 0;
     for case in all_cases("stencil/reference-outside-mask/") {
         let tested = draws(&case).pop().and_then(|draw| draw.stencil);

@@ -208,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn one_against_two_is_odd_and_one_against_one_is_not() {
+    fn one_adapter_against_two_is_odd_and_one_against_one_is_not() {
         let text = "only c differs: fail";
         lies(&[Pass, Pass, Fail], Votes::Odd, &[2], text);
         let text = "only a differs: pass; others fail; open only on d";
@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn several_against_more_are_a_split() {
+    fn several_adapters_against_more_are_a_split() {
         let mut verdicts = [Pass; 9];
         verdicts[6..].fill(Fail);
         let text = "split 6:3, most are right";

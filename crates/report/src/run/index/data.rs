@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn no_text_can_end_the_block() {
+    fn hostile_texts_do_not_end_the_data_block() {
         let hostile = "</script><!--<script>\u{0}\u{2028}\"\\";
         let mut record = Record::new(format!("a/{hostile}"), hostile, Verdict::Crash);
         record.reasons = vec![Reason::Text(hostile.to_owned())];
