@@ -200,9 +200,9 @@ fn failed(kind: &ErrorKind, message: &str) -> String {
 #[derive(Clone, Debug, PartialEq, Eq, Error, Serialize, Deserialize)]
 #[error("{reason}; {remedy}")]
 pub struct Unavailable {
-    /// The reason.
+    /// The reason why the adapter cannot be used.
     pub reason: String,
-    /// The remedy.
+    /// Instructions to make it usable.
     pub remedy: String,
 }
 

@@ -9,7 +9,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Contents {
-    /// The attachment.
+    /// The name of the attachment.
     pub attachment: String,
     /// The aspect.
     pub aspect: Aspect,

@@ -25,7 +25,7 @@ pub struct SeriesKey {
 pub struct TimePoint {
     /// The run, which has the driver, the commit and the description of the ruler.
     pub run: RunId,
-    /// The times.
+    /// The frame times of the run.
     pub times: FrameTimes,
 }
 

@@ -61,7 +61,7 @@ pub enum NotServed {
 }
 
 impl NotServed {
-    /// Returns the remedy.
+    /// Returns what the user can do about it, as an imperative.
     pub fn remedy(&self) -> &'static str {
         match self {
             Self::Taken(_) => "end that server",

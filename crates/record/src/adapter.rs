@@ -60,6 +60,6 @@ pub struct AbsentAdapter {
     pub name: String,
     /// The cause.
     pub reason: String,
-    /// The remedy.
+    /// Instructions to make it usable.
     pub remedy: String,
 }

@@ -72,7 +72,7 @@ pub struct AreaTally {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sighting {
-    /// The case.
+    /// The case's id.
     pub case: String,
     /// `Fail` or `Imprecise`; `InternalError` if the case could not be drawn.
     pub verdict: Verdict,

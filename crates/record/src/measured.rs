@@ -42,9 +42,9 @@ pub struct Measured {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Parameter {
-    /// The axis.
+    /// The name of the axis.
     pub name: String,
-    /// The value.
+    /// Its value in the case.
     pub value: f64,
 }
 

@@ -42,9 +42,9 @@ pub struct Since {
 /// A record with a note.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct NewsEntry {
-    /// The case.
+    /// The case's id.
     pub case: String,
-    /// The adapter.
+    /// The adapter's name.
     pub adapter: String,
     /// The verdict of this run.
     pub verdict: Verdict,

@@ -26,7 +26,7 @@ pub struct Call<'a> {
     pub base_vertex: i32,
     /// The colours in the buffer that advances once per instance; empty if colours come from vertices.
     pub colors: Vec<[f32; 4]>,
-    /// The first instance.
+    /// The index of the first instance.
     pub first_instance: u32,
     /// The number of instances.
     pub instances: u32,

@@ -44,7 +44,7 @@ pub struct BenchComparison {
     pub ratio: Ratio,
     /// The ratio of the times in units of the ruler, if both benches have one.
     pub ruled: Option<Ratio>,
-    /// The conclusion.
+    /// The conclusion from both ratios.
     pub outcome: Conclusion,
 }
 

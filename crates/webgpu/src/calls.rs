@@ -181,7 +181,7 @@ pub enum TextureAspect {
 /// A view of one level of one layer, or of a whole 3D texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct TextureView {
-    /// The texture.
+    /// The index of the texture.
     pub texture: usize,
     /// The level and layer of a 2D texture; `None` for the whole of a 3D texture.
     pub part: Option<[u32; 2]>,
@@ -205,7 +205,7 @@ pub struct Buffer {
 /// A bind group.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct BindGroup {
-    /// The layout.
+    /// The index of the bind group layout.
     pub layout: usize,
     /// The resources, each with its binding number.
     pub entries: Vec<(u32, Binding)>,
@@ -348,9 +348,9 @@ pub struct BufferRows {
 /// A part of a texture that begins at a texel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TexturePart {
-    /// The texture.
+    /// The index of the texture.
     pub texture: usize,
-    /// The level.
+    /// The level, 0 for the largest.
     pub level: u32,
     /// The column, row, and layer or slice.
     pub origin: [u32; 3],
@@ -376,7 +376,7 @@ pub struct RenderPass {
 /// A colour attachment of a pass.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ColorAttachment {
-    /// The view.
+    /// The index of the view.
     pub view: usize,
     /// The slice of a 3D texture.
     pub depth_slice: Option<u32>,
@@ -416,7 +416,7 @@ impl<V> Filled<V> {
 /// The depth and stencil attachment of a pass.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DepthStencilAttachment {
-    /// The view.
+    /// The index of the view.
     pub view: usize,
     /// The access to depth.
     pub depth: Access<f32>,

@@ -111,7 +111,7 @@ pub struct PageTimes {
 /// A failure of the device.
 #[derive(Debug, Deserialize)]
 pub struct Failed {
-    /// The kind.
+    /// The kind of the failure.
     pub kind: FailedKind,
     /// The operation that failed.
     pub what: String,

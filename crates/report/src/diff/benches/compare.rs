@@ -55,9 +55,9 @@ pub struct BenchFacts {
 /// A case on an adapter that was timed in both benches. Times are in seconds; ratios are after over before.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TimeChange {
-    /// The case.
+    /// The case's id.
     pub case: String,
-    /// The adapter.
+    /// The adapter's name.
     pub adapter: String,
     /// True if the adapter draws with the processor.
     pub software: bool,
@@ -107,9 +107,9 @@ fn by_name<S: Serializer>(outcome: &Conclusion, serializer: S) -> Result<S::Ok, 
 /// A case on an adapter that has times in one bench only.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Untimed {
-    /// The case.
+    /// The case's id.
     pub case: String,
-    /// The adapter.
+    /// The adapter's name.
     pub adapter: String,
     /// True if the times are missing in the second bench, false if they are missing in the first.
     pub from_after: bool,

@@ -25,9 +25,9 @@ pub enum InstructionOutcome {
 /// A case on an adapter whose instructions were counted in both benches.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct InstructionChange {
-    /// The case.
+    /// The case's id.
     pub case: String,
-    /// The adapter.
+    /// The adapter's name.
     pub adapter: String,
     /// The result.
     pub outcome: InstructionOutcome,

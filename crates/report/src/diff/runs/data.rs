@@ -243,17 +243,17 @@ pub struct Transition {
 /// A case whose records differ in more than their times.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CaseChange {
-    /// The case.
+    /// The case's id.
     pub case: String,
     /// The case's id without axis values.
     pub case_file: String,
-    /// The adapters.
+    /// The adapter in each run.
     pub adapter: [String; 2],
-    /// The direction.
+    /// The direction of the change.
     pub direction: ChangeDirection,
     /// The parts that differ: `verdict`, `expectation`, `frame`, and the kinds of [`Detail::what`].
     pub what: Vec<&'static str>,
-    /// The verdicts.
+    /// The verdict in each run.
     pub verdict: [Verdict; 2],
     /// True for each record that is unexpected.
     pub unexpected: [bool; 2],
@@ -305,7 +305,7 @@ impl FrameChange {
 /// One image of two frames.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct ImageChange {
-    /// The attachment.
+    /// The name of the attachment.
     pub attachment: String,
     /// The aspect of the attachment.
     pub aspect: Aspect,
@@ -320,7 +320,7 @@ pub struct ImageChange {
 /// A case that only one run has a record of.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Only {
-    /// The case.
+    /// The case's id.
     pub case: String,
     /// The case's id without axis values.
     pub case_file: String,
@@ -338,7 +338,7 @@ pub struct Only {
 /// work is in progress.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AreaTime {
-    /// The adapters.
+    /// The adapter in each run.
     pub adapter: [String; 2],
     /// The area.
     pub area: String,
@@ -353,9 +353,9 @@ pub struct AreaTime {
 /// Frame times of a method: medians in seconds, measured while nothing else was drawn or judged.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MethodTime {
-    /// The case.
+    /// The case's id.
     pub case: String,
-    /// The adapters.
+    /// The adapter in each run.
     pub adapter: [String; 2],
     /// The time until the device was done.
     pub wall: [f64; 2],
