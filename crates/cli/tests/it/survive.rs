@@ -22,10 +22,10 @@ fn folder() -> tempfile::TempDir {
 }
 
 /// Runs cases on one adapter with a planted fault. Some must have this verdict, all others pass.
-fn with_fault(fault: &str, verdict: Verdict, more: &[&str]) -> Vec<Record> {
+fn with_fault(cases: &str, fault: &str, verdict: Verdict, more: &[&str]) -> Vec<Record> {
     let out = folder();
     let adapter = format!("cpu:fault={fault}");
-    etalon(&["run", "cull/*", "--adapter", &adapter, "--out"])
+    etalon(&["run", cases, "--adapter", &adapter, "--out"])
         .arg(out.path())
         .args(more)
         .assert()
@@ -47,14 +47,18 @@ fn with_fault(fault: &str, verdict: Verdict, more: &[&str]) -> Vec<Record> {
 
 /// The same for processes that are lost, with the way in which they ended.
 fn lost(fault: &str, verdict: Verdict, kind: LossKind, more: &[&str]) -> Vec<Record> {
-    let records = with_fault(fault, verdict, more);
-    for record in &records {
+    let records = with_fault("cull/*", fault, verdict, more);
+    assert_lost(&records, kind);
+    records
+}
+
+fn assert_lost(records: &[Record], kind: LossKind) {
+    for record in records {
         let end = record.process.as_ref().unwrap();
         assert_eq!(end.kind, kind, "{record:?}");
         assert!(end.seconds > 0.0 && end.seconds < 60.0, "{record:?}");
         assert!(!message(record).is_empty());
     }
-    records
 }
 
 #[test]
@@ -228,17 +232,16 @@ fn denied_requirements_are_reported_whatever_cases_run() {
 #[test]
 fn a_hang_costs_its_time_and_nothing_else() {
     for fault in ["hang", "spin"] {
-        for record in lost(
-            fault,
-            Verdict::Timeout,
-            LossKind::Timeout,
-            &["--timeout", "0.3"],
-        ) {
+        // Few cases, each with time enough for those that do not hang, also on a busy machine.
+        let more = ["--timeout", "3"];
+        let records = with_fault("cull/clipping/*", fault, Verdict::Timeout, &more);
+        assert_lost(&records, LossKind::Timeout);
+        for record in records {
             assert!(
-                message(&record).contains("no answer within 0.3 s"),
+                message(&record).contains("no answer within 3 s"),
                 "{record:?}"
             );
-            assert!(record.process.unwrap().seconds >= 0.3);
+            assert!(record.process.unwrap().seconds >= 3.0);
         }
     }
 }
@@ -262,15 +265,15 @@ fn garbage_in_place_of_a_frame_is_a_crash() {
 
 #[test]
 fn an_error_that_a_backend_reports_is_the_verdict_of_its_case() {
-    with_fault("lost", Verdict::DeviceLost, &[]);
-    with_fault("refused", Verdict::ResourceError, &[]);
-    let panics = with_fault("panic", Verdict::InternalError, &[]);
+    with_fault("cull/*", "lost", Verdict::DeviceLost, &[]);
+    with_fault("cull/*", "refused", Verdict::ResourceError, &[]);
+    let panics = with_fault("cull/*", "panic", Verdict::InternalError, &[]);
     assert!(message(&panics[0]).contains("a planted panic"));
 }
 
 #[test]
 fn validation_messages_fail_the_case_and_not_the_driver() {
-    for record in with_fault("validation", Verdict::InternalError, &[]) {
+    for record in with_fault("cull/*", "validation", Verdict::InternalError, &[]) {
         assert_eq!(
             record.validation,
             ["VUID-planted: a call that breaks the rules"]
@@ -339,8 +342,7 @@ fn a_verdict_that_changes_is_flaky_and_never_a_pass() {
 #[test]
 fn a_case_that_fails_only_after_another_names_it() {
     let mut culprits: BTreeMap<String, Vec<String>> = BTreeMap::new();
-    // With these seeds at most as many cases go wrong as are searched.
-    for seed in ["1", "9"] {
+    for seed in ["1", "2"] {
         let out = folder();
         etalon(&[
             "run",
@@ -363,6 +365,11 @@ fn a_case_that_fails_only_after_another_names_it() {
             Some(seed.to_owned())
         );
         for record in run.records.iter().filter(|r| r.verdict.is_bad()) {
+            // A run searches for some causes only; other cases are flaky for all that it knows.
+            if record.verdict == Verdict::Flaky {
+                assert!(record.after.is_empty(), "{record:?}");
+                continue;
+            }
             assert_eq!(record.verdict, Verdict::Fail, "{record:?}");
             assert_eq!(record.after.len(), 1, "{record:?}");
             assert_eq!(record.repeats, [Verdict::Pass]);
