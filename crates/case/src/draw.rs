@@ -26,6 +26,7 @@ pub(crate) struct DrawTarget<'a> {
     pub(crate) pool: Option<Pool>,
 }
 
+/// Returns the draw that a case file describes. One key of a draw after the other.
 pub(crate) fn draw(wire: &DrawWire, target: &DrawTarget<'_>) -> Result<Draw, At> {
     let DrawTarget {
         size,

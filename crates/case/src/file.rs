@@ -49,6 +49,7 @@ pub struct CaseRef<'a> {
 
 impl CaseFile {
     /// Parses a case file. `name` is the path below the cases folder, with `.json`.
+    /// One check after the other, each with its place.
     ///
     /// # Errors
     /// With file, line and key, if the text is not JSON, a key is unknown or an axis is unusable. Scenes are

@@ -23,7 +23,7 @@ pub(crate) fn check_path(scene: &Scene) -> Result<(), At> {
     Ok(())
 }
 
-/// Returns the reason why a value applies to nothing in the scene.
+/// Returns the reason why a value applies to nothing in the scene. One arm per value.
 fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
     let any = |holds: &dyn Fn(usize, &Attachment) -> bool| {
         let mut attachments = scene.attachments.iter().enumerate();

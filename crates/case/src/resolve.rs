@@ -96,6 +96,7 @@ fn check_pool(wire: &SceneWire) -> Result<(), At> {
     }
 }
 
+/// Returns the pass that a case file describes. One key of a pass after the other.
 fn pass(
     wire: &PassWire,
     attachments: &[Attachment],

@@ -52,7 +52,7 @@ entry_points! {
 }
 
 impl EntryPoints {
-    /// Loads the entry points that the version and the extensions define.
+    /// Loads the entry points that the version and the extensions define. One entry per function.
     pub(crate) fn load(
         egl: &EglContext,
         es: bool,

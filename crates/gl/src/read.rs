@@ -337,7 +337,7 @@ fn narrowed(wide: &[u32], channels: &[ChannelEncoding]) -> Vec<u32> {
 }
 
 /// Reads a single-sample surface with `glReadPixels`: colour, depth, or else stencil, and the stencil if it
-/// is packed with depth.
+/// is packed with depth. One branch per aspect.
 fn copy(
     context: &Context,
     source: &ReadSource<'_>,

@@ -17,7 +17,7 @@ const MANY: usize = 4096;
 /// The start of the ids of round trips.
 const ROUND_TRIPS: &str = "capabilities/round-trip/format=";
 
-/// Begins a run.
+/// Begins a run. One step of the opening after the other.
 ///
 /// # Errors
 /// If the selection is empty, a glob does not parse, or the device lacks a limit.

@@ -97,27 +97,19 @@ impl Expectations {
         let excuses = Excuses::of(self, run);
         let mut reaches = Vec::new();
         for (number, known) in self.all().iter().enumerate() {
-            let mut part = |kind, glob: String| {
-                dead.push(Dead {
-                    kind,
-                    place: known.place(),
-                    about: glob,
-                });
-            };
+            let mut parts = Vec::new();
             if !sound(known) {
-                for (text, glob) in known.cases.iter().zip(self.case_globs(number)) {
-                    let parts = ids.parts_without(text, glob, &left).into_iter();
-                    parts.for_each(|glob| part(DeadKind::NoCase, glob));
-                }
-                for glob in &known.adapters {
-                    let parts = names.parts_without(glob).into_iter();
-                    parts.for_each(|glob| part(DeadKind::NoAdapter, glob));
-                }
+                parts = self.unmatched(number, &ids, &mut names, &left);
             }
             if self.expired(known) {
                 let last = known.expires.as_deref().unwrap_or_default();
-                part(DeadKind::Expired, format!("{last}: {}", known.reason));
+                parts.push((DeadKind::Expired, format!("{last}: {}", known.reason)));
             }
+            dead.extend(parts.into_iter().map(|(kind, about)| Dead {
+                kind,
+                place: known.place(),
+                about,
+            }));
             if !self.applies(number) || all_sound && excuses.adapters(number).is_empty() {
                 // An expectation for another machine or run can name cases and adapters that are missing
                 // here. One for other adapters can only cover one.
@@ -135,6 +127,10 @@ impl Expectations {
                 first.map(|first| NamedPairs { first, adapters })
             };
             reaches.push(reach);
+        }
+        if reaches.iter().all(Option::is_none) {
+            // No entry needs the ids.
+            return DeadSearch::of(dead, &left);
         }
         let naming = self.naming_first(&ids, &reaches, &left);
         for (number, known) in self.all().iter().enumerate() {
@@ -189,11 +185,28 @@ impl Expectations {
                 about,
             }));
         }
-        dead.sort_by_key(|d| d.kind);
-        DeadSearch {
-            dead,
-            is_complete: left.get() > 0,
+        DeadSearch::of(dead, &left)
+    }
+
+    /// Returns the globs of an expectation, or their alternatives, that match nothing.
+    fn unmatched(
+        &self,
+        number: usize,
+        ids: &Ids,
+        names: &mut SortedNames,
+        left: &Cell<u64>,
+    ) -> Vec<(DeadKind, String)> {
+        let known = &self.all()[number];
+        let mut parts = Vec::new();
+        for (text, glob) in known.cases.iter().zip(self.case_globs(number)) {
+            let without = ids.parts_without(text, glob, left).into_iter();
+            parts.extend(without.map(|part| (DeadKind::NoCase, part)));
         }
+        for glob in &known.adapters {
+            let without = names.parts_without(glob).into_iter();
+            parts.extend(without.map(|part| (DeadKind::NoAdapter, part)));
+        }
+        parts
     }
 
     /// Returns the expectations that name the first case of one, by this case, as long as comparisons are left.
@@ -204,10 +217,6 @@ impl Expectations {
         left: &Cell<u64>,
     ) -> HashMap<usize, Vec<usize>> {
         let firsts: BTreeSet<usize> = reaches.iter().flatten().map(|reach| reach.first).collect();
-        if firsts.is_empty() {
-            // No entry needs the ids.
-            return HashMap::new();
-        }
         let firsts: Vec<usize> = firsts.into_iter().collect();
         // Both are in the order of the ids.
         let named = Ids::new(firsts.iter().map(|first| &ids.sorted[*first]));
@@ -233,6 +242,16 @@ pub struct DeadSearch {
     pub dead: Vec<Dead>,
     /// False if there were too many globs to compare all: others can be dead too.
     pub is_complete: bool,
+}
+
+impl DeadSearch {
+    fn of(mut dead: Vec<Dead>, left: &Cell<u64>) -> Self {
+        dead.sort_by_key(|d| d.kind);
+        Self {
+            dead,
+            is_complete: left.get() > 0,
+        }
+    }
 }
 
 /// Counts a comparison; returns false if none is left.

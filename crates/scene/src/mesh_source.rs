@@ -218,7 +218,7 @@ fn one_splat() -> Vec<Splat> {
 }
 
 impl MeshSource {
-    /// Returns the mesh for a viewport of a size in texels.
+    /// Returns the mesh for a viewport of a size in texels. One arm per kind of mesh.
     ///
     /// # Errors
     /// If a list is empty, a rectangle is empty or reaches outside, or a part would be narrower than a texel.

@@ -135,7 +135,7 @@ fn resolve_features(resolve: &DepthStencilResolve, both: bool) -> Vec<Feature> {
     needed
 }
 
-/// Returns the features that a draw needs with attachments of this size.
+/// Returns the features that a draw needs with attachments of this size. One condition per feature.
 fn features(draw: &Draw, size: [u32; 2]) -> Vec<Feature> {
     let mut needed = Vec::new();
     let mut need = |when: bool, feature: Feature| {

@@ -11,7 +11,7 @@ use etalon_backend::{Blit, Blits};
 use etalon_frame::Aspect;
 
 /// Records the blits of an attachment to the intermediate image `between`, and from there the copies, or the
-/// filtered blit, to `copy`.
+/// filtered blit, to `copy`. One sequence of barriers and commands.
 ///
 /// # Safety
 /// `commands` is being recorded. The attachment has the layout of a transfer source, `copy` that of a

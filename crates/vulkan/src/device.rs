@@ -435,6 +435,7 @@ fn used_features(has: &vk::PhysicalDeviceFeatures) -> vk::PhysicalDeviceFeatures
 }
 
 impl Device {
+    /// Creates the device with everything that cases can use. It is one call, and its structures must outlive it.
     pub(crate) fn new(
         instance: Rc<Instance>,
         physical: vk::PhysicalDevice,

@@ -303,6 +303,7 @@ pub(crate) fn create_layout(
     Ok(PipelineLayouts { set, pipeline })
 }
 
+/// Creates a pipeline. It is one call, and its structures must outlive it.
 fn create(
     device: &Device,
     cache: vk::PipelineCache,

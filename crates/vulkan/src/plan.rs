@@ -164,6 +164,7 @@ impl InitialContents {
 
 impl PassPlan {
     /// Returns the plan of a pass over an area of its attachments, without its draws and render pass object.
+    /// One aspect of the plan after the other.
     pub(crate) fn new(
         scene: &Scene,
         pass: &Pass,

@@ -72,6 +72,7 @@ impl Attachments {
 impl RenderPass {
     /// Creates the render pass object of a planned pass. With a second subpass, the first uses the same
     /// attachments and draws nothing, so that load operations and draws are in different subpasses.
+    /// It is one call, and its structures must outlive it.
     pub(crate) fn new(
         device: &Device,
         size: [u32; 2],

@@ -29,7 +29,7 @@ pub(super) enum VertexDepth {
 }
 
 impl Maker<'_> {
-    /// Adds the mesh of a draw whose viewport has this size in texels.
+    /// Adds the mesh of a draw whose viewport has this size in texels. One arm per kind of mesh.
     pub(super) fn mesh(
         &mut self,
         pass: &PassDraft,

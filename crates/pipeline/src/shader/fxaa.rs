@@ -7,6 +7,7 @@ use crate::arithmetic::Arithmetic;
 /// The length in texels of each step of the walk along an edge.
 const STRIDES: [f32; 12] = [1.0, 1.0, 1.0, 1.0, 1.0, 1.5, 2.0, 2.0, 2.0, 2.0, 4.0, 8.0];
 
+/// Runs the fragment shader. Line by line the twin of its WGSL.
 pub(super) fn fragment<A: Arithmetic>(
     a: &mut A,
     input: &FragmentInput<'_, A::Real>,

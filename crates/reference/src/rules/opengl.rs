@@ -45,6 +45,7 @@ fn run_rule(text: OpenGlText, v45: &'static str, v46: &'static str) -> Permissio
     }
 }
 
+/// Returns the rules of OpenGL for an adapter. One entry per permission, with its citation.
 pub(super) fn rules(limits: &Limits) -> Rules {
     let text = OpenGlText::of(limits.version);
     let old = text == OpenGlText::V33;

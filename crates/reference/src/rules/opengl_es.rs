@@ -35,6 +35,7 @@ impl OpenGlEsText {
     }
 }
 
+/// Returns the rules of OpenGL ES for an adapter. One entry per permission, with its citation.
 pub(super) fn rules(limits: &Limits) -> Rules {
     let text = OpenGlEsText::of(limits.version);
     Rules {

@@ -19,6 +19,7 @@ fn text(limits: &Limits) -> &'static str {
     }
 }
 
+/// Returns the rules of Vulkan for an adapter. One entry per permission, with its citation.
 pub(super) fn rules(limits: &Limits) -> Rules {
     // Whether the promises of these apply: maintenance5 and Vulkan 1.4; specifications up to 1.3.216;
     // maintenance2 and Vulkan 1.1.

@@ -9,6 +9,7 @@ use super::permission::{
 };
 use etalon_frame::{Grade, Limits};
 
+/// Returns the rules of WebGPU for an adapter. One entry per permission, with its citation.
 pub(super) fn rules(limits: &Limits) -> Rules {
     Rules {
         name: "webgpu",

@@ -17,7 +17,7 @@ impl Rules {
 }
 
 /// Returns the band for an adapter. `text` has the permissions of the adapter's API. If Direct3D demands
-/// something else, the band forbids nothing that they allow.
+/// something else, the band forbids nothing that they allow. One entry per permission.
 pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
     let api = limits.api;
     // WebGPU does not report the sub-pixel grid, so nothing tighter than the API's rule can be demanded.

@@ -203,6 +203,7 @@ fn alike(methods: &Methods<'_>, series: &[&MethodSeries<'_>]) -> Vec<Vec<usize>>
     groups
 }
 
+/// Returns the panel of a scene. One part of the panel after the other.
 fn panel(
     shown: &ShownScene<'_, '_>,
     parameter: &str,

@@ -63,7 +63,7 @@ fn world_name(world: Option<[usize; 2]>) -> String {
     })
 }
 
-/// Returns the inputs and the outcome of an event.
+/// Returns the inputs and the outcome of an event. One arm per operation.
 pub(super) fn detail_of(event: &Event) -> String {
     let certain = !matches!(event.effect, Effect::MayReject(_));
     match &event.step {

@@ -38,6 +38,7 @@ fn told(end: Option<&ProcessEnd>, reasons: &[Reason]) -> String {
     circumstances.join(": ")
 }
 
+/// Returns a reason in words. One arm per reason.
 fn text(reason: &Reason) -> String {
     match reason {
         Reason::Text(text) | Reason::Unfit(text) => text.clone(),

@@ -18,7 +18,7 @@ use std::time::Duration;
 /// The time that a thread without work waits before it looks again.
 const WAITING: Duration = Duration::from_millis(5);
 
-/// Runs every case on every adapter. Several threads report events.
+/// Runs every case on every adapter. Several threads report events. The threads borrow what this function sets up.
 ///
 /// # Errors
 /// If the run folder cannot be written to, or holds a run that differs from the one to resume.
