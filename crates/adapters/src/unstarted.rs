@@ -35,6 +35,8 @@ pub fn take_unstarted(adapters: &mut Adapters) -> Vec<(AdapterRecord, String)> {
                 properties: Default::default(),
                 exempt: Default::default(),
                 sub_pixel_bits: 0,
+                viewport_bits: None,
+                texel_bits: None,
                 max_size: 0,
                 max_color_attachments: 0,
                 formats: BTreeMap::new(),

@@ -37,6 +37,8 @@ impl Lacks {
         Limits {
             api,
             sub_pixel_bits: 8,
+            viewport_bits: Some(8),
+            texel_bits: None,
             max_size: 4096,
             max_color_attachments: 4,
             formats: formats.map(|f| (f, self.support(api, f))).collect(),

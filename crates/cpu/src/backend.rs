@@ -21,6 +21,9 @@ use etalon_frame::{
 use etalon_scene::Scene;
 use std::collections::BTreeSet;
 
+/// The bits of sub-pixel precision that viewport bounds in 32-bit floats have at least, up to 128 texels.
+const VIEWPORT_BITS: u8 = 16;
+
 /// The least number of texels of a scene's largest attachment for the scene to be drawn in tiles.
 const LEAST_TEXELS: usize = 64 * 64;
 
@@ -74,6 +77,8 @@ impl CpuBackend {
                 version: ApiVersion::new(1, 4),
                 properties: Property::ALL.into_iter().collect(),
                 sub_pixel_bits: SUB_PIXEL_BITS,
+                viewport_bits: Some(VIEWPORT_BITS),
+                texel_bits: Some(8),
                 max_size: 4096,
                 max_color_attachments: 8,
                 formats,

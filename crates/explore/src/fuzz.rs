@@ -145,6 +145,8 @@ mod tests {
             version: ApiVersion::new(1, 4),
             properties: Property::ALL.into_iter().collect(),
             sub_pixel_bits: 8,
+            viewport_bits: Some(8),
+            texel_bits: None,
             max_size: 4096,
             max_color_attachments: 8,
             formats: TextureFormat::ALL

@@ -8,6 +8,8 @@ use thiserror::Error;
 /// The finest grid of vertices that is judged, in bits. Products of two coordinates fit into 63 bits, up to
 /// 2¹⁸ texels from the origin.
 pub const MAX_SUB_PIXEL_BITS: u8 = 12;
+/// The finest grid of viewport bounds and of filtering that is judged, in bits.
+const MAX_FRACTION_BITS: u8 = 16;
 /// The largest sample count that an API names.
 const MAX_SAMPLES: u32 = 64;
 /// The width of a texel in the units of sample positions.
@@ -60,6 +62,10 @@ impl Limits {
     /// If an adapter reports something that no specification permits.
     pub fn checked(mut self) -> Result<Self, LimitError> {
         self.sub_pixel_bits = self.sub_pixel_bits.min(MAX_SUB_PIXEL_BITS);
+        // Rounding to a coarser grid permits more.
+        let coarsened = |bits: u8| bits.min(MAX_FRACTION_BITS);
+        self.viewport_bits = self.viewport_bits.map(coarsened);
+        self.texel_bits = self.texel_bits.map(coarsened);
         let counts = self.formats.values().flat_map(|f| f.samples.iter());
         for count in counts.chain(self.sample_positions.keys()) {
             if !count.is_power_of_two() || *count > MAX_SAMPLES {
@@ -119,6 +125,8 @@ mod tests {
             version: ApiVersion::UNKNOWN,
             properties: Default::default(),
             sub_pixel_bits: 8,
+            viewport_bits: None,
+            texel_bits: None,
             max_size: u32::MAX,
             max_color_attachments: u32::MAX,
             formats: formats.into_iter().map(|f| (f, format(f))).collect(),

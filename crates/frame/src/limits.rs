@@ -80,6 +80,13 @@ pub struct Limits {
     /// Bits of sub-pixel precision in vertex positions; the API's minimum if the adapter does not report
     /// them.
     pub sub_pixel_bits: u8,
+    /// Bits of sub-pixel precision in the bounds of viewports; `None` if the adapter does not report them, and in
+    /// older records.
+    #[serde(default)]
+    pub viewport_bits: Option<u8>,
+    /// Bits of sub-texel precision in filtering, likewise.
+    #[serde(default)]
+    pub texel_bits: Option<u8>,
     /// The largest width and height of an attachment.
     pub max_size: u32,
     /// The maximum number of colour attachments in one pass.

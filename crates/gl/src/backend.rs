@@ -138,6 +138,8 @@ fn limits(context: &Context, probed: &Probed) -> Limits {
         exempt: probed.exempt.clone(),
         // OpenGL 4.6, table 23.53: at least 4.
         sub_pixel_bits: u8::try_from(bits).unwrap_or(4).max(4),
+        viewport_bits: None,
+        texel_bits: None,
         max_size: u32::try_from(max_size).unwrap_or(0),
         max_color_attachments: u32::try_from(context.caps.max_color_targets).unwrap_or(0),
         formats: probed

@@ -311,6 +311,8 @@ mod tests {
                 properties: Default::default(),
                 exempt: Default::default(),
                 sub_pixel_bits: 4,
+                viewport_bits: None,
+                texel_bits: None,
                 max_size: 2048,
                 max_color_attachments: 8,
                 formats: Default::default(),

@@ -5,6 +5,7 @@ use crate::possible::Possible;
 use crate::primitive::{Shape, SnappedPrimitive};
 use crate::rules::Rules;
 use crate::snap::{SnapBox, SubTexels, coarsest_step, units_per_texel};
+use crate::viewport_bounds;
 use etalon_pipeline::Point;
 use etalon_scene::Viewport;
 
@@ -16,6 +17,8 @@ use etalon_scene::Viewport;
 pub(crate) struct Clip {
     /// Left, top, width and height in sub-texel units.
     rect: [f64; 4],
+    /// The distance in sub-texel units by which rounding the viewport can move an edge.
+    moved: f64,
     /// The samples that are inside wherever edges are snapped, on any adapter's grid.
     inside: SnapBox,
 }
@@ -24,9 +27,11 @@ impl Clip {
     pub(crate) fn new(context: &PassContext<'_>, viewport: &Viewport) -> Self {
         let units = units_per_texel(context.limits) as f64;
         let rect = viewport.area().map(|v| f64::from(v) * units);
-        let slack = coarsest_step(context.limits) as f64 + rounding(context.rules, units);
+        let moved = viewport_bounds::slack(viewport, context.rules) * units;
+        let slack = coarsest_step(context.limits) as f64 + rounding(context.rules, units) + moved;
         Self {
             rect,
+            moved,
             inside: within(rect, -slack),
         }
     }
@@ -56,7 +61,7 @@ impl Clip {
         let step = SubTexels { units, bits }.step() as f64;
         let units = units as f64;
         // The distance from an edge at which a vertex is certainly outside.
-        let slack = step + rounding(rules, units);
+        let slack = step + rounding(rules, units) + self.moved;
         let wide = match primitive.shape {
             Shape::Triangle(_) => 0.0,
             _ => units,

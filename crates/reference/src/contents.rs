@@ -84,7 +84,7 @@ impl Walk<'_> {
                 ..at
             };
             let worlds = self.earlier(at, passes)?;
-            if sample == 0 || self.rules.resolve.value() != Resolve::CoarseAverage {
+            if sample == 0 || !self.rules.resolve.value().takes_first() {
                 single.extend(worlds.iter().map(|w| w.cells[source].channels()));
             }
             for (c, encoding) in encodings.iter().enumerate() {
@@ -99,7 +99,7 @@ impl Walk<'_> {
             single.sort_unstable();
             single.dedup();
             let by = match self.rules.resolve.value() {
-                Resolve::CoarseAverage => ResolveChoice::First,
+                rule if rule.takes_first() => ResolveChoice::First,
                 _ => ResolveChoice::Any,
             };
             self.note_resolve(notes, [source, target], passes, by, [&single, &single]);
@@ -156,8 +156,10 @@ impl Walk<'_> {
                 between.hull(canonical(encoding, between.low))
             }
             _ if exact.may_be_nan() && encoding.is_float() => average,
-            Resolve::Between if encoding.is_float() => between.hull(average),
-            Resolve::Between => between,
+            Resolve::Between | Resolve::BetweenOrFirst if encoding.is_float() => {
+                between.hull(average)
+            }
+            Resolve::Between | Resolve::BetweenOrFirst => between,
             Resolve::CoarseAverage if encoding.is_float() => {
                 // The error of a halving is one code at the magnitude of the largest sample.
                 let largest = between.low.abs().max(between.high.abs());

@@ -132,7 +132,8 @@ impl<'a> EventTally<'a> {
                 // fragment: at most once for each covered sample, or without a limit.
                 CounterKind::ShaderRuns => {
                     let none = count.possible == Some(0);
-                    let high = if self.rules.runs_once.value() {
+                    let is_told = || samples == 1 || self.rules.samples_as_told.value();
+                    let high = if self.rules.runs_once.value() && is_told() {
                         count.possible
                     } else {
                         none.then_some(0)

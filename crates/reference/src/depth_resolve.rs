@@ -163,7 +163,7 @@ impl Walk<'_> {
         let average = judging.encode(encoding, Range::same(exact));
         match self.rules.resolve.value() {
             Resolve::Average => average,
-            Resolve::Between => between.hull(average),
+            Resolve::Between | Resolve::BetweenOrFirst => between.hull(average),
             Resolve::CoarseAverage if encoding.is_float() => {
                 let next = (between.high + 1).min(encoding.max_order());
                 let [value, past] = [between.high, next].map(|o| encoding.value_of_order(o));

@@ -7,7 +7,8 @@ use crate::rounding::{
     to_significand, to_steps, towards_zero,
 };
 use crate::rules::{
-    BlendPrecision, DepthTerms, FactorClamp, Rounding, Rules, SignedClamp, SmallFloats,
+    BlendPrecision, DepthTerms, FactorClamp, FlushedFloats, Rounding, Rules, SignedClamp,
+    SmallFloats,
 };
 use etalon_frame::{ChannelEncoding, CodeInterval, linear_of_half_codes};
 use etalon_pipeline::{Arithmetic, logic_operation};
@@ -143,12 +144,38 @@ impl<'r> Judging<'r> {
     /// Returns true if blending may have only the destination's precision.
     #[inline]
     fn is_coarse(&self) -> bool {
-        let precision = if self.advanced {
-            &self.rules.advanced_blend
+        self.blend_precision() != BlendPrecision::Float32
+    }
+
+    #[inline]
+    fn blend_precision(&self) -> BlendPrecision {
+        if self.advanced {
+            self.rules.advanced_blend.value()
         } else {
-            &self.rules.blend
-        };
-        precision.value() == BlendPrecision::DestinationCodes
+            self.rules.blend.value()
+        }
+    }
+
+    /// Widens to the values that are less than one code away. Integers are exact, and no rounding passes one.
+    fn within_a_code(&self, encoding: ChannelEncoding, value: Interval) -> Interval {
+        if encoding == ChannelEncoding::Srgb8 {
+            let position = |v: f64| encoding.position(v.max(0.0)).unwrap_or(0.0);
+            let linear = |code: f64| linear_of_half_codes(2 * code.clamp(0.0, 255.0) as i64);
+            let [low, high] = [value.low, value.high].map(position);
+            let is_end = |position: f64| position == 0.0 || position == 255.0;
+            let [below, above] = [linear(floor(low) - 1.0), linear(ceil(high) + 1.0)];
+            return Interval {
+                low: value.low.min(if is_end(low) { value.low } else { below }),
+                high: value
+                    .high
+                    .max(if is_end(high) { value.high } else { above }),
+            };
+        }
+        let step = 1.0 / (self.steps(encoding) - 1.0);
+        Interval {
+            low: (value.low - step).max(value.low.floor()),
+            high: (value.high + step).min(value.high.ceil()),
+        }
     }
 
     /// Widens an operand or an exact result by the rounding to the shortest significand with the
@@ -293,8 +320,13 @@ impl<'r> Judging<'r> {
         grid: JudgingGrid,
         value: Interval,
     ) -> Interval {
-        if !self.is_coarse() {
-            return value;
+        let is_normalized = encoding.normalized_range().is_some();
+        match self.blend_precision() {
+            BlendPrecision::Float32 => return value,
+            BlendPrecision::AnySteps if is_normalized => {
+                return self.within_a_code(encoding, value);
+            }
+            BlendPrecision::AnySteps | BlendPrecision::DestinationCodes => {}
         }
         match encoding {
             ChannelEncoding::Float16 | ChannelEncoding::Float32 if self.advanced => to_half(value),
@@ -401,10 +433,8 @@ impl<'r> Judging<'r> {
         if matches!(encoding, ChannelEncoding::Ufloat(_))
             && self.rules.small_floats.value() == SmallFloats::NearestOrTowardsZero
         {
-            return CodeInterval::new(
-                towards_zero(encoding, value.low),
-                nearest(encoding, value.high),
-            );
+            let low = towards_zero(encoding, value.low);
+            return self.flushed(encoding, low, nearest(encoding, value.high));
         }
         let limit = encoding.value_of_order(encoding.max_order());
         let beyond = value.high > limit || value.low < -limit;
@@ -425,13 +455,17 @@ impl<'r> Judging<'r> {
         } else {
             low
         };
-        // If the rules permit it, values below the normal ones may be flushed to zero.
-        let normal = match encoding {
-            ChannelEncoding::Ufloat(mantissa) => 1 << mantissa,
-            _ => 1 << 10,
+        self.flushed(encoding, low.min(high), high.max(low))
+    }
+
+    /// Returns an interval of 16-bit or smaller floats together with zero, if the rules permit that its ends are
+    /// flushed.
+    fn flushed(&self, encoding: ChannelEncoding, low: i64, high: i64) -> CodeInterval {
+        let rule = self.rules.flushes_small_floats.value();
+        let (normal, flushes) = match encoding {
+            ChannelEncoding::Ufloat(mantissa) => (1 << mantissa, rule == FlushedFloats::All),
+            _ => (1 << 10, rule != FlushedFloats::None),
         };
-        let (low, high) = (low.min(high), high.max(low));
-        let flushes = self.rules.flushes_small_floats.value();
         let flush = |order: i64, towards: i64| {
             if flushes && order.abs() < normal {
                 towards

@@ -134,6 +134,8 @@ fn basis(scene: &Scene, limits: &Limits) -> Limits {
         properties: BTreeSet::new(),
         // Where the grid itself matters, the rules are asked.
         sub_pixel_bits: basis_bits(limits.sub_pixel_bits),
+        viewport_bits: None,
+        texel_bits: None,
         max_size: 0,
         max_color_attachments: 0,
         formats: formats.collect(),

@@ -58,6 +58,7 @@ mod texels;
 mod undefined;
 mod varying;
 mod vertex;
+mod viewport_bounds;
 mod walk;
 mod world;
 

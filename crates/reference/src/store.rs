@@ -115,6 +115,16 @@ impl Walk<'_> {
         if !is_defined && [src, dst, value].into_iter().any(is_negative) {
             value = [Range::same(Interval::EVERYTHING); 4];
         }
+        let exceeds_alpha = |color: [Range; 4]| {
+            let alpha = color[3].hull().low;
+            color[..3].iter().any(|channel| channel.hull().high > alpha)
+        };
+        if is_normalized
+            && [src, dst].into_iter().any(exceeds_alpha)
+            && !self.rules.quotients_beyond_one.value()
+        {
+            value[..3].fill(Range::same(Interval::EVERYTHING));
+        }
         notes.add(
             || place.origin(),
             || Step::AdvancedBlend {

@@ -23,6 +23,8 @@ pub(crate) fn limits(api: Api) -> Limits {
         properties: Default::default(),
         exempt: Default::default(),
         sub_pixel_bits: 8,
+        viewport_bits: Some(8),
+        texel_bits: None,
         max_size: 4096,
         max_color_attachments: 8,
         formats,

@@ -8,6 +8,7 @@ use crate::range::Range;
 use crate::rounding::{ceil, floor};
 use crate::rules::Snap;
 use crate::snap::{SnapBox, coarsest_step, units_per_texel};
+use crate::viewport_bounds;
 use etalon_pipeline::{Arithmetic, Point, window_coordinate};
 use etalon_scene::{Draw, Pass, Viewport};
 use rustc_hash::FxHasher;
@@ -128,8 +129,10 @@ fn snapped(
     grid: Grid,
 ) -> (i64, i64) {
     let mut judging = Judging::new(context.rules);
-    let window = window_coordinate(&mut judging, coordinate, axis, viewport);
-    let Interval { low, high } = window.hull();
+    let windows = viewport_bounds::rounded(viewport, axis, context.rules)
+        .map(|viewport| window_coordinate(&mut judging, coordinate, axis, &viewport).hull());
+    let window = windows.reduce(Interval::hull);
+    let Interval { low, high } = window.unwrap_or(Interval::EVERYTHING);
     let units = units_per_texel(context.limits);
     let coarsest = coarsest_step(context.limits);
     let lines = (units / coarsest) as f64;

@@ -51,6 +51,8 @@ pub(crate) fn limits(device: &Device, natives: &BTreeMap<TextureFormat, Native>)
         properties: device.properties.clone(),
         exempt: exempt(device, natives),
         sub_pixel_bits: u8::try_from(raw.sub_pixel_precision_bits).unwrap_or(u8::MAX),
+        viewport_bits: u8::try_from(raw.viewport_sub_pixel_bits).ok(),
+        texel_bits: u8::try_from(raw.sub_texel_precision_bits).ok(),
         max_size,
         max_color_attachments: raw
             .max_color_attachments

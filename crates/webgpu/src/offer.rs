@@ -137,6 +137,8 @@ fn limits(offer: Offer) -> Limits {
         properties: BTreeSet::new(),
         exempt,
         sub_pixel_bits: SUB_PIXEL_BITS,
+        viewport_bits: None,
+        texel_bits: None,
         max_size,
         max_color_attachments: offer.limits.color_attachments.min(most_of_bytes),
         formats,

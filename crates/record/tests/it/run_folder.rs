@@ -47,6 +47,8 @@ fn header() -> Header {
                 properties: Default::default(),
                 exempt: Default::default(),
                 sub_pixel_bits: 8,
+                viewport_bits: None,
+                texel_bits: None,
                 max_size: 4096,
                 max_color_attachments: 8,
                 formats: Default::default(),

@@ -16,9 +16,9 @@ mod yardstick;
 
 pub use permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
-    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMaskRule, MaskOfOne, NegativeAlpha,
-    Permission, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp,
-    SmallFloats, Snap, SrgbLogic,
+    DepthTerms, EarlyUpdates, FactorClamp, FlushedFloats, FragCoord, InputMaskRule, MaskOfOne,
+    NegativeAlpha, Permission, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge,
+    SignedClamp, SmallFloats, Snap, SrgbLogic,
 };
 
 use etalon_frame::{Api, Limits};

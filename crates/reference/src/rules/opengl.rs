@@ -2,9 +2,9 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
-    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMaskRule, MaskOfOne, NegativeAlpha,
-    Permission, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp,
-    SmallFloats, Snap, SrgbLogic, narrowed, permit,
+    DepthTerms, EarlyUpdates, FactorClamp, FlushedFloats, FragCoord, InputMaskRule, MaskOfOne,
+    NegativeAlpha, Permission, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge,
+    SignedClamp, SmallFloats, Snap, SrgbLogic, narrowed, permit,
 };
 use etalon_frame::{ApiVersion, Grade, Limits, Property};
 
@@ -93,6 +93,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.5: Implementation Dependent Values, SUBPIXEL_BITS: at least 4",
                 "OpenGL 4.6: Implementation Dependent Values, SUBPIXEL_BITS: at least 4",
             ])),
+        viewport_step: permit(
+            0.0,
+            text.cite([
+                "OpenGL 3.3: 2.13.1 Controlling the Viewport: bounds are integers",
+                "OpenGL 4.5: 13.6.1 Controlling the Viewport: bounds that VIEWPORT_SUBPIXEL_BITS cannot hold are rounded (and not drawn)",
+                "OpenGL 4.6: 13.8.1 Controlling the Viewport: bounds that VIEWPORT_SUBPIXEL_BITS cannot hold are rounded (and not drawn)",
+            ]),
+        ),
         snap: permit(
             Snap::EitherSide,
             text.cite([
@@ -130,12 +138,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             BlendPrecision::DestinationCodes,
             "OpenGL with KHR_blend_equation_advanced: precision and dynamic range no lower than the smaller of the destination's and that of 16-bit floats",
         ),
-        blend: permit(
+        blend: narrowed(
             BlendPrecision::DestinationCodes,
+            BlendPrecision::AnySteps,
+            Grade::Disputed,
             text.cite([
-                "OpenGL 3.3: 4.1.7 Blending: no precision is named; OpenGL 4.2: no lower than that used to represent destination components",
-                "OpenGL 4.5: 17.3.6.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components",
-                "OpenGL 4.6: 17.3.6.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components",
+                "OpenGL 3.3: 4.1.7 Blending: no precision is named; OpenGL 4.2: no lower than that used to represent destination components (read as one representation throughout)",
+                "OpenGL 4.5: 17.3.6.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components (read as one representation throughout)",
+                "OpenGL 4.6: 17.3.6.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components (read as one representation throughout)",
             ]),
         ),
         signed_clamp: if old { narrowed(
@@ -167,7 +177,18 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 3.3: 4.1.7 Blend Color, table 2.2: the constant is a clampf; later versions store it as it is",
             ) } else { permit(ConstantClamp::Never, "OpenGL: 17.3.6.5 Blend Color: the constant is stored as it is") },
         one_is_first_output: permit(true, "OpenGL: 17.3.1 Alpha To Coverage (3.3: 4.1.3): all alpha values of the section are those of colour number zero, index zero"),
-        negative_alpha: permit(NegativeAlpha::Defined, "OpenGL with KHR_blend_equation_advanced: no exception for negative alphas"),
+        quotients_beyond_one: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "OpenGL with KHR_blend_equation_advanced: the base colours are quotients by alpha; precision and dynamic range are the destination's, which a quotient above 1 exceeds",
+        ),
+        negative_alpha: narrowed(
+            NegativeAlpha::Defined,
+            NegativeAlpha::Undefined,
+            Grade::Disputed,
+            "OpenGL with KHR_blend_equation_advanced: no exception for negative alphas (Vulkan's later text makes them undefined)",
+        ),
         masks_reference: permit(true, "OpenGL: 17.3.3 Stencil Test (3.3: 4.1.4): the mask is applied to both the reference and the stored value"),
         copies: permit(
             Copies::Exact,
@@ -194,17 +215,25 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 17.3.4 Depth Buffer Test: whether the incoming depth is converted first is not stated",
             ]),
         ),
-        depth_bias_unit: permit(
+        depth_bias_unit: narrowed(
             BiasUnit {
                 unorm16: &[(0.999, 1e9)],
                 unorm: &[(0.999, 1e9)],
                 float: &[(0.999, 1.001)],
                 assumed: None,
             },
+            // For a mantissa below 1, as 8.25 writes floats, the exponent is one more.
+            BiasUnit {
+                unorm16: &[(0.999, 1e9)],
+                unorm: &[(0.999, 1e9)],
+                float: &[(0.999, 1.001), (1.998, 2.002)],
+                assumed: None,
+            },
+            Grade::Disputed,
             text.cite([
-                "OpenGL 3.3: 3.6.4 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
-                "OpenGL 4.5: 14.6.5 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
-                "OpenGL 4.6: 14.6.5 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
+                "OpenGL 3.3: 3.6.4 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, e and n not defined (read as in 2.1.2, with a mantissa of at least 1)",
+                "OpenGL 4.5: 14.6.5 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, e and n not defined (read as in 2.3.4.2, with a mantissa of at least 1)",
+                "OpenGL 4.6: 14.6.5 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, e and n not defined (read as in 2.3.4.2, with a mantissa of at least 1)",
             ]),
         ),
         slope_root: permit(
@@ -246,12 +275,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 15.2.3 Shader Outputs, 14.6.5 Depth Offset: a written or offset depth is held to 0 and 1",
             ]),
         ),
-        factor_clamp: permit(
+        factor_clamp: narrowed(
             FactorClamp::Clamped,
+            FactorClamp::Either,
+            Grade::Disputed,
             text.cite([
-                "OpenGL 3.3: 4.1.7 Blending: factors are clamped for normalized attachments",
-                "OpenGL 4.5: 17.3.6.1 Blend Equation: factors are clamped for normalized attachments",
-                "OpenGL 4.6: 17.3.6.1 Blend Equation: factors are clamped for normalized attachments",
+                "OpenGL 3.3: 4.1.7 Blending: factors are clamped for normalized attachments (the CTS's reference renderer and Direct3D 11.3 17.5 leave signed ones unclamped)",
+                "OpenGL 4.5: 17.3.6.1 Blend Equation: factors are clamped for normalized attachments (the CTS's reference renderer and Direct3D 11.3 17.5 leave signed ones unclamped)",
+                "OpenGL 4.6: 17.3.6.1 Blend Equation: factors are clamped for normalized attachments (the CTS's reference renderer and Direct3D 11.3 17.5 leave signed ones unclamped)",
             ]),
         ),
         resolve: permit(
@@ -480,11 +511,11 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "OpenGL: 2.3.4.2 16-Bit Floating-Point Numbers (3.3: 2.1.2): infinity stands for magnitudes that are too large; no sentence gives the result of a conversion",
         ),
         flushes_small_floats: permit(
-            true,
+            FlushedFloats::Half,
             text.cite([
-                "OpenGL 3.3: 2.1.2 16-Bit Floating-Point Numbers: implementations may encode denormalized 16-bit values as zero",
-                "OpenGL 4.5: 2.3.4 Floating-Point Formats: implementations may encode denormalized 16-bit values as zero",
-                "OpenGL 4.6: 2.3.4 Floating-Point Formats: implementations may encode denormalized 16-bit values as zero",
+                "OpenGL 3.3: 2.1.2 16-Bit Floating-Point Numbers: denormalized numbers give predictable results, and no conversion to these floats is stated",
+                "OpenGL 4.5: 2.3.4.2 16-Bit Floating-Point Numbers: denormalized numbers give predictable results, and no conversion to these floats is stated",
+                "OpenGL 4.6: 2.3.4.2 16-Bit Floating-Point Numbers: denormalized numbers give predictable results, and no conversion to these floats is stated",
             ]),
         ),
         small_floats: permit(
@@ -515,6 +546,16 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "OpenGL 4.5: 7.12.1 Shader Memory Access Ordering: exactly one run per fragment without several samples, else at most one per covered sample",
             "OpenGL 4.6: 7.13.1 Shader Memory Access Ordering: exactly one run per fragment without several samples, else at most one per covered sample; 15.2 Shader Execution lets additional ones happen if rendering is otherwise the same",
         ),
+        samples_as_told: if old {
+            permit(true, "OpenGL 3.3: 3.3.1 Multisampling: SAMPLES is the number of samples")
+        } else {
+            narrowed(
+                true,
+                false,
+                Grade::Disputed,
+                "OpenGL 4.5, 4.6: 14.3.1 Multisampling: a pixel's coverage has SAMPLES bits, and the number of sample points may be different from SAMPLES",
+            )
+        },
         runs_by_share: narrowed(
             true,
             false,

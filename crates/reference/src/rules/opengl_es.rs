@@ -2,9 +2,9 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
-    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMaskRule, MaskOfOne, NegativeAlpha,
-    Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats,
-    Snap, SrgbLogic, narrowed, permit,
+    DepthTerms, EarlyUpdates, FactorClamp, FlushedFloats, FragCoord, InputMaskRule, MaskOfOne,
+    NegativeAlpha, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp,
+    SmallFloats, Snap, SrgbLogic, narrowed, permit,
 };
 use etalon_frame::{ApiVersion, Grade, Limits, Property};
 
@@ -74,6 +74,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.1: table 20.40 SUBPIXEL_BITS: at least 4",
                 "OpenGL ES 3.2: table 21.40 SUBPIXEL_BITS: at least 4",
             ])),
+        viewport_step: permit(
+            0.0,
+            text.cite([
+                "OpenGL ES 3.0: 2.13.1 Controlling the Viewport: bounds are integers",
+                "OpenGL ES 3.1: 12.5.1 Controlling the Viewport: bounds are integers",
+                "OpenGL ES 3.2: 12.6.1 Controlling the Viewport: bounds are integers",
+            ]),
+        ),
         snap: permit(
             Snap::EitherSide,
             text.cite([
@@ -112,12 +120,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: 15.1.5.1 Blend Equation: precision and dynamic range no lower than the smaller of the destination's and that of 16-bit floats",
             ]),
         ),
-        blend: permit(
+        blend: narrowed(
             BlendPrecision::DestinationCodes,
+            BlendPrecision::AnySteps,
+            Grade::Disputed,
             text.cite([
-                "OpenGL ES 3.0: 4.1.7.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components",
-                "OpenGL ES 3.1: 15.1.5.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components",
-                "OpenGL ES 3.2: 15.1.5.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components",
+                "OpenGL ES 3.0: 4.1.7.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components (read as one representation throughout)",
+                "OpenGL ES 3.1: 15.1.5.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components (read as one representation throughout)",
+                "OpenGL ES 3.2: 15.1.5.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components (read as one representation throughout)",
             ]),
         ),
         signed_clamp: permit(
@@ -132,7 +142,18 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         ),
         constant_clamp: permit(ConstantClamp::Never, "OpenGL ES: 15.1.5.4 Blend Color (3.0: 4.1.7.3, 3.1: 15.1.5.3): the constant is stored as it is"),
         one_is_first_output: permit(true, "OpenGL ES: 15.1.1 Alpha To Coverage (3.0: 4.1.3): all alpha values of the section are those of colour number zero"),
-        negative_alpha: permit(NegativeAlpha::Defined, "OpenGL ES: 15.1.5.3 Advanced Blend Equations: no exception for negative alphas"),
+        quotients_beyond_one: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "OpenGL ES with KHR_blend_equation_advanced: the base colours are quotients by alpha; precision and dynamic range are the destination's, which a quotient above 1 exceeds",
+        ),
+        negative_alpha: narrowed(
+            NegativeAlpha::Defined,
+            NegativeAlpha::Undefined,
+            Grade::Disputed,
+            "OpenGL ES: 15.1.5.3 Advanced Blend Equations: no exception for negative alphas (Vulkan's later text makes them undefined)",
+        ),
         masks_reference: permit(true, "OpenGL ES: 15.1.2 Stencil Test (3.0: 4.1.4): the mask is applied to both the reference and the stored value"),
         copies: permit(
             Copies::Exact,
@@ -150,17 +171,25 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: 15.1.3 Depth Buffer Test: whether the incoming depth is converted first is not stated",
             ]),
         ),
-        depth_bias_unit: permit(
+        depth_bias_unit: narrowed(
             BiasUnit {
                 unorm16: &[(0.999, 1e9)],
                 unorm: &[(0.999, 1e9)],
                 float: &[(0.999, 1.001)],
                 assumed: None,
             },
+            // For a mantissa below 1, as 8.24 and OpenGL's 8.25 write floats, the exponent is one more.
+            BiasUnit {
+                unorm16: &[(0.999, 1e9)],
+                unorm: &[(0.999, 1e9)],
+                float: &[(0.999, 1.001), (1.998, 2.002)],
+                assumed: None,
+            },
+            Grade::Disputed,
             text.cite([
-                "OpenGL ES 3.0: 3.6.2 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
-                "OpenGL ES 3.1: 13.5.2 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
-                "OpenGL ES 3.2: 13.7.2 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, n the bits of the mantissa",
+                "OpenGL ES 3.0: 3.6.2 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, e and n not defined (read as in 2.1.2, with a mantissa of at least 1)",
+                "OpenGL ES 3.1: 13.5.2 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, e and n not defined (read as in 2.3.3.2, with a mantissa of at least 1)",
+                "OpenGL ES 3.2: 13.7.2 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, e and n not defined (read as in 2.3.4.2, with a mantissa of at least 1)",
             ]),
         ),
         slope_root: permit(
@@ -202,12 +231,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: 14.2.3 Shader Outputs, 13.7.2 Depth Offset: a written or offset depth is held to 0 and 1",
             ]),
         ),
-        factor_clamp: permit(
+        factor_clamp: narrowed(
             FactorClamp::Clamped,
+            FactorClamp::Either,
+            Grade::Disputed,
             text.cite([
-                "OpenGL ES 3.0: 4.1.7 Blending: factors are clamped for normalized attachments",
-                "OpenGL ES 3.1: 15.1.5.1 Blend Equation: factors are clamped for normalized attachments",
-                "OpenGL ES 3.2: 15.1.5.1 Blend Equation: factors are clamped for normalized attachments",
+                "OpenGL ES 3.0: 4.1.7 Blending: factors are clamped for normalized attachments (the CTS's reference renderer and Direct3D 11.3 17.5 leave signed ones unclamped)",
+                "OpenGL ES 3.1: 15.1.5.1 Blend Equation: factors are clamped for normalized attachments (the CTS's reference renderer and Direct3D 11.3 17.5 leave signed ones unclamped)",
+                "OpenGL ES 3.2: 15.1.5.1 Blend Equation: factors are clamped for normalized attachments (the CTS's reference renderer and Direct3D 11.3 17.5 leave signed ones unclamped)",
             ]),
         ),
         resolve: permit(
@@ -420,11 +451,11 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "OpenGL ES: 2.3.4.2 16-Bit Floating-Point Numbers (3.0: 2.1.2, 3.1: 2.3.3.2): infinity stands for magnitudes that are too large; no sentence gives the result of a conversion",
         ),
         flushes_small_floats: permit(
-            true,
+            FlushedFloats::All,
             text.cite([
-                "OpenGL ES 3.0: 2.1.2 16-Bit Floating-Point Numbers: implementations may encode denormalized 16-bit values as zero",
-                "OpenGL ES 3.1: 2.3.3 Floating-Point Formats: implementations may encode denormalized 16-bit values as zero",
-                "OpenGL ES 3.2: 2.3.4 Floating-Point Formats: implementations may encode denormalized 16-bit values as zero",
+                "OpenGL ES 3.0: 2.1.2 to 2.1.4 Floating-Point Numbers of 16, 11 and 10 bits: a denormalized value is preserved or forced to zero",
+                "OpenGL ES 3.1: 2.3.3.2 to 2.3.3.4 Floating-Point Numbers of 16, 11 and 10 bits: a denormalized value is preserved or forced to zero",
+                "OpenGL ES 3.2: 2.3.4.2 to 2.3.4.4 Floating-Point Numbers of 16, 11 and 10 bits: a denormalized value is preserved or forced to zero",
             ]),
         ),
         small_floats: permit(
@@ -468,6 +499,12 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.1: 7.11.1 Shader Memory Access Ordering: one run per fragment without several samples, else at most one per covered sample",
                 "OpenGL ES 3.2: 7.11.1 Shader Memory Access Ordering: one run per fragment without several samples, else at most one per covered sample",
             ]),
+        ),
+        samples_as_told: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "OpenGL ES: 13.4 Multisampling (3.1: 13.2.1): a pixel's coverage has SAMPLES bits, and the number of sample points may be different from SAMPLES",
         ),
         runs_by_share: narrowed(
             true,

@@ -132,6 +132,9 @@ pub enum BlendPrecision {
     /// Every operand and result may be rounded to one of the destination's neighbouring codes, to a neighbouring
     /// float with as many significand bits, or to a neighbouring binary fraction with as many bits.
     DestinationCodes,
+    /// Like `DestinationCodes`; into normalized formats, every operand and product may also be off by less than one
+    /// code by itself. 0 and ±1 are exact, and so are sums.
+    AnySteps,
     /// Blending is computed in 32-bit floating-point.
     Float32,
 }
@@ -184,8 +187,18 @@ pub enum SmallFloats {
     /// Rounds to either neighbour. Values above the largest become the largest value or infinity.
     EitherNeighbour,
     /// Rounds to nearest, or always towards zero. Values above the largest become the largest value.
-    /// Subnormal values are kept.
     NearestOrTowardsZero,
+}
+
+/// The floats whose subnormal values may be stored as zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FlushedFloats {
+    /// None.
+    None,
+    /// Those of 16 bits.
+    Half,
+    /// Those of 16, 11 and 10 bits.
+    All,
 }
 
 /// Clamping of the blend constant to 0 to 1, whatever the format.
@@ -278,11 +291,20 @@ pub enum DepthRange {
 pub enum Resolve {
     /// Any value between the least and the greatest sample; for integers, one of the samples.
     Between,
+    /// Any value between the least and the greatest sample; for integers, the first sample.
+    BetweenOrFirst,
     /// The average, computed in halvings that may each be rounded to a neighbouring code; for sRGB, of the
     /// codes or of the linear values; for integers, the first sample.
     CoarseAverage,
     /// The average; for integers, one of the samples.
     Average,
+}
+
+impl Resolve {
+    /// Returns true if integers resolve to their first sample.
+    pub(crate) fn takes_first(self) -> bool {
+        matches!(self, Self::BetweenOrFirst | Self::CoarseAverage)
+    }
 }
 
 /// The terms from which the viewport computes window depth.
@@ -430,6 +452,8 @@ rules! {
     /// True if the restart index of a strip is detected before the base vertex is added; otherwise it may be
     /// detected before or after.
     restarts_before_base_vertex: bool,
+    /// The part of a texel to multiples of which the bounds of viewports may be rounded; 0 for none.
+    viewport_step: f64,
     /// Vertex snapping.
     snap: Snap,
     /// Bits of the adapter's sub-pixel grid.
@@ -453,6 +477,8 @@ rules! {
     constant_clamp: ConstantClamp,
     /// True if alpha to one may leave all alphas except that of the first output unchanged.
     one_is_first_output: bool,
+    /// True if an advanced blend into a normalized attachment is defined for a colour above its alpha.
+    quotients_beyond_one: bool,
     /// Advanced blends of negative alphas, of inputs and of results.
     negative_alpha: NegativeAlpha,
     /// True if the stencil read mask also masks the reference; otherwise it may or may not.
@@ -540,9 +566,8 @@ rules! {
     /// True if a value beyond 16-bit floats is stored as the largest one or as infinity; otherwise it may be
     /// stored as anything.
     half_overflows: bool,
-    /// True if subnormal 16-bit floats, and subnormal 11-bit and 10-bit floats if [`Rules::small_floats`]
-    /// leaves them open, may be stored as zero.
-    flushes_small_floats: bool,
+    /// The floats whose subnormal values may be stored as zero.
+    flushes_small_floats: FlushedFloats,
     /// Conversion to floats of 11 and 10 bits.
     small_floats: SmallFloats,
     /// True if a shader that counts in storage runs for a fragment that never contributes to the attachments;
@@ -556,6 +581,8 @@ rules! {
     /// True if such a shader runs at most once per fragment, or per covered sample if there are several;
     /// otherwise it may run any number of times.
     runs_once: bool,
+    /// True if texels have as many samples as their state says; otherwise there can be more, and a shader runs for each.
+    samples_as_told: bool,
     /// True if the sample shading fraction requires a minimum number of shader runs; otherwise one run may
     /// serve all samples.
     runs_by_share: bool,

@@ -2,11 +2,16 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
-    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMaskRule, MaskOfOne, NegativeAlpha,
-    Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats,
-    Snap, SrgbLogic, narrowed, permit,
+    DepthTerms, EarlyUpdates, FactorClamp, FlushedFloats, FragCoord, InputMaskRule, MaskOfOne,
+    NegativeAlpha, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp,
+    SmallFloats, Snap, SrgbLogic, narrowed, permit,
 };
 use etalon_frame::{Grade, Limits, Property};
+
+/// Returns the step of a grid with this many bits.
+fn step(bits: u8) -> f64 {
+    (-f64::from(bits)).exp2()
+}
 
 /// Returns the name of the specification that binds a version.
 fn text(limits: &Limits) -> &'static str {
@@ -73,6 +78,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             limits.sub_pixel_bits,
             "Vulkan: Limits, subPixelPrecisionBits: at least 4",
         ),
+        viewport_step: permit(
+            step(limits.viewport_bits.unwrap_or(0)),
+            "Vulkan: Limits, viewportSubPixelBits: the bits of precision in the bounds of viewports, which can be 0",
+        ),
         snap: permit(
             Snap::EitherSide,
             "Vulkan: Limits, subPixelPrecisionBits: the rounding to the grid is not stated",
@@ -96,10 +105,11 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "Vulkan: Blending: advanced operations with precision and dynamic range no lower than the \
              smaller of the destination's and that of 16-bit floats",
         ),
-        blend: permit(
+        blend: narrowed(
             BlendPrecision::DestinationCodes,
-            "Vulkan: Blending: precision and dynamic range no lower than that used to represent \
-             destination components",
+            BlendPrecision::AnySteps,
+            Grade::Disputed,
+            "Vulkan: Blending: precision and dynamic range no lower than that used to represent destination components (read as one representation throughout)",
         ),
         signed_clamp: permit(
             SignedClamp::Signed,
@@ -116,6 +126,12 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         one_is_first_output: permit(
             true,
             "Vulkan: Multisample Coverage: all alpha values of the section are those of the output at location 0, index 0",
+        ),
+        quotients_beyond_one: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "Vulkan: Advanced Blend Operations: the base colours are quotients by alpha; precision and dynamic range are the destination's, which a quotient above 1 exceeds",
         ),
         negative_alpha: narrowed(
             NegativeAlpha::IfNormalized,
@@ -164,14 +180,18 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             DepthRange::Undefined,
             "Vulkan: Depth Clamping and Range Adjustment: outside of the range of minDepth and maxDepth it is undefined",
         ),
-        factor_clamp: permit(
+        factor_clamp: narrowed(
             FactorClamp::Clamped,
-            "Vulkan: Blending: factors are clamped for fixed-point attachments",
+            FactorClamp::Either,
+            Grade::Disputed,
+            "Vulkan: Blending: factors are clamped for fixed-point attachments (the CTS's reference renderer and Direct3D 11.3 17.5 leave signed ones unclamped)",
         ),
-        resolve: permit(
+        resolve: narrowed(
             // Render passes resolve by a mode. `vkCmdResolveImage` may choose one, which makes no difference
             // if all samples of a texel are equal: paths that call it require that.
             Resolve::CoarseAverage,
+            Resolve::BetweenOrFirst,
+            Grade::Disputed,
             "Vulkan: VkResolveModeFlagBits: VK_RESOLVE_MODE_AVERAGE_BIT gives the average of the samples, its precision implementation-defined (read as: no coarser than the format's codes in any halving), sRGB samples made linear first if the implementation does as it should; VK_RESOLVE_MODE_SAMPLE_ZERO_BIT, of integers, gives sample 0",
         ),
         clips_points: permit(discards_points, outside),
@@ -314,8 +334,8 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "Vulkan: Invariance, Rule 5: shaders that assign FragCoord.z to FragDepth are depth-invariant with respect to each other",
         ),
         filter_step: permit(
-            1.0 / 16.0,
-            "Vulkan: Limits, subTexelPrecisionBits is at least 4; the rounding to its divisions is not stated",
+            step(limits.texel_bits.unwrap_or(4)),
+            "Vulkan: Limits, subTexelPrecisionBits (at least 4) is the number of divisions that coordinates snap to; the rounding to them is not stated",
         ),
         filters_to_codes: permit(
             true,
@@ -326,7 +346,7 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "Vulkan: Fundamentals, Floating-Point Format Conversions: the largest finite value or infinity",
         ),
         flushes_small_floats: permit(
-            false,
+            FlushedFloats::None,
             "Vulkan: Fundamentals, Floating-Point Format Conversions: representable finite values are kept",
         ),
         small_floats: permit(
@@ -357,6 +377,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         runs_once: permit(
             false,
             "Vulkan: Fragment Shading: more runs than one for implementation-dependent reasons",
+        ),
+        samples_as_told: permit(
+            true,
+            "Vulkan: Multisampling: rasterizationSamples is the number of samples",
         ),
         runs_by_share: permit(
             true,

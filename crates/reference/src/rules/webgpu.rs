@@ -3,9 +3,9 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
-    DepthTerms, EarlyUpdates, FactorClamp, FragCoord, InputMaskRule, MaskOfOne, NegativeAlpha,
-    Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp, SmallFloats,
-    Snap, SrgbLogic, narrowed, permit,
+    DepthTerms, EarlyUpdates, FactorClamp, FlushedFloats, FragCoord, InputMaskRule, MaskOfOne,
+    NegativeAlpha, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp,
+    SmallFloats, Snap, SrgbLogic, narrowed, permit,
 };
 use etalon_frame::{Grade, Limits};
 
@@ -36,6 +36,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             limits.sub_pixel_bits,
             "WebGPU: silent on the grid; Vulkan and OpenGL: at least 4 bits",
         ),
+        viewport_step: permit(
+            1.0,
+            "WebGPU: silent on the precision of viewports; Vulkan: viewportSubPixelBits can be 0",
+        ),
         snap: permit(
             Snap::EitherSide,
             "WebGPU: 23.2.5 Rasterization is silent on vertex snapping; Vulkan and OpenGL: at least \
@@ -46,9 +50,11 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "WebGPU: 23.2.5.4 Polygon Rasterization: whether a sample on an edge is inside is not \
              defined",
         ),
-        covers_at_positions: permit(
+        covers_at_positions: narrowed(
             true,
-            "WebGPU: 23.2.5 Rasterization: samples lie at the standard patterns",
+            false,
+            Grade::Disputed,
+            "WebGPU: 23.2.5 Rasterization: samples must lie at the standard patterns; 23.2.5.4 Polygon Rasterization: their positions are implementation-defined",
         ),
         store: permit(
             Rounding::EitherNeighbour,
@@ -59,9 +65,11 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             BlendPrecision::DestinationCodes,
             "WebGPU: has no advanced blending; Vulkan and OpenGL: no lower than 16-bit floats",
         ),
-        blend: permit(
+        blend: narrowed(
             BlendPrecision::DestinationCodes,
-            "WebGPU: silent on blend precision; Vulkan and OpenGL: no lower than the destination's",
+            BlendPrecision::AnySteps,
+            Grade::Disputed,
+            "WebGPU: silent on blend precision; Vulkan and OpenGL: no lower than the destination's (read as one representation throughout)",
         ),
         signed_clamp: permit(
             SignedClamp::Signed,
@@ -78,6 +86,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         one_is_first_output: permit(
             true,
             "WebGPU: has no alpha to one; Vulkan: the first output's alpha alone",
+        ),
+        quotients_beyond_one: permit(
+            false,
+            "WebGPU: has no advanced blending; Vulkan: the dynamic range is the destination's",
         ),
         negative_alpha: permit(
             NegativeAlpha::Undefined,
@@ -248,8 +260,8 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "WebGPU: silent on overflow; Vulkan: the largest finite value or infinity",
         ),
         flushes_small_floats: permit(
-            true,
-            "WebGPU: silent on small floats; OpenGL: 16-bit ones may be encoded as zero",
+            FlushedFloats::All,
+            "WebGPU: silent on small floats; OpenGL ES: those of 16, 11 and 10 bits may be forced to zero",
         ),
         small_floats: permit(
             SmallFloats::EitherNeighbour,
@@ -270,6 +282,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         runs_once: permit(
             false,
             "WebGPU: silent on additional runs; Vulkan permits them",
+        ),
+        samples_as_told: permit(
+            true,
+            "WebGPU: GPUMultisampleState: count is the number of samples",
         ),
         runs_by_share: permit(false, "WebGPU: has no least share of sample shading"),
         alpha_to_coverage: permit(

@@ -2,7 +2,8 @@
 
 use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, DepthOrder, DepthRange, DepthTerms, EarlyUpdates,
-    FactorClamp, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, Snap, permit,
+    FactorClamp, FlushedFloats, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge,
+    Snap, permit,
 };
 use etalon_frame::{Api, Limits};
 
@@ -49,6 +50,7 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             limits.sub_pixel_bits,
             "Yardstick: the grid that the adapter reports",
         ),
+        viewport_step: permit(0.0, "Yardstick: bounds are exact"),
         snap: permit(snap, "Direct3D 11.3: 3.4.1 Coordinate Snapping: nearest"),
         shared_edge: permit(SharedEdge::TopLeft, "Direct3D 11.3: 3.4.2.1 Top-Left Rule"),
         covers_at_positions: permit(true, "Yardstick: at the positions that are told"),
@@ -72,6 +74,10 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
         ),
         one_is_first_output: permit(
             text.one_is_first_output.value,
+            "Yardstick: as the API's text says",
+        ),
+        quotients_beyond_one: permit(
+            text.quotients_beyond_one.value,
             "Yardstick: as the API's text says",
         ),
         negative_alpha: permit(
@@ -184,17 +190,21 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             "Yardstick: the fragment's own depth is the same, written or not (Direct3D 11.3)",
         ),
         filter_step: permit(
-            1.0 / 256.0,
+            text.filter_step.value.min(1.0 / 256.0),
             "Yardstick: 8 bits of fraction (Direct3D 11.3, 7.18.7 and 7.18.8)",
         ),
         filters_to_codes: permit(false, "Yardstick: in floats"),
         half_overflows: permit(true, "Yardstick: the largest finite value or infinity"),
-        flushes_small_floats: permit(false, "Yardstick: representable values are kept"),
+        flushes_small_floats: permit(
+            FlushedFloats::None,
+            "Yardstick: representable values are kept",
+        ),
         small_floats: permit(text.small_floats.value, "Yardstick: as the API's text says"),
         runs_for_discarded: permit(true, "Yardstick: one run for every fragment"),
         runs_for_overwritten: permit(true, "Yardstick: one run for every fragment"),
         skips_rejected: permit(true, "Yardstick: one run for every fragment"),
         runs_once: permit(text.runs_once.value, "Yardstick: as the API's text says"),
+        samples_as_told: permit(true, "Yardstick: as many as are told"),
         runs_by_share: permit(
             text.runs_by_share.value,
             "Yardstick: as the API's text says",

@@ -108,9 +108,10 @@ pub(crate) fn wider() -> Vec<(Rules, Rules)> {
             pairs.push((rules.clone(), wide));
         }
     }
-    let changes: [fn(&mut Rules); 6] = [
+    let changes: [fn(&mut Rules); 7] = [
         |r| r.store.set(Rounding::EitherNeighbour),
         |r| r.blend.set(BlendPrecision::DestinationCodes),
+        |r| r.blend.set(BlendPrecision::AnySteps),
         |r| r.snap.set(Snap::EitherSide),
         |r| r.shared_edge.set(SharedEdge::ExactlyOne),
         |r| r.shared_edge.set(SharedEdge::Independent),

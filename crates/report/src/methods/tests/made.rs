@@ -114,6 +114,8 @@ pub(crate) fn run(made: &[Made]) -> Run {
             properties: Default::default(),
             exempt: Default::default(),
             sub_pixel_bits: 8,
+            viewport_bits: None,
+            texel_bits: None,
             max_size: 1024,
             max_color_attachments: 4,
             formats: [].into(),

@@ -73,6 +73,8 @@ pub(crate) fn adapter(name: &str, api: Api) -> AdapterRecord {
             properties: Default::default(),
             exempt: Default::default(),
             sub_pixel_bits: 8,
+            viewport_bits: None,
+            texel_bits: None,
             max_size: 16384,
             max_color_attachments: 8,
             formats: [
