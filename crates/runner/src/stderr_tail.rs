@@ -69,7 +69,7 @@ mod tests {
     use std::io::{self, Write};
 
     #[test]
-    fn late_output_is_read_and_an_endless_stream_is_not_waited_for() {
+    fn late_output_is_read_and_an_open_stream_is_not_waited_for() {
         let (reader, mut writer) = io::pipe().expect("a pipe");
         let tail = StderrTail::of(reader).expect("a thread");
         assert_eq!(tail.text(Duration::from_millis(1)), "");
