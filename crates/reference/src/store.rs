@@ -115,8 +115,9 @@ impl Walk<'_> {
         if !is_defined && [src, dst, value].into_iter().any(is_negative) {
             value = [Range::same(Interval::EVERYTHING); 4];
         }
+        // Equal codes are equal up to the error of their conversion.
         let exceeds_alpha = |color: [Range; 4]| {
-            let alpha = color[3].hull().low;
+            let alpha = color[3].hull().low + 4.0 * self.rules.decode_error.value();
             color[..3].iter().any(|channel| channel.hull().high > alpha)
         };
         if is_normalized
