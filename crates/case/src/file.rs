@@ -192,7 +192,7 @@ impl CaseFile {
     pub fn cases(&self, profile: Profile) -> impl Iterator<Item = CaseRef<'_>> {
         let indices: Vec<usize> = match (profile, &self.wire.quick) {
             (Profile::Quick, Some(QuickWire::Pairwise)) => self.covering(Cover::Pairs),
-            (Profile::Quick, Some(QuickWire::Each(n))) => self.covering(Cover::Each(n.get())),
+            (Profile::Quick, Some(QuickWire::Each(n))) => self.covering(Cover::AtLeast(n.get())),
             (Profile::Quick, Some(QuickWire::First(n))) => (0..self.count.min(n.get())).collect(),
             (Profile::Quick, Some(QuickWire::Where(chosen))) => {
                 (0..self.count).filter(|i| self.has(*i, chosen)).collect()
