@@ -118,8 +118,10 @@ impl CaseFile {
                 ));
             };
             let values = derived.values.as_ref();
-            if let Some(misfit) = values.and_then(|values| values.misfit(&derived.axis, axis)) {
-                return Err(fail(At::new(misfit).key("values").key(name).key("derived")));
+            if let Some(mismatch) = values.and_then(|values| values.mismatch(&derived.axis, axis)) {
+                return Err(fail(
+                    At::new(mismatch).key("values").key(name).key("derived"),
+                ));
             }
         }
         let unknown = |chosen: &BTreeMap<String, String>| -> Option<At> {

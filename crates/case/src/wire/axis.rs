@@ -90,6 +90,7 @@ impl<'de> Deserialize<'de> for AxisValue {
             Value::String(text) => text.clone(),
             Value::Bool(flag) => flag.to_string(),
             Value::Number(number) => match number.as_f64() {
+                // 1.0 is named `1` in ids.
                 Some(float) if !number.is_i64() && !number.is_u64() => float.to_string(),
                 _ => number.to_string(),
             },
@@ -135,7 +136,7 @@ impl JsonSchema for AxisValue {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DerivedWire {
-    /// The axis.
+    /// The name of the axis that the value follows.
     pub(crate) axis: String,
     /// The number of positions further on, wrapping at the end.
     #[serde(default)]
@@ -161,21 +162,20 @@ pub(crate) enum DerivedValues {
 }
 
 impl DerivedValues {
-    /// Returns the derived value for the axis's value with this index, and its place; `None` if the axis has no
-    /// such value.
-    pub(crate) fn get(&self, axis: &[AxisValue], number: usize) -> Option<(&Value, PathStep)> {
+    /// Returns the value for the axis's value at an index, and its place in the file; `None` if it has none.
+    pub(crate) fn get(&self, axis: &[AxisValue], index: usize) -> Option<(&Value, PathStep)> {
         match self {
-            Self::Listed(values) => Some((values.get(number)?, PathStep::Index(number))),
+            Self::Listed(values) => Some((values.get(index)?, PathStep::Index(index))),
             Self::Named(values) => {
-                let by_name = values.get_key_value(&axis.get(number)?.name);
+                let by_name = values.get_key_value(&axis.get(index)?.name);
                 let (name, value) = by_name.or_else(|| values.get_key_value(OTHERS))?;
                 Some((value, PathStep::Key(name.clone())))
             }
         }
     }
 
-    /// Returns why these are not the values for an axis, if they are not.
-    pub(crate) fn misfit(&self, name: &str, axis: &[AxisValue]) -> Option<String> {
+    /// Returns the reason why these values do not fit an axis, if there is one.
+    pub(crate) fn mismatch(&self, name: &str, axis: &[AxisValue]) -> Option<String> {
         match self {
             Self::Listed(values) => (values.len() != axis.len())
                 .then(|| format!("axis `{name}` has {} values", axis.len())),
@@ -184,10 +184,10 @@ impl DerivedValues {
                 if let Some(unknown) = values.keys().find(|key| !is_known(key)) {
                     return Some(format!("no axis `{name}` has a value `{unknown}`"));
                 }
-                let without = (0..axis.len()).find(|number| self.get(axis, *number).is_none())?;
-                let value = &axis[without].name;
+                let missing = (0..axis.len()).find(|index| self.get(axis, *index).is_none())?;
+                let value = &axis[missing].name;
                 Some(format!(
-                    "the value `{value}` of axis `{name}` has none, and there is no `*`"
+                    "`values` has no entry for the value `{value}` of axis `{name}`, and no `*`"
                 ))
             }
         }
