@@ -23,12 +23,12 @@ pub(crate) fn parse(text: &str) -> Result<Shard, String> {
 }
 
 /// Returns the shard that the flag or the environment gives; `None` if it is all cases.
-fn chosen(flag: Option<Shard>) -> Result<Option<Shard>, Failure> {
+fn shard_of_process(flag: Option<Shard>) -> Result<Option<Shard>, Failure> {
     if let Some(shard) = flag {
         return Ok((shard.count > 1).then_some(shard));
     }
-    let given = from_environment(|name| std::env::var(name).ok())?;
-    if let Some(path) = given.status_file {
+    let environment = from_environment(|name| std::env::var(name).ok())?;
+    if let Some(path) = environment.status_file {
         // The file tells Bazel that the process supports sharding.
         fs::write(&path, "").map_err(|e| {
             Failure::usage(format!(
@@ -37,12 +37,15 @@ fn chosen(flag: Option<Shard>) -> Result<Option<Shard>, Failure> {
             ))
         })?;
     }
-    Ok(given.shard)
+    Ok(environment.shard)
 }
 
 /// Keeps the cases of the shard that the flag or the environment gives, and prints their number.
-pub(crate) fn keep(flag: Option<Shard>, cases: &mut Vec<Case>) -> Result<Option<Shard>, Failure> {
-    let shard = chosen(flag)?;
+pub(crate) fn retain_shard(
+    flag: Option<Shard>,
+    cases: &mut Vec<Case>,
+) -> Result<Option<Shard>, Failure> {
+    let shard = shard_of_process(flag)?;
     if let Some(shard) = shard {
         let selected = cases.len();
         cases.retain(|case| shard_of(&case.id, shard.count) == shard.index);
@@ -53,23 +56,53 @@ pub(crate) fn keep(flag: Option<Shard>, cases: &mut Vec<Case>) -> Result<Option<
 
 /// The shard that the environment gives.
 #[derive(Debug, Default, PartialEq, Eq)]
-pub(crate) struct FromEnvironment {
+struct EnvironmentShard {
     /// The shard, if there are several.
-    pub(crate) shard: Option<Shard>,
+    shard: Option<Shard>,
     /// A file to create, which tells Bazel that the process supports sharding.
-    pub(crate) status_file: Option<PathBuf>,
+    status_file: Option<PathBuf>,
 }
 
 /// Reads the variables of GitLab, Bazel, Slurm arrays and Kubernetes indexed jobs. `variable` looks up a
 /// variable.
 ///
 /// # Errors
-/// If the variables contradict each other.
-pub(crate) fn from_environment(
+/// If a variable is missing or wrong, or if two systems contradict each other.
+fn from_environment(
     variable: impl Fn(&str) -> Option<String>,
-) -> Result<FromEnvironment, Failure> {
-    let number = |name: &str| -> Result<Option<u32>, Failure> {
-        match variable(name).filter(|v| !v.is_empty()) {
+) -> Result<EnvironmentShard, Failure> {
+    let variables = Variables(&variable);
+    let (gitlab, bazel) = (variables.gitlab()?, variables.bazel()?);
+    let status_file = bazel.and_then(|_| variable("TEST_SHARD_STATUS_FILE").map(PathBuf::from));
+    let systems = [
+        ("GitLab", gitlab),
+        ("Bazel", bazel),
+        ("Slurm", variables.slurm()?),
+        ("Kubernetes", variables.kubernetes()?),
+    ];
+    let systems = systems.into_iter();
+    let shards: Vec<(&str, Shard)> = systems
+        .filter_map(|(system, shard)| Some((system, shard?)))
+        .collect();
+    if let [(first, a), (other, b), ..] = shards.as_slice()
+        && a != b
+    {
+        return Err(Failure::usage(format!(
+            "{first} sets shard {a}, {other} shard {b}; give --shard M/N, or 1/1 for all"
+        )));
+    }
+    Ok(EnvironmentShard {
+        shard: shards.first().map(|(_, s)| *s).filter(|s| s.count > 1),
+        status_file,
+    })
+}
+
+/// The variables of CI and batch systems, which number shards in different ways.
+struct Variables<'a>(&'a dyn Fn(&str) -> Option<String>);
+
+impl Variables<'_> {
+    fn number(&self, name: &str) -> Result<Option<u32>, Failure> {
+        match (self.0)(name).filter(|v| !v.is_empty()) {
             None => Ok(None),
             Some(text) => text.parse().map(Some).map_err(|_| {
                 Failure::usage(format!(
@@ -77,89 +110,77 @@ pub(crate) fn from_environment(
                 ))
             }),
         }
-    };
-    let mut found: Vec<(&str, Shard)> = Vec::new();
-    let mut add = |system: &'static str,
-                   index: Option<u32>,
-                   count: Option<u32>,
-                   count_name: &str| {
-        let (Some(index), Some(count)) = (index, count) else {
+    }
+
+    /// Returns a system's shard. `index` counts from one, and is `None` if the variable `index_name` is no index.
+    fn shard(
+        &self,
+        system: &str,
+        index_name: &str,
+        index: Option<u32>,
+        count_name: &str,
+    ) -> Result<Option<Shard>, Failure> {
+        let Some(count) = self.number(count_name)? else {
             return Err(Failure::usage(format!(
                 "{system} sets a shard, but {count_name} is not set; set it, or give --shard M/N"
             )));
         };
-        if !(1..=count).contains(&index) {
+        let Some(index) = index.filter(|index| (1..=count).contains(index)) else {
+            let text = (self.0)(index_name).unwrap_or_default();
             return Err(Failure::usage(format!(
-                "{system} sets shard {index} of {count}; give --shard M/N"
+                "{system} sets {index_name} to {text}, which is none of {count} shards; give --shard M/N"
             )));
+        };
+        Ok(Some(Shard { index, count }))
+    }
+
+    /// GitLab sets the total for every job, but the index only for parallel jobs.
+    fn gitlab(&self) -> Result<Option<Shard>, Failure> {
+        let name = "CI_NODE_INDEX";
+        match self.number(name)? {
+            Some(index) => self.shard("GitLab", name, Some(index), "CI_NODE_TOTAL"),
+            None => Ok(None),
         }
-        found.push((system, Shard { index, count }));
-        Ok(())
-    };
-    // GitLab sets the total for every job, but the index only for parallel jobs.
-    if let Some(index) = number("CI_NODE_INDEX")? {
-        add(
-            "GitLab",
-            Some(index),
-            number("CI_NODE_TOTAL")?,
-            "CI_NODE_TOTAL",
-        )?;
     }
-    let mut status_file = None;
-    if let Some(index) = number("TEST_SHARD_INDEX")? {
-        let index = index.checked_add(1);
-        add(
-            "Bazel",
-            index,
-            number("TEST_TOTAL_SHARDS")?,
-            "TEST_TOTAL_SHARDS",
-        )?;
-        status_file = variable("TEST_SHARD_STATUS_FILE").map(PathBuf::from);
+
+    fn bazel(&self) -> Result<Option<Shard>, Failure> {
+        let name = "TEST_SHARD_INDEX";
+        match self.number(name)? {
+            Some(index) => self.shard("Bazel", name, index.checked_add(1), "TEST_TOTAL_SHARDS"),
+            None => Ok(None),
+        }
     }
-    if let Some(id) = number("SLURM_ARRAY_TASK_ID")? {
-        let first = number("SLURM_ARRAY_TASK_MIN")?.unwrap_or(0);
-        let step = number("SLURM_ARRAY_TASK_STEP")?.unwrap_or(1).max(1);
-        let count = number("SLURM_ARRAY_TASK_COUNT")?;
-        let index = id.checked_sub(first).map(|n| n / step + 1);
-        let is_exact = id >= first && (id - first).is_multiple_of(step);
-        add(
-            "Slurm",
-            index.filter(|_| is_exact),
-            count,
-            "SLURM_ARRAY_TASK_COUNT",
-        )?;
+
+    fn slurm(&self) -> Result<Option<Shard>, Failure> {
+        let name = "SLURM_ARRAY_TASK_ID";
+        let Some(id) = self.number(name)? else {
+            return Ok(None);
+        };
+        let first = self.number("SLURM_ARRAY_TASK_MIN")?.unwrap_or(0);
+        let step = self.number("SLURM_ARRAY_TASK_STEP")?.unwrap_or(1).max(1);
+        let offset = id.checked_sub(first).filter(|n| n.is_multiple_of(step));
+        let index = offset.and_then(|n| (n / step).checked_add(1));
+        self.shard("Slurm", name, index, "SLURM_ARRAY_TASK_COUNT")
     }
-    if let Some(index) = number("JOB_COMPLETION_INDEX")? {
-        // Kubernetes sets only the index; the job file sets the total.
-        let index = index.checked_add(1);
-        add(
-            "Kubernetes",
-            index,
-            number("JOB_COMPLETIONS")?,
-            "JOB_COMPLETIONS",
-        )?;
+
+    /// Kubernetes sets only the index; the job file sets the total.
+    fn kubernetes(&self) -> Result<Option<Shard>, Failure> {
+        let name = "JOB_COMPLETION_INDEX";
+        match self.number(name)? {
+            Some(index) => self.shard("Kubernetes", name, index.checked_add(1), "JOB_COMPLETIONS"),
+            None => Ok(None),
+        }
     }
-    if let [(first, a), (other, b), ..] = found.as_slice()
-        && a != b
-    {
-        return Err(Failure::usage(format!(
-            "{first} sets shard {a}, {other} shard {b}; give --shard M/N, or 1/1 for all"
-        )));
-    }
-    Ok(FromEnvironment {
-        shard: found.first().map(|(_, s)| *s).filter(|s| s.count > 1),
-        status_file,
-    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn given_by(variables: &[(&str, &str)]) -> Result<Option<Shard>, String> {
+    fn environment_shard(variables: &[(&str, &str)]) -> Result<Option<Shard>, String> {
         let find = |name: &str| {
-            let found = variables.iter().find(|(n, _)| *n == name);
-            found.map(|(_, value)| (*value).to_owned())
+            let value = variables.iter().find(|(n, _)| *n == name);
+            value.map(|(_, value)| (*value).to_owned())
         };
         from_environment(find)
             .map(|a| a.shard)
@@ -167,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn shard_variables_of_each_system_are_understood() {
+    fn every_system_gives_the_second_of_five_shards() {
         let two_of_five = Some(Shard { index: 2, count: 5 });
         for variables in [
             &[("CI_NODE_INDEX", "2"), ("CI_NODE_TOTAL", "5")][..],
@@ -185,37 +206,73 @@ mod tests {
             ],
             &[("JOB_COMPLETION_INDEX", "1"), ("JOB_COMPLETIONS", "5")],
         ] {
-            assert_eq!(given_by(variables), Ok(two_of_five), "{variables:?}");
+            assert_eq!(
+                environment_shard(variables),
+                Ok(two_of_five),
+                "{variables:?}"
+            );
         }
-        assert_eq!(given_by(&[]), Ok(None));
+        assert_eq!(environment_shard(&[]), Ok(None));
         // A GitLab job without `parallel`.
-        assert_eq!(given_by(&[("CI_NODE_TOTAL", "1")]), Ok(None));
+        assert_eq!(environment_shard(&[("CI_NODE_TOTAL", "1")]), Ok(None));
     }
 
     #[test]
-    fn contradictory_shard_variables_are_refused() {
-        for variables in [
-            &[("CI_NODE_INDEX", "6"), ("CI_NODE_TOTAL", "5")][..],
-            &[("CI_NODE_INDEX", "0"), ("CI_NODE_TOTAL", "5")],
-            &[("TEST_SHARD_INDEX", "x"), ("TEST_TOTAL_SHARDS", "5")],
-            &[
-                ("TEST_SHARD_INDEX", "4294967295"),
-                ("TEST_TOTAL_SHARDS", "5"),
-            ],
-            &[("JOB_COMPLETION_INDEX", "1")],
-            &[
-                ("SLURM_ARRAY_TASK_ID", "2"),
-                ("SLURM_ARRAY_TASK_MIN", "10"),
-                ("SLURM_ARRAY_TASK_COUNT", "5"),
-            ],
-            &[
-                ("CI_NODE_INDEX", "1"),
-                ("CI_NODE_TOTAL", "5"),
-                ("JOB_COMPLETION_INDEX", "1"),
-                ("JOB_COMPLETIONS", "5"),
-            ],
+    fn wrong_variables_are_refused_by_name() {
+        for (variables, names) in [
+            (
+                &[("CI_NODE_INDEX", "6"), ("CI_NODE_TOTAL", "5")][..],
+                "CI_NODE_INDEX to 6,",
+            ),
+            (
+                &[("CI_NODE_INDEX", "0"), ("CI_NODE_TOTAL", "5")],
+                "CI_NODE_INDEX to 0,",
+            ),
+            (&[("CI_NODE_INDEX", "1")], "CI_NODE_TOTAL is not set"),
+            (
+                &[("TEST_SHARD_INDEX", "x"), ("TEST_TOTAL_SHARDS", "5")],
+                "the variable TEST_SHARD_INDEX is `x`",
+            ),
+            (
+                &[
+                    ("TEST_SHARD_INDEX", "4294967295"),
+                    ("TEST_TOTAL_SHARDS", "5"),
+                ],
+                "TEST_SHARD_INDEX to 4294967295,",
+            ),
+            (
+                &[("JOB_COMPLETION_INDEX", "1")],
+                "JOB_COMPLETIONS is not set",
+            ),
+            (
+                &[
+                    ("SLURM_ARRAY_TASK_ID", "2"),
+                    ("SLURM_ARRAY_TASK_MIN", "10"),
+                    ("SLURM_ARRAY_TASK_COUNT", "5"),
+                ],
+                "SLURM_ARRAY_TASK_ID to 2,",
+            ),
+            (
+                &[
+                    ("SLURM_ARRAY_TASK_ID", "11"),
+                    ("SLURM_ARRAY_TASK_MIN", "10"),
+                    ("SLURM_ARRAY_TASK_STEP", "3"),
+                    ("SLURM_ARRAY_TASK_COUNT", "5"),
+                ],
+                "SLURM_ARRAY_TASK_ID to 11,",
+            ),
+            (
+                &[
+                    ("CI_NODE_INDEX", "1"),
+                    ("CI_NODE_TOTAL", "5"),
+                    ("JOB_COMPLETION_INDEX", "1"),
+                    ("JOB_COMPLETIONS", "5"),
+                ],
+                "GitLab sets shard 1/5, Kubernetes shard 2/5",
+            ),
         ] {
-            assert!(given_by(variables).is_err(), "{variables:?}");
+            let error = environment_shard(variables).expect_err("the variables are wrong");
+            assert!(error.contains(names), "{variables:?}: {error}");
         }
     }
 

@@ -160,7 +160,7 @@ impl BenchCases {
         beside_each_other(&mut cases);
         Ok(Self {
             digest: selection_digest(cases.iter().map(|case| case.id.as_str())),
-            shard: shard::keep(arguments.shard, &mut cases)?,
+            shard: shard::retain_shard(arguments.shard, &mut cases)?,
             cases,
         })
     }

@@ -297,7 +297,7 @@ impl RunCases {
         leave_measured(&mut cases, selection, |case| case.measured);
         let ids: Vec<String> = cases.iter().map(|case| case.id.clone()).collect();
         let round_trips = round_trips(selection.cases.as_ref(), &cases)?;
-        let shard = shard::keep(arguments.shard, &mut cases)?;
+        let shard = shard::retain_shard(arguments.shard, &mut cases)?;
         if let Some(seed) = arguments.shuffle {
             shuffle(&mut cases, seed);
         }
