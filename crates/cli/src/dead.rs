@@ -25,7 +25,7 @@ pub(crate) fn of_run(
     if expectations.all().is_empty() {
         return Ok(Vec::new());
     }
-    // A test ensures that built-in globs match something.
+    // `each_glob_of_a_finding_names_a_case_and_an_adapter` ensures that built-in globs match something.
     let sound = |known: &Known| is_built_in(&known.place());
     let names = names(adapter_file)?;
     let ids = || {
