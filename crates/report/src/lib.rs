@@ -42,8 +42,8 @@ pub use bench::{WrittenBench, bench_table, write_bench};
 pub use catalogue::{Catalogue, CatalogueCase, reference_png};
 pub use command::quoted;
 pub use diff::benches::{
-    BenchDiff, BenchFacts, InstructionChange, InstructionOutcome, TimeChange, Untimed, diff,
-    diff_table, write_diff,
+    BenchDiff, BenchIdentity, InstructionChange, InstructionOutcome, OutcomeCounts, TimeChange,
+    Untimed, diff, diff_table, write_diff,
 };
 pub use diff::runs;
 pub use error::ReportError;

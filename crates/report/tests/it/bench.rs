@@ -6,7 +6,9 @@ use etalon_record::{
     BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchWriter, Ended, Machine, Picture,
     ProcessorLimits, Provenance, Reason, Round, ShaderCache, Time, Verdict,
 };
-use etalon_report::{TableOptions, bench_table, diff, diff_table, write_bench, write_diff};
+use etalon_report::{
+    OutcomeCounts, TableOptions, bench_table, diff, diff_table, write_bench, write_diff,
+};
 use etalon_stats::Conclusion;
 use roxmltree::Document;
 use serde::Deserialize;
@@ -271,14 +273,18 @@ fn a_diff_lists_what_is_worse() {
     let same = write(folders[1].path(), &header(), 2e-3, Verdict::Pass);
     let unchanged = diff(&before, &same, Time::Wall);
     assert!(!unchanged.worse() && unchanged.notes.is_empty());
-    assert_eq!(unchanged.counts(), [0, 0, 8]);
+    let undecided = OutcomeCounts {
+        undecided: 8,
+        ..OutcomeCounts::default()
+    };
+    assert_eq!(unchanged.counts(), undecided);
 
     let mut other = header();
     other.adapters[1].info.driver_version = "26.0.0".to_owned();
     other.ruler = "another".to_owned();
     let after = write(folders[2].path(), &other, 2.2e-3, Verdict::Fail);
     let found = diff(&before, &after, Time::Wall);
-    assert_eq!(found.counts()[..2], [2, 0]);
+    assert_eq!((found.counts().slower, found.counts().faster), (2, 0));
     let slower = found
         .changes
         .iter()
@@ -291,7 +297,7 @@ fn a_diff_lists_what_is_worse() {
         found
             .gone
             .iter()
-            .all(|g| g.worse && g.from_after && g.why.contains("fail"))
+            .all(|g| g.worse && g.is_missing_after && g.why.contains("fail"))
     );
     let notes = found.notes.join("\n");
     assert!(
@@ -304,10 +310,23 @@ fn a_diff_lists_what_is_worse() {
             .iter()
             .all(|g| !g.worse)
     );
-    assert_eq!(diff(&after, &before, Time::Wall).counts()[1], 2);
+    assert_eq!(diff(&after, &before, Time::Wall).counts().faster, 2);
     // Only the card has GPU times, and no ruler applies to them.
     let gpu = diff(&before, &same, Time::Gpu);
     assert!(gpu.changes.len() == 2 && gpu.changes.iter().all(|c| c.ruled.is_none()));
+
+    let mut incomplete = same;
+    incomplete.truncated = true;
+    let notes = |after: &Bench| diff(&before, after, Time::Wall).notes;
+    assert_eq!(
+        notes(&incomplete),
+        ["The file of the second bench ends within a line."]
+    );
+    incomplete.records[0].rounds.pop();
+    assert_eq!(
+        notes(&incomplete),
+        ["The second bench is incomplete: it lacks 1 round."]
+    );
 
     let text = diff_table(
         &found,

@@ -1,15 +1,14 @@
 //! Compares two benches from their recorded samples.
 
 use super::instructions::{self, InstructionChange, InstructionOutcome};
+use super::notes::notes;
 use crate::bench::figures::{self, software};
-use crate::numbers::count;
 use crate::words::{self, machine};
-use etalon_record::{AdapterRecord, Bench, BenchHeader, BenchRecord, Time};
+use etalon_record::{Bench, BenchHeader, BenchRecord, Time};
 use etalon_stats::{
     Conclusion, LEVEL, MINIMUM, Samples, Why, compare, smallest_visible, summarize,
 };
 use serde::{Serialize, Serializer};
-use std::collections::BTreeSet;
 
 /// The comparison of two benches. `--format json` prints its serialised form.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -22,9 +21,9 @@ pub struct BenchDiff {
     /// Changes up to this ratio are not reported.
     pub minimum: f64,
     /// The first bench.
-    pub before: BenchFacts,
+    pub before: BenchIdentity,
     /// The second bench.
-    pub after: BenchFacts,
+    pub after: BenchIdentity,
     /// Facts that make the two hard to compare: different machines, drivers, rulers or profiles, and lost
     /// rounds.
     pub notes: Vec<String>,
@@ -39,7 +38,7 @@ pub struct BenchDiff {
 
 /// The identity of one of the benches.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct BenchFacts {
+pub struct BenchIdentity {
     /// The start, RFC 3339.
     pub started: String,
     /// The suite's version.
@@ -73,7 +72,7 @@ pub struct TimeChange {
     pub after: f64,
     /// Rounds before and after.
     pub rounds: [usize; 2],
-    /// The ratio over all pairs of rounds, which differs slightly from the ratio of the medians.
+    /// The median ratio of all pairs of rounds, which differs slightly from the ratio of the medians.
     pub ratio: f64,
     /// The interval of the ratio; `None` with too few rounds.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -91,11 +90,11 @@ pub struct TimeChange {
 }
 
 impl TimeChange {
-    /// Returns the outcome's name if the samples decide it, else an empty text.
-    pub(super) fn decided(&self) -> &'static str {
+    /// Returns the outcome's name if the samples decide it.
+    pub(super) fn decided(&self) -> Option<&'static str> {
         match self.outcome {
-            Conclusion::CannotTell(_) => "",
-            outcome => outcome.name(),
+            Conclusion::CannotTell(_) => None,
+            outcome => Some(outcome.name()),
         }
     }
 }
@@ -112,7 +111,8 @@ pub struct Untimed {
     /// The adapter's name.
     pub adapter: String,
     /// True if the times are missing in the second bench, false if they are missing in the first.
-    pub from_after: bool,
+    #[serde(rename = "from_after")]
+    pub is_missing_after: bool,
     /// The reason.
     pub why: String,
     /// True if this is worse than before: a right picture with a time is now wrong or broken, or its adapter
@@ -122,16 +122,27 @@ pub struct Untimed {
     pub vanished: bool,
 }
 
+/// The numbers of changes by outcome.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct OutcomeCounts {
+    /// Slower in the second bench.
+    pub slower: usize,
+    /// Faster in the second bench.
+    pub faster: usize,
+    /// Undecided by the samples.
+    pub undecided: usize,
+}
+
 impl BenchDiff {
     /// Returns the numbers of slower, faster and undecided changes.
-    pub fn counts(&self) -> [usize; 3] {
-        let mut counts = [0; 3];
+    pub fn counts(&self) -> OutcomeCounts {
+        let mut counts = OutcomeCounts::default();
         for change in &self.changes {
-            counts[match change.outcome {
-                Conclusion::Slower => 0,
-                Conclusion::Faster => 1,
-                Conclusion::CannotTell(_) => 2,
-            }] += 1;
+            *match change.outcome {
+                Conclusion::Slower => &mut counts.slower,
+                Conclusion::Faster => &mut counts.faster,
+                Conclusion::CannotTell(_) => &mut counts.undecided,
+            } += 1;
         }
         counts
     }
@@ -139,23 +150,22 @@ impl BenchDiff {
     /// Returns true if anything is worse: slower, with more instructions, no longer right, or on an adapter that
     /// vanished.
     pub fn worse(&self) -> bool {
-        self.counts()[0] > 0 || self.more() > 0 || self.gone.iter().any(|g| g.worse)
+        self.counts().slower > 0
+            || self.with_more_instructions() > 0
+            || self.gone.iter().any(|g| g.worse)
     }
 
     /// Returns the number of cases that take more instructions.
-    fn more(&self) -> usize {
-        let more = self.instructions.iter();
-        more.filter(|c| c.outcome == InstructionOutcome::More)
+    pub(super) fn with_more_instructions(&self) -> usize {
+        let changes = self.instructions.iter();
+        changes
+            .filter(|c| c.outcome == InstructionOutcome::More)
             .count()
     }
 
-    /// Returns the number of undecided comparisons, and of cases that only one bench timed.
-    pub fn untold(&self) -> [usize; 2] {
-        let untold = self.changes.iter().filter(|c| c.why.is_some());
-        [
-            untold.count(),
-            self.gone.iter().filter(|g| !g.worse).count(),
-        ]
+    /// Returns the number of cases that only one bench timed, without being worse.
+    pub(super) fn timed_in_one(&self) -> usize {
+        self.gone.iter().filter(|g| !g.worse).count()
     }
 
     /// Returns the changes on software or hardware adapters.
@@ -165,87 +175,44 @@ impl BenchDiff {
             .filter(|c| c.software == software)
             .collect()
     }
-
-    /// Returns the conclusion's sign, its class on a page and its colour on a terminal.
-    pub(super) fn look(&self) -> [&'static str; 3] {
-        match (self.worse(), self.untold()) {
-            (true, _) => ["✗", "bad", "31"],
-            (false, [0, 0]) => ["✓", "good", "32"],
-            (false, _) => ["?", "o", "33"],
-        }
-    }
-
-    /// Returns the conclusion in one line.
-    pub(super) fn conclusion(&self) -> String {
-        let mut parts = Vec::new();
-        if self.worse() {
-            parts.push(format!("{} slower", self.counts()[0]));
-            if self.more() > 0 {
-                parts.push(format!("{} with more instructions", self.more()));
-            }
-            let wrong = self.gone.iter().filter(|g| g.worse && !g.vanished).count();
-            parts.push(format!("{wrong} no longer right"));
-        } else {
-            parts.push("Nothing is shown to be worse".to_owned());
-        }
-        let vanished = self.gone.iter().filter(|g| g.vanished);
-        let vanished: BTreeSet<&str> = vanished.map(|g| g.adapter.as_str()).collect();
-        let vanished: Vec<&str> = vanished.into_iter().collect();
-        if !vanished.is_empty() {
-            parts.push(format!("vanished: {}", vanished.join(", ")));
-        }
-        let [undecided, alone] = self.untold();
-        if undecided > 0 {
-            let pairs = self.changes.len();
-            parts.push(format!("{undecided} of {pairs} comparisons cannot tell"));
-        }
-        if alone > 0 {
-            parts.push(format!(
-                "{} timed in one bench only",
-                count(alone as u64, "case")
-            ));
-        }
-        parts.join("; ")
-    }
 }
 
 /// Compares the second bench with the first.
 pub fn diff(before: &Bench, after: &Bench, time: Time) -> BenchDiff {
     let same_ruler = before.header.ruler == after.header.ruler;
-    let mut found = BenchDiff {
+    let mut diff = BenchDiff {
         time,
         level: LEVEL,
         minimum: MINIMUM,
-        before: side(&before.header),
-        after: side(&after.header),
+        before: identity(&before.header),
+        after: identity(&after.header),
         notes: notes(before, after),
         changes: Vec::new(),
         gone: Vec::new(),
         instructions: Vec::new(),
     };
-    let (counted, note) = instructions::compare(before, after);
-    found.instructions = counted;
-    found.notes.extend(note);
+    let (instructions, note) = instructions::compare(before, after);
+    diff.instructions = instructions;
+    diff.notes.extend(note);
     for old in &before.records {
         let (case, adapter) = (&old.picture.case, &old.picture.adapter);
         let new = after.record(case, adapter);
-        let sides = [after, before].map(|bench| bench.header.adapter(adapter));
-        let kind = software(sides[0].or(sides[1]));
+        let new_adapter = after.header.adapter(adapter);
+        let is_software = software(new_adapter.or_else(|| before.header.adapter(adapter)));
         // The ruler measures the processor, not other devices.
-        let ruled = same_ruler && (kind || time != Time::Gpu);
-        let samples_of = |record: &BenchRecord| samples(record, time, ruled);
-        match (samples_of(old), new.and_then(samples_of)) {
-            (Some(b), Some(a)) => found.changes.push(changed(old, kind, &b, &a)),
+        let ruled = same_ruler && (is_software || time != Time::Gpu);
+        let timed = |record| samples(record, time, ruled).map(|samples| (record, samples));
+        match (timed(old), new.and_then(timed)) {
+            (Some((_, b)), Some((_, a))) => {
+                diff.changes.push(time_change(old, is_software, &b, &a));
+            }
             (Some(_), None) => {
-                let mut gone = gone(old, new, true, time);
-                gone.vanished = after.header.adapter(adapter).is_none();
-                gone.worse |= gone.vanished;
-                found.gone.push(gone);
+                let mut untimed = untimed(old, new, true, time);
+                untimed.vanished = new_adapter.is_none();
+                untimed.worse |= untimed.vanished;
+                diff.gone.push(untimed);
             }
-            (None, Some(_)) => {
-                let new = new.unwrap_or(old);
-                found.gone.push(gone(new, Some(old), false, time));
-            }
+            (None, Some((new, _))) => diff.gone.push(untimed(new, Some(old), false, time)),
             (None, None) => {}
         }
     }
@@ -253,10 +220,10 @@ pub fn diff(before: &Bench, after: &Bench, time: Time) -> BenchDiff {
         let (case, adapter) = (&new.picture.case, &new.picture.adapter);
         let timed = samples(new, time, false).is_some();
         if timed && before.record(case, adapter).is_none() {
-            found.gone.push(gone(new, None, false, time));
+            diff.gone.push(untimed(new, None, false, time));
         }
     }
-    found
+    diff
 }
 
 fn samples(record: &BenchRecord, time: Time, ruled: bool) -> Option<Samples> {
@@ -267,7 +234,12 @@ fn samples(record: &BenchRecord, time: Time, ruled: bool) -> Option<Samples> {
     }
 }
 
-fn changed(record: &BenchRecord, software: bool, before: &Samples, after: &Samples) -> TimeChange {
+fn time_change(
+    record: &BenchRecord,
+    software: bool,
+    before: &Samples,
+    after: &Samples,
+) -> TimeChange {
     let comparison = compare(before, after);
     let finite = |low: f64, high: f64| (low > 0.0 && high.is_finite()).then_some([low, high]);
     let ratio = comparison.ratio;
@@ -291,10 +263,15 @@ fn changed(record: &BenchRecord, software: bool, before: &Samples, after: &Sampl
     }
 }
 
-/// Describes times that only one bench has. `there` is the record with the times; `other` is the other
+/// Describes times that only one bench has. `timed` is the record with the times; `other` is the other
 /// bench's record, if any.
-fn gone(there: &BenchRecord, other: Option<&BenchRecord>, from_after: bool, time: Time) -> Untimed {
-    let (why, bad) = match other {
+fn untimed(
+    timed: &BenchRecord,
+    other: Option<&BenchRecord>,
+    is_missing_after: bool,
+    time: Time,
+) -> Untimed {
+    let (why, is_bad) = match other {
         None => ("it took no part".to_owned(), false),
         Some(other) => match &other.ended {
             Some(ended) => (
@@ -313,70 +290,21 @@ fn gone(there: &BenchRecord, other: Option<&BenchRecord>, from_after: bool, time
         },
     };
     Untimed {
-        case: there.picture.case.clone(),
-        adapter: there.picture.adapter.clone(),
-        from_after,
+        case: timed.picture.case.clone(),
+        adapter: timed.picture.adapter.clone(),
+        is_missing_after,
         why,
-        worse: from_after && bad,
+        worse: is_missing_after && is_bad,
         vanished: false,
     }
 }
 
-fn side(header: &BenchHeader) -> BenchFacts {
-    BenchFacts {
+fn identity(header: &BenchHeader) -> BenchIdentity {
+    BenchIdentity {
         started: header.provenance.started.clone(),
         etalon: header.provenance.etalon.clone(),
         commit: header.provenance.commit.clone(),
         machine: machine(&header.provenance.machine),
         command: header.provenance.command.join(" "),
     }
-}
-
-fn notes(before: &Bench, after: &Bench) -> Vec<String> {
-    let (b, a) = (&before.header, &after.header);
-    let mut notes = Vec::new();
-    if b.provenance.machine != a.provenance.machine {
-        notes.push(
-            "The machines differ, so they can cause changes instead of the driver.".to_owned(),
-        );
-    }
-    if b.ruler != a.ruler {
-        notes.push(format!(
-            "The rulers differ ({}; {}), so a change of the machine's speed stays unnoticed.",
-            b.ruler, a.ruler
-        ));
-    }
-    let mut differs = |what: String, before: &str, after: &str| {
-        if before != after {
-            notes.push(format!("{what} {before} before, {after} after."));
-        }
-    };
-    differs("Profiles:".to_owned(), &b.profile, &a.profile);
-    let caches = [b, a].map(|h| h.shader_cache.name());
-    differs("Shader caches:".to_owned(), caches[0], caches[1]);
-    for old in &b.adapters {
-        let Some(new) = a.adapter(&old.info.name) else {
-            continue;
-        };
-        let facts = |a: &AdapterRecord| {
-            [
-                a.info.device.clone(),
-                a.driver_text(),
-                a.info.api_version.clone(),
-            ]
-        };
-        let names = ["device", "driver", "API"].into_iter();
-        for (name, (b, a)) in names.zip(facts(old).into_iter().zip(facts(new))) {
-            differs(format!("{}: {name}", old.info.name), &b, &a);
-        }
-    }
-    for (bench, name) in [(before, "first"), (after, "second")] {
-        if bench.missing() > 0 || bench.truncated {
-            let n = bench.missing();
-            notes.push(format!(
-                "The {name} bench is incomplete: {n} rounds are missing."
-            ));
-        }
-    }
-    notes
 }

@@ -1,6 +1,6 @@
 //! The comparison of two benches as a page.
 
-use super::compare::{BenchDiff, BenchFacts};
+use super::compare::{BenchDiff, BenchIdentity};
 use super::instructions::{SMALLEST, instructions_table};
 use super::table::changes_table;
 use crate::bench::figures::KINDS;
@@ -23,13 +23,13 @@ pub fn write_diff(path: &Path, diff: &BenchDiff) -> Result<PathBuf, ReportError>
 }
 
 fn page(diff: &BenchDiff) -> String {
-    let [sign, class, _] = diff.look();
+    let look = diff.look();
     let main = html! {
         header {
             h1 { "etalon diff" }
             p.lead { "Changes of " (diff.time) " times between two benches." }
-            p class={ "state " (class) } { b { (sign) " " (diff.conclusion()) "." } }
-            dl.facts { (side("Before", &diff.before)) (side("After", &diff.after)) }
+            p class={ "state " (look.class) } { b { (look.sign) " " (diff.conclusion()) "." } }
+            dl.facts { (identity("Before", &diff.before)) (identity("After", &diff.after)) }
             @for note in &diff.notes { p.state.bad { "! " (note) } }
         }
         @for (kind, title) in KINDS {
@@ -55,7 +55,7 @@ fn page(diff: &BenchDiff) -> String {
                     li {
                         @if gone.worse { "✗ " }
                         code { (gone.case) } " " (breakable(&gone.adapter)) ", not "
-                        @if gone.from_after { "after" } @else { "before" } ": " (gone.why)
+                        @if gone.is_missing_after { "after" } @else { "before" } ": " (gone.why)
                     }
                 } }
             }
@@ -77,13 +77,13 @@ fn page(diff: &BenchDiff) -> String {
         .html()
 }
 
-fn side(name: &str, side: &BenchFacts) -> Markup {
+fn identity(name: &str, bench: &BenchIdentity) -> Markup {
     html! {
         dt { (name) }
         dd {
-            (side.started) ", etalon " (side.etalon)
-            @if let Some(commit) = &side.commit { ", commit " code { (commit) } }
-            ", " (side.machine) br; code { (side.command) }
+            (bench.started) ", etalon " (bench.etalon)
+            @if let Some(commit) = &bench.commit { ", commit " code { (commit) } }
+            ", " (bench.machine) br; code { (bench.command) }
         }
     }
 }

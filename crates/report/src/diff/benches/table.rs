@@ -47,22 +47,29 @@ pub fn diff_table(diff: &BenchDiff, options: TableOptions) -> String {
     if !diff.gone.is_empty() {
         text.push_str("Timed in one bench only\n");
         for gone in &diff.gone {
-            let side = if gone.from_after { "after" } else { "before" };
+            let side = if gone.is_missing_after {
+                "after"
+            } else {
+                "before"
+            };
             let sign = if gone.worse { "✗" } else { " " };
             let line = format!("{}  {}  not {side}: {}", gone.case, gone.adapter, gone.why);
             text += &format!("{sign} {}\n", plain(&line, 400));
         }
         text.push('\n');
     }
-    let [sign, _, color] = diff.look();
-    let line = format!("{sign} {}.", diff.conclusion());
-    text.push_str(&options.paint(&plain(&line, 400), color));
+    let look = diff.look();
+    let line = format!("{} {}.", look.sign, diff.conclusion());
+    text.push_str(&options.paint(&plain(&line, 400), look.color));
     text.push('\n');
     let n = diff.changes.len();
-    let [slower, faster, undecided] = diff.counts();
+    let counts = diff.counts();
     text += &format!(
-        "{slower} slower, {faster} faster, {undecided} undecided. Of {n} comparisons of unchanged things, at most {:.3} \
+        "{} slower, {} faster, {} undecided. Of {n} comparisons of unchanged things, at most {:.3} \
          are called a change on average ({} each).\n",
+        counts.slower,
+        counts.faster,
+        counts.undecided,
         n as f64 * diff.level,
         diff.level,
     );
@@ -73,7 +80,7 @@ pub fn diff_table(diff: &BenchDiff, options: TableOptions) -> String {
 pub(super) fn changes_table<'a>() -> Table<'a, &'a TimeChange> {
     let interval = |ends: Option<[f64; 2]>| ends.map(|ends| between(ends, change));
     Table::new("diff")
-        .row_class(|c: &&TimeChange| c.decided())
+        .row_class(|c: &&TimeChange| c.decided().unwrap_or_default())
         .head("case", |c| &*c.case)
         .text("adapter", |c| adapter(&c.adapter))
         .text("outcome", |c| {
