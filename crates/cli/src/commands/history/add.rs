@@ -7,9 +7,7 @@ use crate::history_file::{DatabaseArguments, LabelArguments, failure};
 use crate::output::{print_json, say, summarize};
 use crate::saved_run::UnpackArguments;
 use clap::Args;
-use etalon_history::{
-    Added, HistoryError, Kind, Labels, NewRun, ReleaseDates, RunId, Writer, read_runs,
-};
+use etalon_history::{Added, HistoryError, Kind, NewRun, ReleaseDates, RunId, Writer, read_runs};
 use etalon_report::{plain, quoted};
 use serde_json::{Value, json};
 use std::fs;
@@ -59,7 +57,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let mut codes = Vec::new();
     let mut added = Vec::new();
     for path in &arguments.runs {
-        let runs = match ready(path, &dates, &labels, arguments) {
+        let mut runs = match read_complete_runs(path, &dates, arguments) {
             Ok(runs) => runs,
             Err(Failure { code, message }) => {
                 say!("etalon: {message}");
@@ -67,6 +65,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
                 continue;
             }
         };
+        let undated = place_undated(&mut runs);
+        if !undated.is_empty() {
+            warn_undated(path, &runs, &undated);
+        }
+        for run in &mut runs {
+            run.labels = labels.clone();
+        }
         for run in &runs {
             let (id, is_new) = match writer.add(run) {
                 Ok(Added::New(id)) => (id, true),
@@ -78,21 +83,22 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
                 }
                 Err(error) => return Err(failure(error)),
             };
-            let line = AddedRun {
+            let added_run = AddedRun {
                 path,
                 run,
                 id,
                 is_new,
             };
             match arguments.format {
-                OutputFormat::Text => summarize(&line.line()),
-                OutputFormat::Json => added.push(line.json()),
+                OutputFormat::Text => summarize(&added_run.summary()),
+                OutputFormat::Json => added.push(added_run.json()),
             }
         }
     }
     if arguments.format == OutputFormat::Json {
         print_json(&added)?;
     }
+    // A usage error outweighs an incomplete run.
     Ok([USAGE, INCOMPLETE]
         .into_iter()
         .find(|code| codes.contains(code))
@@ -111,43 +117,34 @@ fn dates(path: Option<&Path>) -> Result<ReleaseDates, Failure> {
     .map_err(Failure::usage)
 }
 
-/// Reads the runs to add, and sets their labels.
-fn ready(
+/// Reads the runs to add, and refuses runs that lack records if the arguments do not allow them.
+fn read_complete_runs(
     path: &Path,
     dates: &ReleaseDates,
-    labels: &Labels,
     arguments: &Arguments,
 ) -> Result<Vec<NewRun>, Failure> {
     let folder = arguments.unpack.folder(path)?;
-    let mut runs = read_runs(&folder, dates).map_err(failure)?;
-    if let Some(run) = runs
-        .iter()
-        .find(|run| run.missing > 0 && !arguments.incomplete)
-    {
-        return Err(Failure::incomplete(lacks(path, run)));
+    let runs = read_runs(&folder, dates).map_err(failure)?;
+    match runs.iter().find(|run| run.missing > 0) {
+        Some(run) if !arguments.incomplete => Err(Failure::incomplete(lacks_text(path, run))),
+        _ => Ok(runs),
     }
-    let line = |run: &NewRun| {
-        run.adapters
-            .first()
-            .map_or(String::new(), |a| a.adapter.line.clone())
-    };
-    let undated = place_undated(&mut runs);
-    if let (Some(run), false) = (runs.first(), undated.is_empty()) {
-        say!(
-            "{}: no release date is known for {} {}; each comes after the release before it, or at its drawing time if \
-             it is the last; --dates FILE gives dates",
-            path.display(),
-            plain(&line(run), 60),
-            plain(&undated.join(", "), 400),
-        );
-    }
-    for run in &mut runs {
-        run.labels = labels.clone();
-    }
-    Ok(runs)
 }
 
-fn lacks(path: &Path, run: &NewRun) -> String {
+/// Warns of releases without a date. `undated` has their versions.
+fn warn_undated(path: &Path, runs: &[NewRun], undated: &[String]) {
+    let adapter = runs.first().and_then(|run| run.adapters.first());
+    let line = adapter.map_or("", |adapter| adapter.adapter.line.as_str());
+    say!(
+        "{}: no release date is known for {} {}; each comes after the release before it, or at its drawing time if \
+         it is the last; --dates FILE gives dates",
+        path.display(),
+        plain(line, 60),
+        plain(&undated.join(", "), 400),
+    );
+}
+
+fn lacks_text(path: &Path, run: &NewRun) -> String {
     let (what, command) = match run.kind {
         Kind::Bench => ("round", "bench"),
         _ => ("record", "run"),
@@ -165,9 +162,9 @@ fn lacks(path: &Path, run: &NewRun) -> String {
     )
 }
 
-/// Gives releases without a date the date of a neighbour, so that they are in the order of their line, and
-/// returns their versions. Releases at the end of the line get no date, and are ordered by the time at which
-/// they were drawn.
+/// Gives each undated release the date of the release before it, or of the one after it for the first ones.
+/// Releases after the last date get none, and are ordered by the time at which they were drawn. Returns the
+/// versions of the undated releases.
 fn place_undated(runs: &mut [NewRun]) -> Vec<String> {
     let dates: Vec<Option<i64>> = runs.iter().map(|run| run.released).collect();
     let mut undated = Vec::new();
@@ -189,7 +186,7 @@ impl AddedRun<'_> {
         self.run.adapters.iter().map(|a| a.outcomes.len()).sum()
     }
 
-    fn line(&self) -> String {
+    fn summary(&self) -> String {
         let Self { path, run, id, .. } = self;
         let path = plain(&path.display().to_string(), 400);
         if !self.is_new {
@@ -231,7 +228,7 @@ impl AddedRun<'_> {
 mod tests {
     use super::*;
     use etalon_frame::AdapterInfo;
-    use etalon_history::{Adapter, NewAdapter};
+    use etalon_history::{Adapter, Labels, NewAdapter};
     use etalon_record::Machine;
 
     fn release(version: &str, released: Option<i64>) -> NewRun {
@@ -261,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn a_release_without_a_date_takes_its_place_by_version() {
+    fn an_undated_release_takes_the_date_before_it() {
         let dates = [None, Some(10), None, Some(20), None];
         let mut runs: Vec<NewRun> = ["1", "2", "3", "4", "5"]
             .iter()
@@ -274,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn the_dates_that_are_compiled_in_parse_and_climb() {
+    fn built_in_dates_parse_and_ascend() {
         let dates = dates(None).unwrap();
         let date = |version| dates.of("swiftshader", version).unwrap();
         assert!(date("106.0.2") < date("118.0.0") && date("118.0.0") < date("153.0.0"));
