@@ -2,7 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::etalon;
-use crate::history::Place;
+use crate::history::HistoryFolder;
 use crate::sample;
 use etalon_record::Verdict;
 use rusqlite::Connection;
@@ -12,13 +12,13 @@ use std::path::Path;
 const CASE: &str = "depth/made/n=1";
 
 /// A history of all tables.
-fn history() -> Place {
-    let place = Place::new();
+fn history() -> HistoryFolder {
+    let history = HistoryFolder::new();
     let cases = [CASE, "depth/made/n=2", "blend/made/n=3"];
     for day in 0..4 {
         let broken = day % 2 == 1;
         let verdict = if broken { Verdict::Fail } else { Verdict::Pass };
-        let run = place.run(
+        let run = history.run(
             day,
             "1.0",
             &[
@@ -27,14 +27,14 @@ fn history() -> Place {
                 (cases[2], verdict),
             ],
         );
-        place.history(&["add", &run]).code(0);
+        history.command(&["add", &run]).code(0);
     }
     for night in 4..12 {
-        let bench = place.bench(night, 0.001, 0.002);
-        place.history(&["add", &bench]).code(0);
+        let bench = history.bench(night, 0.001, 0.002);
+        history.command(&["add", &bench]).code(0);
     }
-    place
-        .history(&[
+    history
+        .command(&[
             "triage",
             CASE,
             "--adapter",
@@ -45,13 +45,13 @@ fn history() -> Place {
             "r",
         ])
         .code(0);
-    place
+    history
 }
 
 /// Runs the commands that read a history.
-fn check(place: &Place, damage: &str, commands: &[&[&str]]) {
+fn check(history: &HistoryFolder, damage: &str, commands: &[&[&str]]) {
     for command in commands {
-        let out = place.path("out");
+        let out = history.path("out");
         let mut words = command.to_vec();
         match words[0] {
             "report" => words.extend(["--out", out.to_str().unwrap()]),
@@ -59,7 +59,7 @@ fn check(place: &Place, damage: &str, commands: &[&[&str]]) {
             _ => {}
         }
         let mut all = etalon(&["history"]);
-        let assert = all.args(&words).arg("--db").arg(place.db()).assert();
+        let assert = all.args(&words).arg("--db").arg(history.db()).assert();
         let output = assert.get_output();
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         let code = output.status.code();
@@ -76,7 +76,7 @@ fn check(place: &Place, damage: &str, commands: &[&[&str]]) {
 
 const COMMANDS: [&[&str]; 4] = [&["report"], &["show", CASE], &["triage"], &["export"]];
 
-fn copy(from: &Path, to: &Place) {
+fn copy(from: &Path, to: &HistoryFolder) {
     fs::copy(from, to.db()).unwrap();
 }
 
@@ -84,7 +84,7 @@ fn copy(from: &Path, to: &Place) {
 fn missing_or_wrong_rows_are_reported() {
     let whole = history();
     let intact = whole.db();
-    let damaged = Place::new();
+    let damaged = HistoryFolder::new();
     let file = Connection::open(&intact).unwrap();
     let tables: Vec<String> = file
         .prepare("SELECT name FROM sqlite_schema WHERE type = 'table'")
@@ -157,7 +157,7 @@ fn missing_or_wrong_rows_are_reported() {
 fn cut_or_flipped_files_are_reported() {
     let whole = history();
     let bytes = fs::read(whole.db()).unwrap();
-    let damaged = Place::new();
+    let damaged = HistoryFolder::new();
     let mut random = 1_u64;
     let mut below = |most: usize| {
         random = random

@@ -6,7 +6,7 @@ mod show;
 mod triage;
 mod writers;
 
-use crate::etalon::etalon;
+use crate::etalon::{BINARY, etalon};
 use assert_cmd::assert::Assert;
 use etalon_record::{
     AdapterRecord, BENCH_FORMAT, BenchHeader, BenchLine, BenchWriter, FORMAT, Header, Picture,
@@ -16,17 +16,18 @@ use rusqlite::Connection;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::PathBuf;
+use std::process::{Child, Command, Stdio};
 use tempfile::TempDir;
 
 const CASE: &str = "depth/made/n=1";
 const OTHER: &str = "depth/made/n=2";
 
 /// A folder for runs and their history.
-pub(crate) struct Place {
+pub(crate) struct HistoryFolder {
     pub(crate) folder: TempDir,
 }
 
-impl Place {
+impl HistoryFolder {
     pub(crate) fn new() -> Self {
         Self {
             folder: tempfile::tempdir().unwrap(),
@@ -42,13 +43,13 @@ impl Place {
     }
 
     /// Runs a history command on this folder's file.
-    pub(crate) fn history(&self, arguments: &[&str]) -> Assert {
+    pub(crate) fn command(&self, arguments: &[&str]) -> Assert {
         let mut command = etalon(&["history"]);
         command.args(arguments).arg("--db").arg(self.db()).assert()
     }
 
     pub(crate) fn json(&self, arguments: &[&str]) -> Value {
-        let assert = self.history(&[arguments, &["--format", "json"]].concat());
+        let assert = self.command(&[arguments, &["--format", "json"]].concat());
         serde_json::from_slice(&assert.code(0).get_output().stdout).unwrap()
     }
 
@@ -121,30 +122,36 @@ impl Place {
         folder.display().to_string()
     }
 
-    /// Returns all tables of the file as text.
-    fn content(&self) -> String {
+    /// Returns all rows of all tables as text, so that changed rows show.
+    fn dump(&self) -> String {
         let file = Connection::open(self.db()).unwrap();
-        let count = |table: &str| -> i64 {
-            file.query_row(&format!("SELECT count(*) FROM {table}"), [], |row| {
-                row.get(0)
-            })
-            .unwrap()
-        };
-        let tables = [
-            "run",
-            "part",
-            "change",
-            "outcome",
-            "test_case",
-            "frame_time",
-        ];
-        tables
-            .map(|table| format!("{table} {}", count(table)))
-            .join(", ")
+        let names = "SELECT name FROM sqlite_master WHERE type = 'table' ORDER BY name";
+        let mut names = file.prepare(names).unwrap();
+        let names = names.query_map([], |row| row.get(0)).unwrap();
+        let mut text = String::new();
+        for name in names.map(|name: rusqlite::Result<String>| name.unwrap()) {
+            let mut table = file.prepare(&format!("SELECT * FROM \"{name}\"")).unwrap();
+            let columns = table.column_count();
+            let mut rows = table.query([]).unwrap();
+            while let Some(row) = rows.next().unwrap() {
+                let values = (0..columns)
+                    .map(|column| row.get::<_, rusqlite::types::Value>(column).unwrap());
+                text += &format!("{name} {:?}\n", values.collect::<Vec<_>>());
+            }
+        }
+        text
+    }
+
+    /// Starts the binary, which adds runs to this folder's file.
+    fn spawn_add(&self, folders: &[String]) -> Child {
+        let mut command = Command::new(BINARY);
+        command.args(["history", "add"]).args(folders);
+        command.arg("--db").arg(self.db()).stdout(Stdio::null());
+        command.spawn().unwrap()
     }
 }
 
-/// Returns the day this many days after the first.
+/// Returns the start of a run; later days give later starts. Months have 28 days.
 fn started(day: u32) -> String {
     format!(
         "20{:02}-{:02}-{:02}T02:00:00Z",

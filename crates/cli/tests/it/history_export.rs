@@ -1,7 +1,7 @@
 //! `etalon history export`: folders, selections and exit codes.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
-use crate::history::Place;
+use crate::history::HistoryFolder;
 use assert_cmd::assert::Assert;
 use etalon_record::Verdict;
 use rusqlite::Connection;
@@ -15,47 +15,47 @@ const FORMATS: [&str; 4] = [
 ];
 
 /// Exports, and returns the line that is printed.
-fn export(place: &Place, out: &str, arguments: &[&str], code: i32) -> String {
-    let out = place.path(out).display().to_string();
-    let assert: Assert = place.history(&[&["export", &out], arguments].concat());
+fn export(history: &HistoryFolder, out: &str, arguments: &[&str], code: i32) -> String {
+    let out = history.path(out).display().to_string();
+    let assert: Assert = history.command(&[&["export", &out], arguments].concat());
     let text = String::from_utf8(assert.code(code).get_output().stderr.clone()).unwrap();
     assert_eq!(text.lines().count(), 1, "{text}");
     text
 }
 
 /// A history of three days with two records each.
-fn three_days() -> Place {
-    let place = Place::new();
+fn three_days() -> HistoryFolder {
+    let history = HistoryFolder::new();
     let verdicts = [("depth/a", Verdict::Pass), ("depth/b", Verdict::Fail)];
     for day in 1..4 {
-        let run = place.run(day, "1.0", &verdicts);
-        place.history(&["add", &run]).code(0);
+        let run = history.run(day, "1.0", &verdicts);
+        history.command(&["add", &run]).code(0);
     }
-    place
+    history
 }
 
 #[test]
 fn a_folder_that_cannot_be_used_is_named() {
-    let place = three_days();
-    fs::write(place.path("file"), "mine").unwrap();
-    fs::create_dir(place.path("full")).unwrap();
-    fs::write(place.path("full/mine"), "mine").unwrap();
+    let history = three_days();
+    fs::write(history.path("file"), "mine").unwrap();
+    fs::create_dir(history.path("full")).unwrap();
+    fs::write(history.path("full/mine"), "mine").unwrap();
     for format in FORMATS {
-        let line = export(&place, "full", &["--format", format], 64);
+        let line = export(&history, "full", &["--format", format], 64);
         assert!(line.contains("full is not empty; name another"), "{line}");
         for out in ["file", "file/below"] {
-            let line = export(&place, out, &["--format", format], 64);
-            let expected = format!("{} is no folder", place.path("file").display());
+            let line = export(&history, out, &["--format", format], 64);
+            let expected = format!("{} is no folder", history.path("file").display());
             assert!(line.contains(&expected), "{line}");
         }
     }
-    assert_eq!(fs::read_dir(place.path("full")).unwrap().count(), 1);
-    assert_eq!(fs::read_to_string(place.path("file")).unwrap(), "mine");
+    assert_eq!(fs::read_dir(history.path("full")).unwrap().count(), 1);
+    assert_eq!(fs::read_to_string(history.path("file")).unwrap(), "mine");
 }
 
 #[test]
 fn a_selection_of_no_run_writes_nothing() {
-    let place = three_days();
+    let history = three_days();
     let empty = three_days();
     let file = Connection::open(empty.db()).unwrap();
     for table in ["part", "change", "run"] {
@@ -64,22 +64,22 @@ fn a_selection_of_no_run_writes_nothing() {
     drop(file);
     for format in FORMATS {
         let format = ["--format", format];
-        for (place, flags) in [
-            (&place, &["--since", "2031-01-01"][..]),
-            (&place, &["--runs", "0"]),
+        for (history, flags) in [
+            (&history, &["--since", "2031-01-01"][..]),
+            (&history, &["--runs", "0"]),
             (&empty, &[]),
         ] {
-            let line = export(place, "out", &[&format[..], flags].concat(), 4);
-            let db = place.db().display().to_string();
+            let line = export(history, "out", &[&format[..], flags].concat(), 4);
+            let db = history.db().display().to_string();
             assert!(line.contains(&format!("{db} holds no such run")), "{line}");
-            assert!(!place.path("out").exists(), "{format:?}");
+            assert!(!history.path("out").exists(), "{format:?}");
         }
     }
 }
 
 #[test]
 fn a_part_of_the_runs_is_selected() {
-    let place = three_days();
+    let history = three_days();
     for (index, (flags, files)) in [
         (&[][..], 3),
         (&["--since", "2024-01-03"], 2),
@@ -91,7 +91,12 @@ fn a_part_of_the_runs_is_selected() {
     .enumerate()
     {
         let out = format!("out-{index}");
-        let line = export(&place, &out, &[&["--format", "parquet"], flags].concat(), 0);
+        let line = export(
+            &history,
+            &out,
+            &[&["--format", "parquet"], flags].concat(),
+            0,
+        );
         let noun = if files == 1 { "file" } else { "files" };
         let expected = format!("{} rows in {files} {noun} in", files * 2);
         assert!(line.contains(&expected), "{flags:?}: {line}");
@@ -99,13 +104,13 @@ fn a_part_of_the_runs_is_selected() {
 }
 
 #[test]
-fn an_invalid_date_or_history_is_wrong_usage() {
-    let place = three_days();
+fn what_is_no_date_or_no_history_is_wrong_usage() {
+    let history = three_days();
     let since = ["--format", "openmetrics", "--since", "yesterday"];
-    let line = export(&place, "out", &since, 64);
+    let line = export(&history, "out", &since, 64);
     assert!(line.contains("is no date; write 2026-01-31"), "{line}");
-    let none = Place::new();
+    let none = HistoryFolder::new();
     let line = export(&none, "out", &["--format", "openmetrics"], 64);
     assert!(line.contains("there is no history at"), "{line}");
-    assert!(!place.path("out").exists() && !none.path("out").exists());
+    assert!(!history.path("out").exists() && !none.path("out").exists());
 }

@@ -2,7 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::etalon;
-use crate::history::Place;
+use crate::history::HistoryFolder;
 use assert_cmd::assert::Assert;
 use predicates::prelude::*;
 use predicates::str::contains;
@@ -12,32 +12,34 @@ use std::fs;
 /// An adapter on which some scenes crash.
 const ADAPTER: &str = "cpu:fault=abort";
 
-fn run(place: &Place, out: &str, arguments: &[&str]) -> Assert {
+fn run(history: &HistoryFolder, out: &str, arguments: &[&str]) -> Assert {
     let mut command = etalon(&["run", "cull/*", "--adapter", ADAPTER, "--out"]);
-    command.arg(place.path(out)).args(arguments).assert()
+    command.arg(history.path(out)).args(arguments).assert()
 }
 
 /// The same with this folder's history, on branch main.
-fn compared(place: &Place, out: &str, arguments: &[&str]) -> Assert {
-    let db = place.db().display().to_string();
+fn compared(history: &HistoryFolder, out: &str, arguments: &[&str]) -> Assert {
+    let db = history.db().display().to_string();
     let flags = ["--history", &db, "--label", "branch=main"];
-    run(place, out, &[&flags[..], arguments].concat())
+    run(history, out, &[&flags[..], arguments].concat())
 }
 
-fn add(place: &Place, out: &str, branch: &str) {
-    let folder = place.path(out).display().to_string();
+fn add(history: &HistoryFolder, out: &str, branch: &str) {
+    let folder = history.path(out).display().to_string();
     let label = format!("branch={branch}");
-    place.history(&["add", &folder, "--label", &label]).code(0);
+    history
+        .command(&["add", &folder, "--label", &label])
+        .code(0);
 }
 
 /// Copies a run to an earlier day with a pass for the cases that crashed. Returns these cases.
-fn well_before(place: &Place, from: &str, to: &str) -> Vec<String> {
-    before(place, from, to, "2025-01-01T00:00:00Z", "pass")
+fn well_before(history: &HistoryFolder, from: &str, to: &str) -> Vec<String> {
+    before(history, from, to, "2025-01-01T00:00:00Z", "pass")
 }
 
 /// Copies a run to another day with this verdict for the cases that crashed. Returns these cases.
-fn before(place: &Place, from: &str, to: &str, day: &str, verdict: &str) -> Vec<String> {
-    let text = fs::read_to_string(place.path(from).join("run.jsonl")).unwrap();
+fn before(history: &HistoryFolder, from: &str, to: &str, day: &str, verdict: &str) -> Vec<String> {
+    let text = fs::read_to_string(history.path(from).join("run.jsonl")).unwrap();
     let mut bad = Vec::new();
     let lines = text.lines().map(|line| {
         let mut value: Value = serde_json::from_str(line).unwrap();
@@ -50,73 +52,73 @@ fn before(place: &Place, from: &str, to: &str, day: &str, verdict: &str) -> Vec<
         value.to_string() + "\n"
     });
     let text: String = lines.collect();
-    fs::create_dir_all(place.path(to)).unwrap();
-    fs::write(place.path(to).join("run.jsonl"), text).unwrap();
-    let [from, to] = [from, to].map(|folder| place.path(folder).join("cases.txt"));
+    fs::create_dir_all(history.path(to)).unwrap();
+    fs::write(history.path(to).join("run.jsonl"), text).unwrap();
+    let [from, to] = [from, to].map(|folder| history.path(folder).join("cases.txt"));
     fs::copy(from, to).unwrap();
     bad
 }
 
 #[test]
-fn news_come_first_and_settled_cases_do_not_count() {
-    let place = Place::new();
-    run(&place, "first", &[]).code(1);
-    let bad = well_before(&place, "first", "well");
+fn news_come_first_and_what_is_settled_does_not_count() {
+    let history = HistoryFolder::new();
+    run(&history, "first", &[]).code(1);
+    let bad = well_before(&history, "first", "well");
     let n = bad.len();
     assert!(n > 1, "{bad:?}");
 
     // A run of another branch is not compared.
-    add(&place, "well", "other");
-    compared(&place, "alone", &[])
+    add(&history, "well", "other");
+    compared(&history, "alone", &[])
         .code(1)
         .stdout(contains("no earlier run to compare with"));
-    fs::remove_file(place.db()).unwrap();
+    fs::remove_file(history.db()).unwrap();
 
-    add(&place, "well", "main");
-    compared(&place, "second", &[])
+    add(&history, "well", "main");
+    compared(&history, "second", &[])
         .code(1)
         .stdout(contains(format!("{n} broken since the last run")).and(contains("pass before")))
         .stderr(contains("etalon history add").and(contains("--label branch=main")));
-    let summary = fs::read_to_string(place.path("second").join("summary.md")).unwrap();
+    let summary = fs::read_to_string(history.path("second").join("summary.md")).unwrap();
     let new = summary.find("broken since the last run").unwrap();
     assert!(new < summary.find("## Adapters").unwrap(), "{summary}");
 
     // Cases that were broken before are not new, but count until they are triaged.
-    add(&place, "second", "main");
+    add(&history, "second", "main");
     // Runs are distinguished by the second in which they began.
     std::thread::sleep(std::time::Duration::from_millis(1100));
-    let output = compared(&place, "third", &["--format", "json"]).code(1);
+    let output = compared(&history, "third", &["--format", "json"]).code(1);
     let comparison: Value = serde_json::from_slice(&output.get_output().stdout).unwrap();
     let count = |kind: &str| comparison["news"][kind].as_array().unwrap().len();
     assert_eq!([count("broken"), count("fixed"), count("old")], [0, 0, n]);
 
     let settle = |case: &str, state: &str| {
         let said = ["triage", case, "--adapter", ADAPTER, "--state", state];
-        place
-            .history(&[&said[..], &["--reason", "looked at"]].concat())
+        history
+            .command(&[&said[..], &["--reason", "looked at"]].concat())
             .code(0);
     };
     for case in &bad[1..] {
         settle(case, "ignored");
     }
-    compared(&place, "fourth", &[]).code(1);
+    compared(&history, "fourth", &[]).code(1);
     settle(&bad[0], "real");
-    compared(&place, "fifth", &[])
+    compared(&history, "fifth", &[])
         .code(0)
         .stdout(contains(format!("{n} settled by triage, not counted")));
-    let summary = fs::read_to_string(place.path("fifth").join("summary.md")).unwrap();
+    let summary = fs::read_to_string(history.path("fifth").join("summary.md")).unwrap();
     assert!(summary.contains("Nothing unexpected"), "{summary}");
     // A case that is triaged as fixed but is not, counts.
     settle(&bad[0], "fixed");
-    compared(&place, "sixth", &[]).code(1);
+    compared(&history, "sixth", &[]).code(1);
     // A merge gives the same verdict.
     let merge = |branch: &str| {
         let mut command = etalon(&["merge", "--force", "--label", branch, "--history"]);
         command
-            .arg(place.db())
+            .arg(history.db())
             .arg("--out")
-            .arg(place.path("merged"));
-        command.arg(place.path("fifth")).assert()
+            .arg(history.path("merged"));
+        command.arg(history.path("fifth")).assert()
     };
     merge("branch=main")
         .code(1)
@@ -126,27 +128,27 @@ fn news_come_first_and_settled_cases_do_not_count() {
 }
 
 #[test]
-fn a_fixed_case_is_news() {
-    let place = Place::new();
-    run(&place, "bad", &[]).code(1);
-    let bad = well_before(&place, "bad", "well");
+fn what_is_mended_is_news() {
+    let history = HistoryFolder::new();
+    run(&history, "bad", &[]).code(1);
+    let bad = well_before(&history, "bad", "well");
     // The failing run comes first, and a good one is merged after it. A later run changes nothing.
-    before(&place, "bad", "older", "2024-01-01T00:00:00Z", "crash");
-    add(&place, "older", "main");
-    add(&place, "bad", "main");
+    before(&history, "bad", "older", "2024-01-01T00:00:00Z", "crash");
+    add(&history, "older", "main");
+    add(&history, "bad", "main");
     let mut command = etalon(&["merge", "--label", "branch=main", "--history"]);
     command
-        .arg(place.db())
+        .arg(history.db())
         .arg("--out")
-        .arg(place.path("merged"));
-    command.arg(place.path("well")).assert().code(0).stdout(
+        .arg(history.path("merged"));
+    command.arg(history.path("well")).assert().code(0).stdout(
         contains(format!("{} fixed since the last run", bad.len())).and(contains("2024-01-01")),
     );
 }
 
 /// The number of lines of a status in deqp-runner's list of a folder.
-fn listed(place: &Place, out: &str, status: &str) -> usize {
-    let mut lists = fs::read_dir(place.path(out).join("results")).unwrap();
+fn listed(history: &HistoryFolder, out: &str, status: &str) -> usize {
+    let mut lists = fs::read_dir(history.path(out).join("results")).unwrap();
     let text = fs::read_to_string(lists.next().unwrap().unwrap().path()).unwrap();
     let statuses = text.lines().filter_map(|line| line.split(',').nth(1));
     statuses.filter(|found| *found == status).count()
@@ -154,23 +156,23 @@ fn listed(place: &Place, out: &str, status: &str) -> usize {
 
 #[test]
 fn reports_made_anew_say_what_the_run_said_and_agree_with_the_exit_code() {
-    let place = Place::new();
-    run(&place, "first", &[]).code(1);
-    let bad = well_before(&place, "first", "well");
-    add(&place, "well", "main");
-    compared(&place, "second", &[]).code(1);
-    let read = |name: &str| fs::read_to_string(place.path("second").join(name)).unwrap();
+    let history = HistoryFolder::new();
+    run(&history, "first", &[]).code(1);
+    let bad = well_before(&history, "first", "well");
+    add(&history, "well", "main");
+    compared(&history, "second", &[]).code(1);
+    let read = |name: &str| fs::read_to_string(history.path("second").join(name)).unwrap();
     let summary = read("summary.md");
     assert!(summary.contains("broken since the last run"), "{summary}");
 
     // The history now has the run, and a later one.
-    add(&place, "second", "main");
-    compared(&place, "third", &[]).code(1);
-    add(&place, "third", "main");
-    let db = place.db().display().to_string();
+    add(&history, "second", "main");
+    compared(&history, "third", &[]).code(1);
+    add(&history, "third", "main");
+    let db = history.db().display().to_string();
     let report = |flags: &[&str]| {
         let mut command = etalon(&["report"]);
-        command.arg(place.path("second")).args(flags).assert()
+        command.arg(history.path("second")).args(flags).assert()
     };
     let flags = ["--history", &db, "--label", "branch=main", "--deqp"];
     report(&[]).code(1);
@@ -179,22 +181,22 @@ fn reports_made_anew_say_what_the_run_said_and_agree_with_the_exit_code() {
         .code(1)
         .stdout(contains("broken since the last run"));
     assert_eq!(read("summary.md"), summary);
-    let failed = || listed(&place, "second", "Crash");
+    let failed = || listed(&history, "second", "Crash");
     assert_eq!(failed(), bad.len());
 
     // The triage state is also in the files for other programs.
     for (case, state) in bad.iter().zip(["real", "ignored"].into_iter().cycle()) {
         let said = ["triage", case, "--adapter", ADAPTER, "--state", state];
         let reason = ["--reason", "looked <at> it"];
-        place.history(&[&said[..], &reason].concat()).code(0);
+        history.command(&[&said[..], &reason].concat()).code(0);
     }
     report(&flags)
         .code(0)
         .stdout(contains("unexpected record").not());
-    compared(&place, "fourth", &[]).code(0);
-    assert!(!place.path("fourth").join("results").exists());
+    compared(&history, "fourth", &[]).code(0);
+    assert!(!history.path("fourth").join("results").exists());
     for out in ["second", "fourth"] {
-        let read = |name: &str| fs::read_to_string(place.path(out).join(name)).unwrap();
+        let read = |name: &str| fs::read_to_string(history.path(out).join(name)).unwrap();
         let junit = read("junit.xml");
         assert!(junit.contains("failures=\"0\" errors=\"0\""), "{junit}");
         assert!(!junit.contains("<failure") && !junit.contains("<error"));
@@ -208,86 +210,86 @@ fn reports_made_anew_say_what_the_run_said_and_agree_with_the_exit_code() {
         assert!(!read("run.jsonl").contains("looked"));
     }
     assert_eq!(failed(), 0);
-    assert_eq!(listed(&place, "second", "ExpectedFail"), bad.len());
+    assert_eq!(listed(&history, "second", "ExpectedFail"), bad.len());
     // A report that the folder has is renewed without being asked for.
     report(&[]).code(1);
     assert_eq!(failed(), bad.len());
 }
 
 #[test]
-fn a_report_without_a_usable_history_warns_or_is_refused_as_a_run_is() {
-    let place = Place::new();
-    run(&place, "run", &[]).code(1);
+fn a_history_for_reports_is_refused_or_told_as_for_runs() {
+    let history = HistoryFolder::new();
+    run(&history, "run", &[]).code(1);
     let report = |flags: &[&str]| {
         let mut command = etalon(&["report"]);
-        command.arg(place.path("run")).args(flags).assert()
+        command.arg(history.path("run")).args(flags).assert()
     };
-    let db = place.db().display().to_string();
+    let db = history.db().display().to_string();
     report(&["--history", &db])
         .code(1)
         .stderr(contains("there is no history at"));
     report(&["--label", "branch=main"])
         .code(64)
         .stderr(contains("--history"));
-    fs::write(place.db(), "something else, which is long enough").unwrap();
+    fs::write(history.db(), "something else, which is long enough").unwrap();
     report(&["--history", &db])
         .code(64)
         .stderr(contains("is no history of etalon"));
 }
 
 #[test]
-fn a_history_that_is_lost_changes_nothing_and_gives_a_warning() {
-    let place = Place::new();
-    compared(&place, "run", &[])
+fn a_history_that_is_lost_changes_nothing_and_is_told() {
+    let history = HistoryFolder::new();
+    compared(&history, "run", &[])
         .code(1)
         .stderr(contains("there is no history at").and(contains("judged without a history")));
-    assert!(!place.db().exists());
+    assert!(!history.db().exists());
 }
 
 #[test]
 fn a_file_that_is_no_history_is_refused_before_anything_is_drawn() {
-    let place = Place::new();
+    let history = HistoryFolder::new();
     fs::write(
-        place.db(),
+        history.db(),
         "something else, which is long enough to be read",
     )
     .unwrap();
-    compared(&place, "run", &[])
+    compared(&history, "run", &[])
         .code(64)
         .stderr(contains("is no history of etalon"));
-    assert!(!place.path("run").exists());
+    assert!(!history.path("run").exists());
     // Without a history, labels limit expectations, but must still be valid.
-    run(&place, "run", &["--label", "branch"])
+    run(&history, "run", &["--label", "branch"])
         .code(64)
         .stderr(contains("branch"));
-    assert!(!place.path("run").exists());
+    assert!(!history.path("run").exists());
 }
 
 #[test]
 fn a_failure_that_became_a_crash_is_news_and_a_crash_that_is_not_drawn_is_not_fixed() {
-    let place = Place::new();
-    run(&place, "now", &[]).code(1);
-    let bad = before(&place, "now", "then", "2025-01-01T00:00:00Z", "fail");
+    let history = HistoryFolder::new();
+    run(&history, "now", &[]).code(1);
+    let bad = before(&history, "now", "then", "2025-01-01T00:00:00Z", "fail");
     let n = bad.len();
-    add(&place, "then", "main");
-    compared(&place, "second", &[])
+    add(&history, "then", "main");
+    compared(&history, "second", &[])
         .code(1)
         .stdout(contains(format!("{n} broken since the last run")).and(contains("fail before")));
     before(
-        &place,
+        &history,
         "now",
         "gone",
         "2026-01-01T00:00:00Z",
         "not-supported",
     );
-    before(&place, "now", "crashed", "2025-06-01T00:00:00Z", "crash");
-    add(&place, "crashed", "main");
+    before(&history, "now", "crashed", "2025-06-01T00:00:00Z", "crash");
+    add(&history, "crashed", "main");
     let mut command = etalon(&["merge", "--label", "branch=main", "--history"]);
     command
-        .arg(place.db())
+        .arg(history.db())
         .arg("--out")
-        .arg(place.path("merged"));
-    command.arg(place.path("gone")).assert().code(0).stdout(
+        .arg(history.path("merged"));
+    command.arg(history.path("gone")).assert().code(0).stdout(
         contains("0 fixed since the last run")
             .and(contains(format!("{n} no longer counted, but not fixed"))),
     );

@@ -1,6 +1,6 @@
 //! `etalon history show`: cases, order, labels and names.
 
-use super::{BAD, CASE, GOOD, OTHER, Place};
+use super::{BAD, CASE, GOOD, HistoryFolder, OTHER};
 use predicates::prelude::*;
 use predicates::str::contains;
 use serde_json::json;
@@ -8,7 +8,7 @@ use std::fs;
 
 #[test]
 fn a_case_is_told_with_what_happened_and_between_which_versions() {
-    let place = Place::new();
+    let history = HistoryFolder::new();
     for (day, version, verdicts) in [
         (1, "1.0", &GOOD),
         (2, "1.0", &GOOD),
@@ -16,11 +16,11 @@ fn a_case_is_told_with_what_happened_and_between_which_versions() {
         (4, "1.1", &BAD),
         (5, "1.2", &GOOD),
     ] {
-        place
-            .history(&["add", &place.run(day, version, verdicts)])
+        history
+            .command(&["add", &history.run(day, version, verdicts)])
             .code(0);
     }
-    place.history(&["show", CASE]).code(0).stdout(
+    history.command(&["show", CASE]).code(0).stdout(
         contains("✓✓✗✗✓")
             .and(contains(
                 "broken at run 3 (2024-01-04), after run 2 (2024-01-03)",
@@ -31,8 +31,8 @@ fn a_case_is_told_with_what_happened_and_between_which_versions() {
             .and(contains("fixed at run 5"))
             .and(contains("now pass")),
     );
-    let shown = place.json(&["show", CASE, "--adapter", "cpu"]);
-    let of_cpu = &shown["adapters"][0];
+    let case = history.json(&["show", CASE, "--adapter", "cpu"]);
+    let of_cpu = &case["adapters"][0];
     let verdicts = of_cpu["records"].as_array().unwrap().iter();
     let verdicts: Vec<&str> = verdicts.map(|r| r["verdict"].as_str().unwrap()).collect();
     assert_eq!(verdicts, ["pass", "pass", "fail", "fail", "pass"]);
@@ -42,55 +42,61 @@ fn a_case_is_told_with_what_happened_and_between_which_versions() {
             {"event": "broken", "after": 2, "at": 3}, {"event": "fixed", "after": 4, "at": 5}
         ])
     );
-    place
-        .history(&["show", OTHER])
+    history
+        .command(&["show", OTHER])
         .stdout(contains("nothing happened"));
 }
 
 #[test]
-fn old_runs_that_are_added_late_stand_where_they_belong() {
-    let place = Place::new();
-    place.history(&["add", &place.run(9, "1", &BAD)]).code(0);
-    place.history(&["add", &place.run(4, "1", &GOOD)]).code(0);
-    place
-        .history(&["show", CASE])
+fn runs_are_ordered_by_start_not_by_addition() {
+    let history = HistoryFolder::new();
+    history
+        .command(&["add", &history.run(9, "1", &BAD)])
+        .code(0);
+    history
+        .command(&["add", &history.run(4, "1", &GOOD)])
+        .code(0);
+    history
+        .command(&["show", CASE])
         .stdout(contains("✓✗").and(contains("broken at run 1")));
-    place
-        .history(&["show", OTHER])
+    history
+        .command(&["show", OTHER])
         .stdout(contains("cpu  2 runs, run"));
 }
 
 #[test]
 fn runs_are_chosen_by_label() {
-    let place = Place::new();
-    let on = |branch: &str, run: &str| {
-        place
-            .history(&["add", run, "--label", &format!("branch={branch}")])
+    let history = HistoryFolder::new();
+    let add_on_branch = |branch: &str, run: &str| {
+        history
+            .command(&["add", run, "--label", &format!("branch={branch}")])
             .code(0);
     };
-    on("main", &place.run(1, "1", &GOOD));
-    on("other", &place.run(2, "1", &BAD));
-    on("main", &place.run(3, "1", &GOOD));
-    place.history(&["show", CASE]).stdout(contains("✓✗✓"));
-    place
-        .history(&["show", CASE, "--label", "branch=main"])
+    add_on_branch("main", &history.run(1, "1", &GOOD));
+    add_on_branch("other", &history.run(2, "1", &BAD));
+    add_on_branch("main", &history.run(3, "1", &GOOD));
+    history.command(&["show", CASE]).stdout(contains("✓✗✓"));
+    history
+        .command(&["show", CASE, "--label", "branch=main"])
         .stdout(contains("  ✓✓\n"));
-    place
-        .history(&["show", CASE, "--label", "branch=none"])
+    history
+        .command(&["show", CASE, "--label", "branch=none"])
         .code(4);
 }
 
 #[test]
 fn unknown_names_come_with_near_ones() {
-    let place = Place::new();
-    place.history(&["add", &place.run(1, "1", &GOOD)]).code(0);
-    place
-        .history(&["show", "depth/mode/n=1"])
+    let history = HistoryFolder::new();
+    history
+        .command(&["add", &history.run(1, "1", &GOOD)])
+        .code(0);
+    history
+        .command(&["show", "depth/mode/n=1"])
         .code(64)
         .stderr(contains(format!("did you mean `{CASE}`")));
     let other = ["show", CASE, "--adapter", "cpi"];
-    place
-        .history(&other)
+    history
+        .command(&other)
         .code(64)
         .stderr(contains("did you mean `cpu`?"));
     let arguments = [
@@ -103,15 +109,15 @@ fn unknown_names_come_with_near_ones() {
         "--reason",
         "r",
     ];
-    place
-        .history(&arguments)
+    history
+        .command(&arguments)
         .code(64)
         .stderr(contains("did you mean"));
 }
 
 #[test]
 fn releases_stand_at_their_dates() {
-    let place = Place::new();
+    let history = HistoryFolder::new();
     let release = |version: &str| json!({"version": version, "adapter": format!("vulkan:a@{version}"), "driver": "d"});
     let header = json!({
         "format": 1, "etalon": "0.1.0", "machine": {"os": "o", "cpu": "c", "cores": 2},
@@ -119,15 +125,15 @@ fn releases_stand_at_their_dates() {
         "releases": [release("1"), release("2"), release("3")],
     });
     let case = json!({"case": CASE, "verdicts": ["fail", "fail", "pass"]});
-    let file = place.path("versions.jsonl");
+    let file = history.path("versions.jsonl");
     fs::write(&file, format!("{header}\n{case}\n")).unwrap();
-    let dates = place.path("dates.json");
+    let dates = history.path("dates.json");
     fs::write(&dates, r#"{"a": {"1": "2022-01-01", "3": "2024-01-01"}}"#).unwrap();
     let [file, dates] = [&file, &dates].map(|path| path.display().to_string());
-    let added = place.history(&["add", &file, "--dates", &dates]).code(0);
+    let added = history.command(&["add", &file, "--dates", &dates]).code(0);
     added.stderr(contains("no release date is known for a 2;"));
-    place
-        .history(&["show", CASE])
+    history
+        .command(&["show", CASE])
         .stdout(contains("✗✗✓").and(contains(
             "fixed at run 3 (2024-01-01), after run 2 (2022-01-01)",
         )));

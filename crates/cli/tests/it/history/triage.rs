@@ -1,34 +1,38 @@
 //! `etalon history triage`: bad verdicts and steps of times.
 
-use super::{BAD, CASE, GOOD, Place};
+use super::{BAD, CASE, GOOD, HistoryFolder};
 use predicates::prelude::*;
 use predicates::str::contains;
 use rusqlite::Connection;
 use serde_json::json;
 
-#[test]
-fn steps_of_times_are_found_told_and_settled() {
-    let place = Place::new();
+/// Adds 45 benches. The driver slows down at run 21, and the machine, with its ruler, at run 34.
+fn history_with_steps() -> HistoryFolder {
+    let history = HistoryFolder::new();
     let mut add = vec!["add".to_owned()];
     for night in 0..45 {
         let seconds = if night < 20 { 0.001 } else { 0.0012 };
-        // The machine slows down at night 33, and the ruler with it.
         let [seconds, ruler] = [seconds, 0.002].map(|t| if night < 33 { t } else { t * 1.1 });
-        add.push(place.bench(night, seconds, ruler));
+        add.push(history.bench(night, seconds, ruler));
     }
-    place
-        .history(&add.iter().map(String::as_str).collect::<Vec<_>>())
-        .code(0);
-    let shown = place.json(&["show", "perf/made"]);
-    let series = &shown["adapters"][0]["series"][0];
+    let add: Vec<&str> = add.iter().map(String::as_str).collect();
+    history.command(&add).code(0);
+    history
+}
+
+#[test]
+fn a_step_of_times_has_its_cause_and_ratio() {
+    let history = history_with_steps();
+    let case = history.json(&["show", "perf/made"]);
+    let series = &case["adapters"][0]["series"][0];
     let changes = series["changes"].as_array().unwrap();
-    let places: Vec<_> = changes
+    let steps: Vec<_> = changes
         .iter()
         .map(|c| (&c["run"], &c["cause"], &c["state"]))
         .collect();
     let new = json!("new");
     assert_eq!(
-        places,
+        steps,
         [
             (&json!(21), &json!("driver"), &new),
             (&json!(34), &json!("machine"), &new)
@@ -36,18 +40,23 @@ fn steps_of_times_are_found_told_and_settled() {
     );
     let ratio = changes[0]["ratio"]["estimate"].as_f64().unwrap();
     assert!((1.19..1.21).contains(&ratio), "{ratio}");
-    place.history(&["show", "perf/made"]).stdout(
+    history.command(&["show", "perf/made"]).stdout(
         contains("  ruler  ▁")
             .and(contains("smallest visible change +"))
             .and(contains("the machine's: the ruler stepped along"))
             .and(contains("a step of +")),
     );
-    place
-        .history(&["triage"])
+}
+
+#[test]
+fn a_step_of_times_is_open_until_triaged_and_no_entry_is_removed() {
+    let history = history_with_steps();
+    history
+        .command(&["triage"])
         .stdout(contains("1 open change of frame times"));
     let settle = |arguments: &[&str]| {
         let subject = ["triage", "perf/made", "--adapter", "cpu"];
-        place.history(&[&subject[..], arguments].concat())
+        history.command(&[&subject[..], arguments].concat())
     };
     settle(&["--step", "10", "--state", "real", "--reason", "r"])
         .code(64)
@@ -61,21 +70,21 @@ fn steps_of_times_are_found_told_and_settled() {
         "a slower clear",
     ])
     .code(0);
-    place
-        .history(&["triage"])
+    history
+        .command(&["triage"])
         .stdout(contains("0 open changes"));
-    place
-        .history(&["triage", "--all"])
+    history
+        .command(&["triage", "--all"])
         .stdout(contains("real: a slower clear"));
-    place
-        .history(&["show", "perf/made"])
+    history
+        .command(&["show", "perf/made"])
         .stdout(contains("real: a slower clear"));
-    // The last entry counts, and no entry is removed.
+    // The last entry counts.
     settle(&["--step", "21", "--state", "new"]).code(0);
-    place
-        .history(&["triage"])
+    history
+        .command(&["triage"])
         .stdout(contains("1 open change of"));
-    let file = Connection::open(place.db()).unwrap();
+    let file = Connection::open(history.db()).unwrap();
     let entries: u32 = file
         .query_row("SELECT count(*) FROM triage", [], |row| row.get(0))
         .unwrap();
@@ -83,25 +92,29 @@ fn steps_of_times_are_found_told_and_settled() {
 }
 
 #[test]
-fn what_is_bad_is_open_until_somebody_says_what_it_is() {
-    let place = Place::new();
-    place
-        .history(&["add", &place.run(1, "1", &GOOD), &place.run(2, "1", &BAD)])
+fn a_bad_verdict_is_open_until_triaged() {
+    let history = HistoryFolder::new();
+    history
+        .command(&[
+            "add",
+            &history.run(1, "1", &GOOD),
+            &history.run(2, "1", &BAD),
+        ])
         .code(0);
-    place.history(&["triage"]).code(0).stdout(
+    history.command(&["triage"]).code(0).stdout(
         contains("1 open bad verdict\n").and(contains(format!("{CASE} on cpu: fail since run 2"))),
     );
-    let settle = ["triage", CASE, "--adapter", "cpu", "--state"];
-    let with = |more: &[&str]| place.history(&[&settle[..], more].concat());
-    with(&["ignored"])
+    let subject = ["triage", CASE, "--adapter", "cpu", "--state"];
+    let settle = |arguments: &[&str]| history.command(&[&subject[..], arguments].concat());
+    settle(&["ignored"])
         .code(64)
         .stderr(contains("needs a reason"));
-    with(&["ignored", "--reason", " "])
+    settle(&["ignored", "--reason", " "])
         .code(64)
         .stderr(contains("needs a reason"));
-    with(&["wrong", "--reason", "r"]).code(64);
-    place.history(&["triage", CASE]).code(64);
-    with(&[
+    settle(&["wrong", "--reason", "r"]).code(64);
+    history.command(&["triage", CASE]).code(64);
+    settle(&[
         "ignored",
         "--reason",
         "known\u{1b}[2J",
@@ -110,9 +123,9 @@ fn what_is_bad_is_open_until_somebody_says_what_it_is() {
     ])
     .code(0)
     .stdout(contains("ignored: known").and(contains("\u{1b}").not()));
-    let left = place.json(&["triage"]);
-    assert_eq!(left, json!({"verdicts": [], "steps": []}));
-    let triage = place.json(&["triage", "--all"]);
+    let open_entries = history.json(&["triage"]);
+    assert_eq!(open_entries, json!({"verdicts": [], "steps": []}));
+    let triage = history.json(&["triage", "--all"]);
     assert_eq!(triage["verdicts"][0]["state"], "ignored");
     assert_eq!(triage["verdicts"][0]["since"], 2);
 }
