@@ -280,11 +280,11 @@ const WGPU_SOFTPIPE: Lacks = Lacks {
 
 #[rustfmt::skip]
 const LAVAPIPE_WRONG: &[Defect] = &[
-    ("passes::depths_are_averaged", "the first sample instead of the average"),
+    ("resolves::depths_are_averaged", "the first sample instead of the average"),
 ];
 #[rustfmt::skip]
 const ZINK_WRONG: &[Defect] = &[
-    ("passes::masked_clears_keep_the_rest", "stencil that a masked clear sets to 0 instead of its value"),
+    ("clears::masked_clears_keep_the_rest", "stencil that a masked clear sets to 0 instead of its value"),
 ];
 /// Defects of virglrenderer through OpenGL. OpenGL ES reads depth by a shader.
 #[rustfmt::skip]
@@ -304,7 +304,7 @@ const SOFTPIPE_DEFECTS: &[&[Defect]] = &[SOFTPIPE_WRONG, SOFTPIPE_CLAMPS, SOFTPI
 #[rustfmt::skip]
 /// Checks that softpipe fails in OpenGL and OpenGL ES.
 pub const SOFTPIPE_CLEARS: &[Defect] = &[
-    ("passes::clears_know_their_target", "a clear of integers that is lost to the clear of a rectangle after it"),
+    ("clears::clears_know_their_target", "a clear of integers that is lost to the clear of a rectangle after it"),
 ];
 /// Checks that softpipe fails in every API.
 #[rustfmt::skip]

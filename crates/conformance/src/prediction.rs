@@ -93,7 +93,7 @@ mod tests {
 
     /// Checks that draw on no driver, each with its reason.
     const NOT_DRAWN_ANYWHERE: &[(&str, &str)] = &[(
-        "passes::depths_are_averaged",
+        "resolves::depths_are_averaged",
         "of the drivers only lavapipe offers averages of depth, and takes the first sample",
     )];
 
@@ -122,15 +122,15 @@ mod tests {
         };
         let skipped = [
             "depth::bounds_reject_by_the_stored_depth",
-            "passes::masked_clears_keep_the_rest",
+            "clears::masked_clears_keep_the_rest",
         ];
         assert_eq!(which("vulkan:lavapipe", Prediction::Skips), skipped);
         let skipped = [
             "depth::bounds_reject_by_the_stored_depth",
             "raster::a_viewport_of_negative_height_turns_the_picture_over",
-            "passes::depth_and_stencil_are_resolved_by_their_modes",
-            "passes::depths_are_averaged",
-            "passes::what_was_resolved_is_tested",
+            "resolves::depth_and_stencil_are_resolved_by_their_modes",
+            "resolves::depths_are_averaged",
+            "resolves::what_was_resolved_is_tested",
         ];
         assert_eq!(which("gl:llvmpipe", Prediction::Skips), skipped);
         let expected = [

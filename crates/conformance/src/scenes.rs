@@ -102,6 +102,11 @@ pub(crate) fn rect(texels: [u32; 4]) -> Value {
     json!({ "kind": "rect", "texels": texels })
 }
 
+/// Returns a draw of green over a part.
+pub(crate) fn green_over(texels: [u32; 4]) -> Value {
+    json!({ "mesh": rect(texels), "shader": "uniform_color", "params": green() })
+}
+
 /// Returns the corners of [`rect`] as vertices of a triangle strip, which covers all samples of its texels.
 pub(crate) fn corners([left, top, right, bottom]: [u32; 4]) -> Value {
     json!({ "kind": "vertices", "units": "texels", "positions":

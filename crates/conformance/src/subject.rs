@@ -143,6 +143,12 @@ impl<'a> CheckedBackend<'a> {
         self.draw(&scene(body))
     }
 
+    /// Draws a scene of several, as [`Self::show`] does; `None` if the limits deny it. The check goes on with the
+    /// other scenes, and its result names what this one needs.
+    pub(crate) fn show_if_offered(&self, body: Value) -> Option<Frame> {
+        self.show(body).ok()
+    }
+
     /// Asserts that validation and debug output reported nothing except tolerated messages.
     #[track_caller]
     pub fn check_silence(&self, after: &str) {

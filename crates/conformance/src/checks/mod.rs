@@ -3,6 +3,7 @@
 //! A test runs all checks on a driver. Each check still passes, fails or is skipped under its own name.
 
 mod chains;
+mod clears;
 mod counters;
 mod depth;
 mod drawing;
@@ -13,9 +14,10 @@ mod integers;
 mod layers;
 mod limits;
 mod lists;
-mod passes;
+mod load_store;
 mod prepared;
 mod raster;
+mod resolves;
 mod samples;
 mod sampling;
 mod shaders;
@@ -148,13 +150,17 @@ registry! {
         a_larger_attachment_is_averaged sampled_fragments_are_discarded
         invocations_of_all_passes_add_up
     }
-    passes {
+    load_store {
         load_operations_clear_everything each_attachment_has_its_own_load_operation
         depth_and_stencil_are_loaded_apart discarded_contents_are_cleared_again
-        samples_are_discarded_after_their_average clears_reach_their_rectangle
-        clears_ignore_the_draws_around clears_leave_the_other_aspect clears_know_their_target
-        masked_clears_keep_the_rest depth_and_stencil_are_resolved_by_their_modes
-        depths_are_averaged what_was_resolved_is_tested
+        samples_are_discarded_after_their_average
+    }
+    clears {
+        clears_reach_their_rectangle clears_ignore_the_draws_around clears_leave_the_other_aspect
+        clears_know_their_target masked_clears_keep_the_rest
+    }
+    resolves {
+        depth_and_stencil_are_resolved_by_their_modes depths_are_averaged what_was_resolved_is_tested
     }
     layers {
         layers_are_peeled_one_by_one layers_are_peeled_from_both_ends

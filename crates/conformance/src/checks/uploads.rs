@@ -7,14 +7,14 @@ use crate::subject::CheckedBackend;
 use serde_json::json;
 
 /// One texture is only fetched from; another is drawn over in a corner.
-pub(crate) fn texels_keep_their_places(s: &CheckedBackend) -> CheckEnd {
+pub(crate) fn texels_keep_their_places(subject: &CheckedBackend) -> CheckEnd {
     let value = |i: u32| [i * 16, 255 - i, i, 255];
     let bytes: Vec<_> = (0..16).map(value).collect();
     for (kind, across) in [("columns", true), ("rows", false)] {
         for (format, scale) in [("rgba8unorm", 1.0), ("rgba32float", 1.0 / 255.0)] {
             let scaled = |i: u32| value(i).map(|v| f64::from(v) * scale);
             let values: Vec<_> = (0..16).map(scaled).collect();
-            let frame = s.show(json!({
+            let frame = subject.show(json!({
                 "attachments": {
                     "a": { "format": "rgba8unorm" },
                     "b": uploaded(kind, &bytes[..]),
@@ -40,7 +40,8 @@ pub(crate) fn texels_keep_their_places(s: &CheckedBackend) -> CheckEnd {
     Ok(())
 }
 
-pub(crate) fn floats_are_clamped_where_they_are_drawn(s: &CheckedBackend) -> CheckEnd {
+/// Floats beyond 0 and 1 are clamped by the 8-bit attachment that they are drawn to, and not in their texture.
+pub(crate) fn floats_are_clamped_where_they_are_drawn(subject: &CheckedBackend) -> CheckEnd {
     let unorm = [
         [1, 2, 3, 4],
         [5, 6, 7, 8],
@@ -48,7 +49,7 @@ pub(crate) fn floats_are_clamped_where_they_are_drawn(s: &CheckedBackend) -> Che
         [0, 255, 0, 255],
     ];
     let float = [[0, 0, 1, 1], [1, 0, 0, 1], [0, 1, 0, 1], [7, -3, 0, 0]];
-    let frame = s.show(json!({
+    let frame = subject.show(json!({
         "attachments": {
             "color": { "format": "rgba8unorm", "size": [4, 4] },
             "float": { "format": "rgba32float", "texels": { "kind": "rows", "values": float } },
@@ -71,10 +72,11 @@ pub(crate) fn floats_are_clamped_where_they_are_drawn(s: &CheckedBackend) -> Che
     Ok(())
 }
 
-pub(crate) fn floats_come_back_bit_by_bit(s: &CheckedBackend) -> CheckEnd {
+/// Values without a short binary form, very large and very small ones are uploaded and read back without a draw.
+pub(crate) fn floats_come_back_bit_by_bit(subject: &CheckedBackend) -> CheckEnd {
     let expected = [[0.1_f32, -3.0, 1e30, 0.0], [1.0, 2.5, 1e-30, 7.0]];
     let texels = json!({ "kind": "columns", "values": expected });
-    let frame = s.show(json!({
+    let frame = subject.show(json!({
         "attachments": { "t": { "format": "rgba32float", "size": [2, 1], "texels": texels } },
         "passes": [],
     }))?;
@@ -82,9 +84,10 @@ pub(crate) fn floats_come_back_bit_by_bit(s: &CheckedBackend) -> CheckEnd {
     Ok(())
 }
 
-pub(crate) fn floats_are_cleared_and_drawn_exactly(s: &CheckedBackend) -> CheckEnd {
+/// A clear value and a uniform reach a float attachment without clamping or rounding.
+pub(crate) fn floats_are_cleared_and_drawn_exactly(subject: &CheckedBackend) -> CheckEnd {
     let values = [0.1_f32, -2.5, 1e30, 1.0 / 3.0];
-    let frame = s.show(json!({
+    let frame = subject.show(json!({
         "attachments": {
             "cleared": { "format": "rgba32float", "size": [4, 4], "clear": values },
             "drawn": { "format": "rgba32float" } },
@@ -98,14 +101,14 @@ pub(crate) fn floats_are_cleared_and_drawn_exactly(s: &CheckedBackend) -> CheckE
 }
 
 /// Two thresholds, each between two of the texels' alphas.
-pub(crate) fn fragments_are_discarded_below_a_threshold(s: &CheckedBackend) -> CheckEnd {
+pub(crate) fn fragments_are_discarded_below_a_threshold(subject: &CheckedBackend) -> CheckEnd {
     let texels = [
         [10, 20, 30, 0],
         [11, 21, 31, 127],
         [12, 22, 32, 129],
         [13, 23, 33, 255],
     ];
-    let frame = s.show(json!({
+    let frame = subject.show(json!({
         "attachments": { "color": with(blue(), json!({ "size": [4, 4] })),
                          "source": uploaded("columns", texels) },
         "draws": [
