@@ -192,8 +192,8 @@ fn wire(from: [f64; 2], to: [f64; 2]) -> Piece {
     let lines = [
         beside(1.0),
         beside(-1.0),
-        DirectedLine::new(from, along).ending(),
-        DirectedLine::new(to, along.map(|v| -v)).ending(),
+        DirectedLine::new(from, along).marked_as_end(),
+        DirectedLine::new(to, along.map(|v| -v)).marked_as_end(),
     ];
     piece(ALL, &lines, INK)
 }
