@@ -1,6 +1,6 @@
 //! Attachments and draws that several methods share.
 
-use super::scenes::Glass;
+use super::scenes::GlassScene;
 use crate::polygon::{Polygon, mesh};
 use crate::stage::{SIZE, Stage, depth, draw};
 use etalon_frame::TextureFormat;
@@ -13,7 +13,7 @@ pub(super) const PICTURE: TextureFormat = TextureFormat::Rgba8Unorm;
 pub(super) const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 
 /// Returns the background's colour, opaque.
-pub(super) fn clear(glass: &Glass) -> [f64; 4] {
+pub(super) fn clear(glass: &GlassScene) -> [f64; 4] {
     let [r, g, b] = glass.background;
     [r, g, b, 1.0]
 }
@@ -24,7 +24,7 @@ pub(super) fn depths(stage: &mut Stage, samples: u32) -> usize {
 }
 
 /// Returns a draw of the opaque polygons, with depth; `None` if the scene has no opaque polygons.
-pub(super) fn opaque(glass: &Glass, shader: Shader) -> Option<Draw> {
+pub(super) fn opaque(glass: &GlassScene, shader: Shader) -> Option<Draw> {
     if glass.opaque.is_empty() {
         return None;
     }
@@ -34,7 +34,7 @@ pub(super) fn opaque(glass: &Glass, shader: Shader) -> Option<Draw> {
 }
 
 /// Returns a draw of the opaque polygons that writes only depth.
-pub(super) fn opaque_depth(glass: &Glass, shader: Shader) -> Option<Draw> {
+pub(super) fn opaque_depth(glass: &GlassScene, shader: Shader) -> Option<Draw> {
     let mut draw = opaque(glass, shader)?;
     for target in &mut draw.targets {
         target.write_mask = 0;
@@ -43,7 +43,7 @@ pub(super) fn opaque_depth(glass: &Glass, shader: Shader) -> Option<Draw> {
 }
 
 /// Returns a draw of the opaque polygons' colours, the farthest first, without a depth test.
-pub(super) fn opaque_color(glass: &Glass) -> Option<Draw> {
+pub(super) fn opaque_color(glass: &GlassScene) -> Option<Draw> {
     let mut polygons = glass.opaque.clone();
     polygons.sort_by(|a, b| b.corners[0][2].total_cmp(&a.corners[0][2]));
     let some = !polygons.is_empty();

@@ -1,7 +1,7 @@
 //! Per-pixel linked lists (Yang, Hensley, Grün and Thibieroz 2010).
 
 use super::draws::{PICTURE, clear, depths, opaque};
-use super::scenes::Glass;
+use super::scenes::GlassScene;
 use crate::polygon::{Polygon, cover, mesh};
 use crate::stage::{SIZE, Stage, add, depth, draw};
 use etalon_scene::{
@@ -11,7 +11,7 @@ use etalon_scene::{
 /// Builds two passes for any number of layers. The first adds every fragment in front of the opaque
 /// polygons to its texel's list; the second sorts the lists and composes them over the picture. The pool
 /// has `nodes` nodes per texel, on average.
-pub(super) fn linked_lists(glass: &Glass, polygons: &[Polygon], nodes: u32) -> Scene {
+pub(super) fn linked_lists(glass: &GlassScene, polygons: &[Polygon], nodes: u32) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
     let depth_stencil = depths(&mut stage, 1);

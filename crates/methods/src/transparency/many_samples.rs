@@ -1,7 +1,7 @@
 //! Methods that spread transparent surfaces over four samples.
 
 use super::draws::{PICTURE, clear, depths, opaque};
-use super::scenes::Glass;
+use super::scenes::GlassScene;
 use crate::noise::Noise;
 use crate::polygon::{Polygon, mesh};
 use crate::stage::{SIZE, Stage, depth, draw};
@@ -12,14 +12,14 @@ use etalon_scene::{AttachmentContents, CompareFunction, Draw, Scene, Shader};
 const SAMPLES: u32 = 4;
 
 /// Covers a number of samples that follows alpha.
-pub(super) fn alpha_to_coverage(glass: &Glass, polygons: &[Polygon]) -> Scene {
+pub(super) fn alpha_to_coverage(glass: &GlassScene, polygons: &[Polygon]) -> Scene {
     let mut glassy = draw(Shader::FlatColor, mesh(SIZE, polygons));
     glassy.multisample.alpha_to_coverage = true;
     resolved(glass, Stage::new(), vec![glassy])
 }
 
 /// Draws each sample if its threshold is below alpha. Polygons that overlap have different thresholds.
-pub(super) fn stochastic(glass: &Glass, polygons: &[Polygon]) -> Scene {
+pub(super) fn stochastic(glass: &GlassScene, polygons: &[Polygon]) -> Scene {
     let mut alphas: Vec<f64> = polygons.iter().map(|p| p.color[3]).collect();
     alphas.sort_by(f64::total_cmp);
     alphas.dedup();
@@ -37,7 +37,7 @@ pub(super) fn stochastic(glass: &Glass, polygons: &[Polygon]) -> Scene {
 }
 
 /// Draws the glass with depth over the opaque polygons, then takes the mean of the samples.
-fn resolved(glass: &Glass, mut stage: Stage, mut glassy: Vec<Draw>) -> Scene {
+fn resolved(glass: &GlassScene, mut stage: Stage, mut glassy: Vec<Draw>) -> Scene {
     let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
     let contents = AttachmentContents::Color(clear(glass).map(|c| c as f32));
     let samples = stage.attachment("samples", PICTURE, SIZE, SAMPLES, contents);

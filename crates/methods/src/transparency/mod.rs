@@ -23,7 +23,7 @@ pub(crate) use wire::TransparencyWire;
 
 use crate::error::{ParameterError, within};
 use crate::method_scene::MethodScene;
-use scenes::Glass;
+use scenes::GlassScene;
 use wire::TransparencyMethod;
 
 /// The number of layers that are peeled, or of nodes per texel, if no `k` is given.
@@ -36,7 +36,7 @@ const MOST_NODES: f64 = 32.0;
 /// # Errors
 /// If a parameter is out of its range.
 pub(crate) fn make(wire: &TransparencyWire) -> Result<MethodScene, ParameterError> {
-    let glass = Glass::new(wire)?;
+    let glass = GlassScene::new(wire)?;
     if let Some(k) = wire.k {
         within("k", f64::from(k), 1.0..=64.0)?;
     }

@@ -1,7 +1,7 @@
 //! Moment-based order-independent transparency (Münstermann, Krumpen, Klein and Peters 2018).
 
 use super::draws::{PICTURE, clear, depths, opaque_color, opaque_depth};
-use super::scenes::Glass;
+use super::scenes::GlassScene;
 use crate::polygon::{Polygon, cover, mesh};
 use crate::stage::{SIZE, Stage, add, both, depth, draw};
 use etalon_frame::TextureFormat;
@@ -13,7 +13,7 @@ const SUMS: TextureFormat = TextureFormat::Rgba32Float;
 
 /// Builds three passes for any number of layers: absorbance and its moments, then colours by transmittance,
 /// then their mean over the background.
-pub(super) fn moment_based(glass: &Glass, polygons: &[Polygon]) -> Scene {
+pub(super) fn moment_based(glass: &GlassScene, polygons: &[Polygon]) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
     let [absorbance, moments, sum] =

@@ -1,13 +1,13 @@
 //! Methods of one pass that differ in order and depth.
 
 use super::draws::{PICTURE, clear, depths, opaque, premultiplied};
-use super::scenes::{Glass, Object};
+use super::scenes::{GlassScene, Object};
 use crate::polygon::{Polygon, mesh};
 use crate::stage::{SIZE, Stage, add, both, depth, draw, over};
 use etalon_scene::{BlendFactor, BlendState, CompareFunction, Params, Scene, Shader};
 
 /// Returns the polygons of all objects, the farthest object first.
-pub(super) fn by_object(glass: &Glass) -> Vec<Polygon> {
+pub(super) fn by_object(glass: &GlassScene) -> Vec<Polygon> {
     let mut objects: Vec<&Object> = glass.objects.iter().collect();
     objects.sort_by(|a, b| b.depth().total_cmp(&a.depth()));
     let polygons = objects.into_iter().flat_map(|o| &o.polygons);
@@ -15,7 +15,7 @@ pub(super) fn by_object(glass: &Glass) -> Vec<Polygon> {
 }
 
 /// Returns the triangles of all objects, the farthest first.
-pub(super) fn by_triangle(glass: &Glass) -> Vec<Polygon> {
+pub(super) fn by_triangle(glass: &GlassScene) -> Vec<Polygon> {
     let mut triangles = Vec::new();
     for polygon in glass.polygons() {
         let corners = &polygon.corners;
@@ -30,7 +30,7 @@ pub(super) fn by_triangle(glass: &Glass) -> Vec<Polygon> {
 }
 
 /// Blends the polygons in their order over the opaque ones.
-pub(super) fn blended(glass: &Glass, polygons: &[Polygon], write: bool) -> Scene {
+pub(super) fn blended(glass: &GlassScene, polygons: &[Polygon], write: bool) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
     let depth_stencil = depths(&mut stage, 1);
@@ -43,7 +43,7 @@ pub(super) fn blended(glass: &Glass, polygons: &[Polygon], write: bool) -> Scene
 }
 
 /// Draws the polygons with an alpha of at least a half as opaque, and no others.
-pub(super) fn alpha_test(glass: &Glass, polygons: &[Polygon]) -> Scene {
+pub(super) fn alpha_test(glass: &GlassScene, polygons: &[Polygon]) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
     let depth_stencil = depths(&mut stage, 1);
@@ -65,7 +65,7 @@ pub(super) fn under() -> Option<BlendState> {
 }
 
 /// Returns the opaque polygons and the background, nearest first, to be drawn under the glass.
-pub(super) fn behind(glass: &Glass) -> Vec<Polygon> {
+pub(super) fn behind(glass: &GlassScene) -> Vec<Polygon> {
     let mut polygons = glass.opaque.clone();
     polygons.sort_by(|a, b| a.corners[0][2].total_cmp(&b.corners[0][2]));
     let everywhere = [0.0, 0.0, f64::from(SIZE[0]), f64::from(SIZE[1])];
@@ -74,7 +74,7 @@ pub(super) fn behind(glass: &Glass) -> Vec<Polygon> {
 }
 
 /// Blends objects nearest first. This needs no depth, since nothing shows through opaque polygons.
-pub(super) fn front_to_back(glass: &Glass) -> Scene {
+pub(super) fn front_to_back(glass: &GlassScene) -> Scene {
     let mut objects = glass.objects.clone();
     objects.extend(behind(glass).into_iter().map(|polygon| Object {
         polygons: vec![polygon],

@@ -2,7 +2,7 @@
 
 use super::draws::{PICTURE, clear, depths, opaque_color, opaque_depth, premultiplied};
 use super::ordered::{behind, under};
-use super::scenes::Glass;
+use super::scenes::GlassScene;
 use crate::polygon::{Polygon, cover, mesh};
 use crate::stage::{SIZE, Stage, add, both, depth, draw, over};
 use etalon_frame::TextureFormat;
@@ -23,7 +23,7 @@ fn copy(texture: usize, blend: Option<BlendState>) -> Draw {
 
 /// Peels `k` layers, each the nearest one behind the previous layer, and composes each under the picture so far
 /// (Everitt 2001).
-pub(super) fn depth_peeling(glass: &Glass, polygons: &[Polygon], k: u32) -> Scene {
+pub(super) fn depth_peeling(glass: &GlassScene, polygons: &[Polygon], k: u32) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, [0.0; 4]);
     let layer = stage.color("layer", PICTURE, SIZE, [0.0; 4]);
@@ -74,7 +74,7 @@ fn far_cover() -> etalon_scene::Mesh {
 
 /// Peels `k` times the nearest and the farthest remaining layer: the nearest is composed under the front
 /// layers, the farthest over the back layers (Bavoil and Myers 2008).
-pub(super) fn dual_depth_peeling(glass: &Glass, polygons: &[Polygon], k: u32) -> Scene {
+pub(super) fn dual_depth_peeling(glass: &GlassScene, polygons: &[Polygon], k: u32) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
     let depth_stencil = depths(&mut stage, 1);

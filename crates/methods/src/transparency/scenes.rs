@@ -22,9 +22,9 @@ impl Object {
     }
 }
 
-/// A scene with transparent objects.
+/// A scene of opaque polygons and transparent objects, not sorted yet.
 #[derive(Clone, Debug)]
-pub(super) struct Glass {
+pub(super) struct GlassScene {
     /// Red, green and blue behind everything.
     pub(super) background: [f64; 3],
     /// Opaque polygons, at constant depths.
@@ -35,14 +35,14 @@ pub(super) struct Glass {
     pub(super) coverage: TexelCoverage,
 }
 
-impl Glass {
+impl GlassScene {
     /// Returns the scene of a case.
     ///
     /// # Errors
     /// If a parameter is out of its range.
     pub(super) fn new(wire: &TransparencyWire) -> Result<Self, ParameterError> {
         let alpha = |default: f64| within("alpha", wire.alpha.unwrap_or(default), 0.01..=0.99);
-        let scene = match wire.scene {
+        Ok(match wire.scene {
             TransparencyScene::Windows => windows(alpha(0.5)?),
             TransparencyScene::IntersectingPanes => {
                 let angle = within("angle", wire.angle.unwrap_or(45.0), 0.0..=65.0)?;
@@ -56,8 +56,7 @@ impl Glass {
             }
             TransparencyScene::Hair => hair(alpha(0.6)?),
             TransparencyScene::Smoke => smoke(alpha(0.2)?),
-        };
-        Ok(scene)
+        })
     }
 
     /// Returns all transparent faces, object by object.
@@ -65,7 +64,7 @@ impl Glass {
         self.objects.iter().flat_map(|o| &o.polygons)
     }
 
-    /// Returns the truth.
+    /// Returns the exact picture's scene: all surfaces, opaque and transparent.
     pub(super) fn truth(&self) -> Truth {
         Truth {
             size: SIZE,
@@ -105,7 +104,8 @@ fn pane(polygon: Polygon) -> Object {
     }
 }
 
-fn windows(alpha: f64) -> Glass {
+/// Six overlapping panes at constant depths, and an opaque bar between two of them.
+fn windows(alpha: f64) -> GlassScene {
     // Nearest first.
     let rects = [
         ([8.0, 16.0, 56.0, 96.0], 0.3),
@@ -123,7 +123,7 @@ fn windows(alpha: f64) -> Glass {
             tinted(HUES[i], alpha),
         ))
     };
-    Glass {
+    GlassScene {
         background: [0.9, 0.9, 0.85],
         opaque: vec![Polygon::rect([32.0, 56.0, 96.0, 80.0], 0.65, OPAQUE)],
         objects: order.map(pane_at).to_vec(),
@@ -134,7 +134,8 @@ fn windows(alpha: f64) -> Glass {
 /// The width in texels across which a pane at 45 degrees passes through the whole range of depths.
 const DEPTH_RANGE: f64 = 320.0;
 
-fn intersecting_panes(angle: f64, alpha: f64) -> Glass {
+/// Three panes, two of which are turned and pass through the others.
+fn intersecting_panes(angle: f64, alpha: f64) -> GlassScene {
     let slope = angle.to_radians().tan() / DEPTH_RANGE;
     let turned = |rect, depth: f64, slope: f64, hue| {
         let mut polygon = Polygon::rect(rect, depth, tinted(hue, alpha));
@@ -143,7 +144,7 @@ fn intersecting_panes(angle: f64, alpha: f64) -> Glass {
         }
         pane(polygon)
     };
-    Glass {
+    GlassScene {
         background: [0.9, 0.9, 0.85],
         opaque: Vec::new(),
         objects: vec![
@@ -179,9 +180,9 @@ fn glass_box(front: [f64; 4], near: f64, back: [f64; 4], far: f64, color: [f64; 
     Object { polygons }
 }
 
-/// No edge between two sides passes through a texel's centre: the steps between corners are never two odd
-/// multiples of the same number.
-fn nested_glass(alpha: f64) -> Glass {
+/// Three boxes of glass around an opaque square. No edge between two sides passes through a texel's centre, as the
+/// test `where_edges_are_no_question_none_comes_near_a_centre` shows.
+fn nested_glass(alpha: f64) -> GlassScene {
     let outer = glass_box(
         [8.0, 8.0, 120.0, 120.0],
         0.2,
@@ -203,7 +204,7 @@ fn nested_glass(alpha: f64) -> Glass {
         0.56,
         tinted(HUES[1], alpha),
     );
-    Glass {
+    GlassScene {
         background: [0.9, 0.9, 0.85],
         opaque: vec![Polygon::rect([58.0, 54.0, 70.0, 66.0], 0.5, OPAQUE)],
         objects: vec![outer, inner, middle],
@@ -213,13 +214,15 @@ fn nested_glass(alpha: f64) -> Glass {
 
 /// Returns the numbers below `count`, each once, in a mixed order.
 fn mixed(count: u32) -> impl Iterator<Item = u32> {
-    let shares_none =
-        |step: &u32| (2..=*step).all(|d| !(step.is_multiple_of(d) && count.is_multiple_of(d)));
-    let step = [5, 7, 11, 13].into_iter().find(shares_none).unwrap_or(1);
+    // The steps are prime, so one that does not divide the count shares no factor with it.
+    let shares_no_factor = |step: &u32| !count.is_multiple_of(*step);
+    let step = [5, 7, 11, 13].into_iter().find(shares_no_factor);
+    let step = step.unwrap_or(1);
     (0..count).map(move |i| (i * step + 1) % count)
 }
 
-fn thin_layers(layers: u32, alpha: f64) -> Glass {
+/// Many panes of nearly the same size, one behind the other.
+fn thin_layers(layers: u32, alpha: f64) -> GlassScene {
     let layer = |i: u32| {
         let inset = |step: u32, over: u32| f64::from(4 + step * i % over);
         let rect = [
@@ -235,7 +238,7 @@ fn thin_layers(layers: u32, alpha: f64) -> Glass {
             tinted(HUES[i as usize % 6], alpha),
         ))
     };
-    Glass {
+    GlassScene {
         background: [0.95, 0.95, 0.9],
         opaque: Vec::new(),
         objects: mixed(layers).map(layer).collect(),
@@ -246,7 +249,8 @@ fn thin_layers(layers: u32, alpha: f64) -> Glass {
 /// The number of strips of hair.
 const STRIPS: u32 = 128;
 
-fn hair(alpha: f64) -> Glass {
+/// Strips that are 1 to 2 texels wide, so texels are covered in part.
+fn hair(alpha: f64) -> GlassScene {
     let mut noise = Noise::new(4);
     let mut strip = || {
         let root = noise.between(40.0, 84.0);
@@ -267,7 +271,7 @@ fn hair(alpha: f64) -> Glass {
             [0.8 * light, 0.5 * light, 0.25 * light, alpha],
         ))
     };
-    Glass {
+    GlassScene {
         background: [0.75, 0.85, 0.95],
         opaque: Vec::new(),
         objects: (0..STRIPS).map(|_| strip()).collect(),
@@ -278,7 +282,8 @@ fn hair(alpha: f64) -> Glass {
 /// The number of quads of smoke.
 const PUFFS: u32 = 12;
 
-fn smoke(alpha: f64) -> Glass {
+/// Large quads in front of and behind an opaque rectangle.
+fn smoke(alpha: f64) -> GlassScene {
     let mut noise = Noise::new(12);
     let mut place = || (noise.between(4.0, 48.0).round(), noise.between(0.25, 0.95));
     let mut puffs = Vec::new();
@@ -296,7 +301,7 @@ fn smoke(alpha: f64) -> Glass {
         let color = [light, light * (0.8 + 0.2 * warmth), light * warmth, alpha];
         puffs.push(pane(Polygon::rect(rect, depth, color)));
     }
-    Glass {
+    GlassScene {
         background: [0.25, 0.35, 0.55],
         opaque: vec![Polygon::rect([44.0, 36.0, 84.0, 92.0], 0.525, OPAQUE)],
         objects: mixed(PUFFS).map(|i| puffs[i as usize].clone()).collect(),

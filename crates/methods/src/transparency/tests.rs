@@ -1,7 +1,7 @@
 //! Tests of the methods' scenes. Other tests draw and measure the pictures.
 
 use super::ordered::{behind, by_object, by_triangle};
-use super::scenes::Glass;
+use super::scenes::GlassScene;
 use super::wire::{TransparencyMethod, TransparencyScene, TransparencyWire};
 use super::{make, many_samples};
 use crate::polygon::Polygon;
@@ -50,8 +50,8 @@ fn scene(wire: &TransparencyWire) -> Scene {
     make(wire).expect("the parameters are in range").scene
 }
 
-fn glass(name: TransparencyScene) -> Glass {
-    Glass::new(&wire(name, TransparencyMethod::Sorted)).expect("the parameters are in range")
+fn glass(name: TransparencyScene) -> GlassScene {
+    GlassScene::new(&wire(name, TransparencyMethod::Sorted)).expect("the parameters are in range")
 }
 
 #[test]
@@ -338,7 +338,7 @@ fn no_edge_comes_near_a_centre_unless_coverage_is_by_area() {
 #[test]
 fn panes_pass_through_each_other_from_a_third_of_a_right_angle_on() {
     let nearest = |angle: f64, x: f64| {
-        let glass = Glass::new(&TransparencyWire {
+        let glass = GlassScene::new(&TransparencyWire {
             angle: Some(angle),
             ..wire(
                 TransparencyScene::IntersectingPanes,

@@ -1,7 +1,7 @@
 //! Weighted blended order-independent transparency (McGuire and Bavoil 2013).
 
 use super::draws::{PICTURE, clear, depths, opaque_color, opaque_depth};
-use super::scenes::Glass;
+use super::scenes::GlassScene;
 use crate::polygon::{Polygon, cover, mesh};
 use crate::stage::{SIZE, Stage, add, both, depth, draw};
 use etalon_frame::TextureFormat;
@@ -9,7 +9,7 @@ use etalon_scene::{BlendFactor, BlendState, ColorTarget, CompareFunction, Scene,
 
 /// Builds two passes for any number of layers. The first computes weighted sums and the background's
 /// visibility, the second blends the mean over the background.
-pub(super) fn weighted_blended(glass: &Glass, polygons: &[Polygon]) -> Scene {
+pub(super) fn weighted_blended(glass: &GlassScene, polygons: &[Polygon]) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
     let sum = stage.color("sum", TextureFormat::Rgba16Float, SIZE, [0.0; 4]);
