@@ -12,7 +12,7 @@ fn bit(mask: u32, sample: usize) -> bool {
     mask & (1 << sample) != 0
 }
 
-const SHIPPED: &str = "drivers that skip a pipeline which writes no colour";
+const COLORLESS_SKIPPED: &str = "drivers that skip a pipeline which writes no colour";
 
 bugs! {
     class "shader-mask", "multisample";
@@ -28,7 +28,7 @@ bugs! {
     "next-bit: Each sample takes the bit of the next." => mask_keeps(|mask, sample, _| bit(mask, sample + 1));
     "eight-bits: Bits past the eighth are lost." => mask_keeps(|mask, sample, _| bit(mask & 0xff, sample));
     "two-samples-a-bit: A bit counts for two samples." => mask_keeps(|mask, sample, _| bit(mask, sample / 2));
-    "bits-of-others-count: Under sample shading the next sample's bit counts too." =>
+    "bits-of-others-count: The next sample's bit counts too." =>
         mask_keeps(|mask, sample, samples| bit(mask, sample) && bit(mask, (sample + 1) % samples)),
         source "RADV: gl_SampleMask of per-sample shading not combined with the shaded sample";
     class "shader-mask", "early-z";
@@ -47,26 +47,27 @@ bugs! {
     "ignored-for-one-sample: The mask does nothing where a texel has one sample." =>
         mask_keeps(|mask, sample, samples| samples == 1 || bit(mask, sample)),
         source "Gallium: the mask is lowered away without several samples, as OpenGL wants and Vulkan does not";
-    let without = |draw: &Draw| !draw.shader.has_fragment();
+    let no_fragment_shader = |draw: &Draw| !draw.shader.has_fragment();
     class "shaderless", "early-z";
-    source SHIPPED;
+    source COLORLESS_SKIPPED;
     "dropped: Draws without a fragment shader are dropped." =>
-        draws(|draw| draw.rasterizer_discard = true), when without;
-    "depth-write-lost: Draws without a fragment shader write no depth." => set(DEPTH_WRITE, false), when without;
+        draws(|draw| draw.rasterizer_discard = true), when no_fragment_shader;
+    "depth-write-lost: Draws without a fragment shader write no depth." =>
+        set(DEPTH_WRITE, false), when no_fragment_shader;
     "depth-not-tested: Without a fragment shader the depth test always passes." =>
-        set(DEPTH_COMPARE, CompareFunction::Always), when without;
+        set(DEPTH_COMPARE, CompareFunction::Always), when no_fragment_shader;
     "not-counted: Draws without a fragment shader count no samples." =>
-        draws(|draw| draw.counters.clear()), when without;
+        draws(|draw| draw.counters.clear()), when no_fragment_shader;
     "first-sample-alone: Without a fragment shader the first sample alone is reached." =>
-        draws(|draw| draw.multisample.mask &= 1), when without;
+        draws(|draw| draw.multisample.mask &= 1), when no_fragment_shader;
     "stencil-lost: Without a fragment shader the stencil test is off." =>
-        set(STENCIL_TEST, None), area "stencil", when without;
+        set(STENCIL_TEST, None), area "stencil", when no_fragment_shader;
     "stencil-of-the-front: Without a fragment shader back faces take the front's state." =>
-        draws(|draw| draw.stencil.iter_mut().for_each(|s| s.back = s.front)), area "stencil", when without;
+        draws(|draw| draw.stencil.iter_mut().for_each(|s| s.back = s.front)), area "stencil", when no_fragment_shader;
     "bias-lost: Draws without a fragment shader are not biased." =>
-        set(DEPTH_BIAS, DepthBias::default()), area "depth", when without;
+        set(DEPTH_BIAS, DepthBias::default()), area "depth", when no_fragment_shader;
     "scissor-lost: Draws without a fragment shader ignore the scissor rectangle." =>
-        set(SCISSOR, None), area "depth", when without;
+        set(SCISSOR, None), area "depth", when no_fragment_shader;
     "colour-written: Undefined colours, without a fragment shader, pass the write mask." =>
-        set(WRITE_MASK, 0b1111), area "blend", source CONFUSION, when without;
+        set(WRITE_MASK, 0b1111), area "blend", source CONFUSION, when no_fragment_shader;
 }
