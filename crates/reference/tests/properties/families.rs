@@ -17,7 +17,7 @@ macro_rules! areas {
         mod some_cases_of_each_file_assert_and_are_legal_under_every_api {
             $(#[test]
             fn $test() {
-                super::hold($area);
+                super::assert_area($area);
             })+
         }
     };
@@ -49,18 +49,19 @@ fn area_of(file: &CaseFile) -> &str {
 }
 
 /// Returns true if tests leave nothing out.
-fn everything() -> bool {
+fn all_cases() -> bool {
     std::env::var_os("ETALON_TESTS").is_some_and(|v| v == "all")
 }
 
 /// Returns the cases that represent a file, or all of its quick profile, or of the full one if the quick one
 /// is empty.
-fn some(file: &CaseFile) -> Vec<Case> {
+fn representatives(file: &CaseFile) -> Vec<Case> {
     let mut quick: Vec<_> = file.cases(Profile::Quick).collect();
     if quick.is_empty() {
         quick.extend(file.cases(Profile::Full));
     }
-    let mut places = if everything() {
+    assert!(!quick.is_empty(), "{} has no case", file.name());
+    let mut places = if all_cases() {
         (0..quick.len()).collect()
     } else if file.is_measured() {
         vec![quick.len() / 2]
@@ -81,9 +82,9 @@ fn texels(case: &Case) -> Texels {
     }
 }
 
-/// Returns true if an API defines what a case draws, and as the rasterizer does: programs of OpenGL ES have
-/// fragment shaders, and OpenGL ignores shaders' masks in single-sampled texels.
-fn is_said_by(api: Api, case: &Case) -> bool {
+/// Returns true if an API defines what a case draws, and defines it as the rasterizer draws it. Programs of
+/// OpenGL ES need fragment shaders, and OpenGL ignores shaders' masks in single-sampled texels.
+fn is_defined_by(api: Api, case: &Case) -> bool {
     let opengl = matches!(api, Api::OpenGl | Api::OpenGlEs);
     case.scene.passes.iter().all(|pass| {
         let samples = case.scene.pass_samples(pass);
@@ -98,16 +99,17 @@ fn is_said_by(api: Api, case: &Case) -> bool {
 /// picture is large.
 fn apis(case: &Case) -> Vec<Api> {
     let mut apis = APIS.to_vec();
-    apis.retain(|api| is_said_by(*api, case));
-    if case.measured && !everything() {
+    apis.retain(|api| is_defined_by(*api, case));
+    if case.measured && !all_cases() {
         apis = vec![apis[case.id.len() % apis.len()]];
     }
     apis
 }
 
-/// Judges a case under these APIs. Returns the sum of its assertions.
-fn judge(case: &Case) -> AspectStatistics {
-    // A selftest is judged as another scene, which the rasterizer's frame must violate.
+/// Asserts that a case asserts something, and that its frames are legal, under each API that defines it.
+/// Returns the sum of its assertions.
+fn assert_legal(case: &Case) -> AspectStatistics {
+    // A selftest is judged as another scene, of which no frame is drawn here: only its assertions are counted.
     let scenes: Vec<_> = match &case.judged_as {
         Some(scene) => vec![(scene, None)],
         None => case.scenes().map(|s| (s, Some(draw(s)))).collect(),
@@ -118,6 +120,7 @@ fn judge(case: &Case) -> AspectStatistics {
         let mut asserted = AspectStatistics::default();
         for (index, (scene, frame)) in scenes.iter().enumerate() {
             let judgements = judgements_of(scene, &limits, texels(case));
+            // Counts the case once, not its variants.
             if index == 0 {
                 for judgement in &judgements {
                     for (_, aspect) in judgement.legal.statistics() {
@@ -130,31 +133,32 @@ fn judge(case: &Case) -> AspectStatistics {
                 let worst = judgements
                     .iter()
                     .filter_map(|j| compare(frame, &j.legal, &j.yardstick, 1).ok())
-                    .map(|found| found.worst())
+                    .map(|comparison| comparison.worst())
                     .min();
                 assert_eq!(worst, Some(None), "{} by {api:?}", case.id);
             }
         }
         // A method can leave everything open: its distance from the truth is measured.
-        let some = asserted.asserted > 0 || case.method.is_some();
-        assert!(some, "{}: nothing by {api:?}", case.id);
+        let asserts = asserted.asserted > 0 || case.method.is_some();
+        assert!(asserts, "{}: nothing by {api:?}", case.id);
         sum.add(asserted);
     }
     sum
 }
 
-/// Asserts that the cases of an area hold.
-fn hold(area: &str) {
+/// Asserts that the cases of an area are legal, and that most of their channels are asserted.
+fn assert_area(area: &str) {
     let library = Library::built_in();
     let mut sum = AspectStatistics::default();
     let files = || library.files().filter(|f| area_of(f) == area);
-    for case in files().flat_map(some) {
-        sum.add(judge(&case));
+    for case in files().flat_map(representatives) {
+        sum.add(assert_legal(&case));
     }
     // Most texels of large pictures are not judged, and methods leave much open.
     if files().all(CaseFile::is_measured) {
         return;
     }
+    assert!(sum.asserted > 0, "{area} asserts nothing");
     let share = sum.asserted as f64 / sum.channels as f64;
     assert!(share > 0.9, "{area}: {share:.3} is asserted");
     let exact = sum.exact as f64 / sum.asserted as f64;
