@@ -89,7 +89,7 @@ pub fn judgements_by(
     texels: Texels,
     sets: &Sets<'_>,
 ) -> Vec<Judgement> {
-    let texels = texels.of(scene);
+    let texels = texels.simplified_for(scene);
     limits
         .alternatives(&scene.formats())
         .into_iter()
@@ -160,7 +160,7 @@ pub fn legal_set_of_texels(
     texels: Texels,
     geometries: &Geometries,
 ) -> LegalSet {
-    let texels = texels.of(scene);
+    let texels = texels.simplified_for(scene);
     let geometry = geometries.get(scene, limits, rules, texels);
     let walk = Walk::over(scene, limits, rules, texels, Arc::clone(&geometry.setups));
     let mut builder = LegalSetBuilder::default();

@@ -34,7 +34,7 @@ impl Texels {
     }
 
     /// Returns the choice for a scene: [`Texels::All`] if the choice would leave out nothing.
-    pub(crate) fn of(self, scene: &Scene) -> Self {
+    pub(crate) fn simplified_for(self, scene: &Scene) -> Self {
         let is_complete = |a: &Attachment| self.lattice(a.size) == Lattice::ALL;
         if scene.attachments.iter().all(is_complete) {
             Self::All
@@ -85,9 +85,9 @@ impl Lattice {
         match self {
             Self::One([x, row]) => (row == y && x >= from).then_some(x),
             Self::Step(step) => {
-                let past = (u64::from(from) + SHEAR * u64::from(y)) % step;
-                let on = if past == 0 { 0 } else { step - past };
-                u32::try_from(u64::from(from) + on).ok()
+                let behind = (u64::from(from) + SHEAR * u64::from(y)) % step;
+                let ahead = if behind == 0 { 0 } else { step - behind };
+                u32::try_from(u64::from(from) + ahead).ok()
             }
         }
     }
@@ -156,7 +156,20 @@ mod tests {
     }
 
     #[test]
-    fn small_images_are_judged_whole_and_tiny_numbers_keep_their_bound() {
+    fn the_first_column_and_met_rectangles_agree_with_single_texels() {
+        for lattice in [Lattice::ALL, Lattice::Step(7), Lattice::One([3, 4])] {
+            for (x, y) in (0..12).flat_map(|y| (0..12).map(move |x| (x, y))) {
+                let first = (x..100).find(|column| lattice.contains(*column, y));
+                assert_eq!(lattice.first(x, y), first, "{lattice:?} ({x}, {y})");
+                let (right, bottom) = (x + 2, y + 3);
+                let meets = (x..right).any(|x| (y..bottom).any(|y| lattice.contains(x, y)));
+                assert_eq!(lattice.meets([x, y, right, bottom]), meets, "{lattice:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn small_images_are_looked_at_whole_and_tiny_numbers_keep_their_bound() {
         assert_eq!(Texels::AtMost(256).count([16, 16]), 256);
         assert_eq!(Texels::AtMost(1).count([16, 16]), 1);
         assert_eq!(Texels::AtMost(0).count([16, 16]), 1);
