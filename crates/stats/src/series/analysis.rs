@@ -42,6 +42,7 @@ pub struct Changes {
 pub fn change_points(points: &[TimedRun]) -> Result<Changes, PointError> {
     check(points)?;
     let mut changes = analyze(points);
+    // Needs the levels of the whole series, which `analyze` might not see.
     mark_returns(&mut changes.points);
     Ok(changes)
 }
@@ -63,7 +64,7 @@ impl Changes {
 
     /// Returns the first run that can still matter to later ones: [`Changes::append`] reads none before it.
     ///
-    /// That is the change before the last one that at least 50 runs have followed.
+    /// That is the change before the last one that a whole window of runs has followed.
     pub fn settled(&self) -> usize {
         let ends = self.points.iter().skip(1).map(|point| point.index);
         let ends = ends.chain([self.runs]);
@@ -92,12 +93,12 @@ impl Changes {
             drift.from += start;
             drift.to += start;
         }
-        let kept = self.points.iter().take_while(|point| point.index <= start);
-        let mut points: Vec<ChangePoint> = kept.copied().collect();
+        let settled_points = self.points.iter().take_while(|point| point.index <= start);
+        let mut points: Vec<ChangePoint> = settled_points.copied().collect();
         points.append(&mut tail.points);
         mark_returns(&mut points);
-        let kept = self.drifts.iter().take_while(|drift| drift.to <= start);
-        let mut drifts: Vec<Drift> = kept.copied().collect();
+        let settled_drifts = self.drifts.iter().take_while(|drift| drift.to <= start);
+        let mut drifts: Vec<Drift> = settled_drifts.copied().collect();
         drifts.append(&mut tail.drifts);
         Ok(Self {
             points,
@@ -108,18 +109,45 @@ impl Changes {
     }
 }
 
-/// The logarithms of a series, of the ruler, and of the series in units of the ruler: as measured, and
-/// without a drift over the whole series.
+/// The logarithms of a series.
 struct Logs {
+    /// The times as measured.
     measured: Sums,
-    measured_ruler: Option<Sums>,
+    /// The times without a drift over the whole series.
     level: Sums,
-    ruled: Option<[Sums; 2]>,
+    /// The ruler's, if every run has a ruler.
+    ruler: Option<RulerLogs>,
 }
 
-/// Returns the changes of a series, and the series without its drift. If the series looks like stairs with
-/// the same drift in each step, the changes are found again without that drift.
-fn without_drift(sums: Sums) -> (Vec<usize>, Sums) {
+/// The logarithms that need a ruler.
+struct RulerLogs {
+    /// The ruler's times as measured.
+    measured: Sums,
+    /// The ruler's times without a drift over the whole series.
+    level: Sums,
+    /// The times in units of the ruler, without a drift over the whole series.
+    ruled: Sums,
+}
+
+/// The places at which a series changes.
+struct ChangePlaces {
+    /// As measured.
+    measured: Vec<usize>,
+    /// In units of the ruler; empty without a ruler.
+    ruled: Vec<usize>,
+}
+
+/// A place at which a series can change.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct ChangeCandidate {
+    place: usize,
+    /// True if the change shows in units of the ruler only.
+    is_hidden: bool,
+}
+
+/// Returns the places at which a series changes, and the series without its drift. If the series looks like
+/// stairs with the same drift in each step, the places are found again without that drift.
+fn places_and_level(sums: Sums) -> (Vec<usize>, Sums) {
     let places = segmentation::places(&sums);
     match sums.without_drift(&places) {
         Some(level) => (segmentation::places(&level), level),
@@ -128,53 +156,55 @@ fn without_drift(sums: Sums) -> (Vec<usize>, Sums) {
 }
 
 impl Logs {
-    /// Returns the logarithms, and the changes as measured and in units of the ruler.
-    fn new(points: &[TimedRun]) -> (Self, [Vec<usize>; 2]) {
+    fn new(points: &[TimedRun]) -> (Self, ChangePlaces) {
         let times: Vec<f64> = points.iter().map(|p| p.median.ln()).collect();
-        let deviations = upper_normal((1.0 - CONFIDENCE) / 2.0);
+        let quantile = upper_normal((1.0 - CONFIDENCE) / 2.0);
         let error = |p: &TimedRun| {
             p.interval
-                .map_or(0.0, |[low, high]| (high / low).ln() / 2.0 / deviations)
+                .map_or(0.0, |[low, high]| (high / low).ln() / 2.0 / quantile)
         };
         let errors: Vec<f64> = points.iter().map(error).collect();
         let measured = || Sums::new(clean(&times), &errors);
-        let (places, level) = without_drift(measured());
+        let (places, level) = places_and_level(measured());
         let rulers: Option<Vec<f64>> = points.iter().map(|p| Some(p.ruler?.ln())).collect();
-        let Some(rulers) = rulers else {
-            let logs = Self {
+        let mut ruled_places = Vec::new();
+        let ruler = rulers.map(|rulers| {
+            let ruled: Vec<f64> = times.iter().zip(&rulers).map(|(t, r)| t - r).collect();
+            let ruled = Sums::new(clean(&ruled), &errors);
+            let (places_in_ruler, ruled) = places_and_level(ruled);
+            ruled_places = places_in_ruler;
+            let measured = || Sums::new(clean(&rulers), &vec![0.0; rulers.len()]);
+            RulerLogs {
+                level: measured().without_drift(&places).unwrap_or_else(measured),
                 measured: measured(),
-                measured_ruler: None,
-                level,
-                ruled: None,
-            };
-            return (logs, [places, Vec::new()]);
-        };
-        let ruled: Vec<f64> = times.iter().zip(&rulers).map(|(t, r)| t - r).collect();
-        let (hidden, ruled) = without_drift(Sums::new(clean(&ruled), &errors));
-        let ruler = || Sums::new(clean(&rulers), &vec![0.0; rulers.len()]);
-        let level_ruler = ruler().without_drift(&places).unwrap_or_else(ruler);
+                ruled,
+            }
+        });
         let logs = Self {
             measured: measured(),
-            measured_ruler: Some(ruler()),
             level,
-            ruled: Some([ruled, level_ruler]),
+            ruler,
         };
-        (logs, [places, hidden])
+        let places = ChangePlaces {
+            measured: places,
+            ruled: ruled_places,
+        };
+        (logs, places)
     }
 
     /// Returns the tests of a step as measured, in units of the ruler, and of the ruler.
     fn tests(&self, [from, place, to]: [usize; 3]) -> (ShiftTest, Option<[ShiftTest; 2]>) {
-        let raw = segmentation::test(&self.level, from, place, to);
-        let ruled = self.ruled.as_ref().map(|[ruled, ruler]| {
-            let ruled = segmentation::test(ruled, from, place, to);
-            [ruled, ruler.step(from, place, to)]
+        let measured = segmentation::test(&self.level, from, place, to);
+        let ruler = self.ruler.as_ref().map(|ruler| {
+            let ruled = segmentation::test(&ruler.ruled, from, place, to);
+            [ruled, ruler.level.step(from, place, to)]
         });
-        (raw, ruled)
+        (measured, ruler)
     }
 
     fn cause(&self, around: [usize; 3]) -> Cause {
         match self.tests(around) {
-            (raw, Some([ruled, ruler])) => Cause::of(&raw, &ruled, &ruler),
+            (measured, Some([ruled, ruler])) => Cause::of(&measured, &ruled, &ruler),
             (_, None) => Cause::NoRuler,
         }
     }
@@ -182,47 +212,61 @@ impl Logs {
 
 fn analyze(points: &[TimedRun]) -> Changes {
     let runs = points.len();
-    let (logs, [raw, hidden]) = Logs::new(points);
-    // A machine whose speed changes constantly hides steps of the times, but not in units of the ruler.
-    let mut found: Vec<(usize, bool)> = raw.iter().map(|place| (*place, false)).collect();
-    if !hidden.is_empty() {
-        let far = |place: &usize| raw.iter().all(|other| place.abs_diff(*other) >= MIN_RUNS);
-        let hidden = hidden.into_iter().filter(far);
-        found.extend(hidden.map(|place| (place, true)));
-        found.sort_unstable();
-        let around = neighbourhoods(&found, runs);
-        let mut causes = around.iter().map(|around| logs.cause(*around));
-        found.retain(|(_, hidden)| causes.next() == Some(Cause::Driver) || !hidden);
-    }
-    let around = neighbourhoods(&found, runs);
-    let hidden = found.iter().map(|(_, hidden)| *hidden);
-    let changes = around.iter().zip(hidden);
-    let changes = changes.map(|(around, hidden)| change(&logs, *around, hidden));
-    let places: Vec<usize> = found.iter().map(|(place, _)| *place).collect();
+    let (logs, places) = Logs::new(points);
+    let candidates = candidates(&logs, places, runs);
+    let around = neighbourhoods(&candidates, runs).into_iter();
+    let points = around
+        .zip(&candidates)
+        .map(|(around, candidate)| change(&logs, around, candidate.is_hidden));
+    let places: Vec<usize> = candidates.iter().map(|candidate| candidate.place).collect();
     Changes {
-        points: changes.collect(),
+        points: points.collect(),
         drifts: drifts(&logs, &places),
         noise: logs.level.noise(&places),
         runs,
     }
 }
 
+/// Returns the changes as measured, and those that the driver caused while the machine hid them: a machine
+/// whose speed changes constantly hides steps of the times, but not in units of the ruler.
+fn candidates(logs: &Logs, places: ChangePlaces, runs: usize) -> Vec<ChangeCandidate> {
+    let ChangePlaces { measured, ruled } = places;
+    let is_far = |place: &usize| {
+        let mut others = measured.iter();
+        others.all(|other| place.abs_diff(*other) >= MIN_RUNS)
+    };
+    let candidate = |is_hidden| move |place| ChangeCandidate { place, is_hidden };
+    let hidden = ruled.into_iter().filter(is_far).map(candidate(true));
+    let mut candidates: Vec<ChangeCandidate> = hidden.collect();
+    candidates.extend(measured.into_iter().map(candidate(false)));
+    candidates.sort_unstable();
+    let around = neighbourhoods(&candidates, runs);
+    let is_kept = |(candidate, around): &(ChangeCandidate, [usize; 3])| {
+        !candidate.is_hidden || logs.cause(*around) == Cause::Driver
+    };
+    let pairs = candidates.into_iter().zip(around);
+    pairs
+        .filter(is_kept)
+        .map(|(candidate, _)| candidate)
+        .collect()
+}
+
 /// Returns, for each change, the previous place, its own place, and the next place.
-fn neighbourhoods(found: &[(usize, bool)], runs: usize) -> Vec<[usize; 3]> {
-    let place = |index: usize| found.get(index).map_or(runs, |(place, _)| *place);
+fn neighbourhoods(candidates: &[ChangeCandidate], runs: usize) -> Vec<[usize; 3]> {
+    let place = |index: usize| candidates.get(index).map_or(runs, |c| c.place);
     let before = |index: usize| index.checked_sub(1).map_or(0, place);
-    (0..found.len())
+    (0..candidates.len())
         .map(|index| [before(index), place(index), place(index + 1)])
         .collect()
 }
 
-/// Returns the change at a place; `hidden` if it was found in units of the ruler.
-fn change(logs: &Logs, around: [usize; 3], hidden: bool) -> ChangePoint {
+/// Returns the change at a place. `is_hidden` is true if it shows in units of the ruler only.
+fn change(logs: &Logs, around: [usize; 3], is_hidden: bool) -> ChangePoint {
     let [from, place, to] = around;
-    let (raw, ruled) = logs.tests(around);
-    let (sums, test) = match (&logs.ruled, &ruled) {
-        (Some([sums, _]), Some([test, _])) if hidden => (sums, test),
-        _ => (&logs.level, &raw),
+    let (measured, ruled) = logs.tests(around);
+    let (sums, test) = match (&logs.ruler, &ruled) {
+        (Some(ruler), Some([test, _])) if is_hidden => (&ruler.ruled, test),
+        _ => (&logs.level, &measured),
     };
     let [first, last] = sums.places(from, place, to);
     ChangePoint {
@@ -230,7 +274,7 @@ fn change(logs: &Logs, around: [usize; 3], hidden: bool) -> ChangePoint {
         between: [first - 1, last],
         before: logs.measured.mean(from, place).exp(),
         after: logs.measured.mean(place, to).exp(),
-        ratio: ratio(&raw),
+        ratio: ratio(&measured),
         ruled: ruled.as_ref().map(|[ruled, _]| ratio(ruled)),
         ruler: ruled.as_ref().map(|[_, ruler]| ratio(ruler)),
         p: test.p_of_any_place(),
@@ -242,21 +286,19 @@ fn change(logs: &Logs, around: [usize; 3], hidden: bool) -> ChangePoint {
 
 fn drifts(logs: &Logs, places: &[usize]) -> Vec<Drift> {
     let runs = logs.measured.values().len();
-    let mut found = Vec::new();
+    let mut drifts = Vec::new();
     let mut from = 0;
     for to in places.iter().copied().chain([runs]) {
         if to - from >= MIN_DRIFT {
             let climb = logs.measured.climb(from, to);
             if climb.p() <= LEVEL && climb.shift.abs() >= MINIMUM.ln() {
-                let ruler = logs
-                    .measured_ruler
-                    .as_ref()
-                    .map(|ruler| ruler.climb(from, to));
+                let ruler = logs.ruler.as_ref();
+                let ruler = ruler.map(|ruler| ruler.measured.climb(from, to));
                 let along = |ruler: ShiftTest| {
                     let enough = BEYOND_RULER * ruler.shift.abs() > climb.shift.abs();
                     enough && ruler.shift * climb.shift > 0.0 && ruler.p() <= LEVEL
                 };
-                found.push(Drift {
+                drifts.push(Drift {
                     from,
                     to,
                     ratio: ratio(&climb),
@@ -266,29 +308,34 @@ fn drifts(logs: &Logs, places: &[usize]) -> Vec<Drift> {
         }
         from = to;
     }
-    found
+    drifts
 }
 
 /// Marks the changes between two levels to which the series keeps returning.
 fn mark_returns(points: &mut [ChangePoint]) {
-    let levels: Vec<f64> = points
-        .first()
-        .map(|first| first.before.ln())
+    let Some(first) = points.first() else {
+        return;
+    };
+    let after = points.iter().map(|point| point.after);
+    let levels: Vec<f64> = [first.before]
         .into_iter()
-        .collect();
-    let levels: Vec<f64> = levels
-        .into_iter()
-        .chain(points.iter().map(|p| p.after.ln()))
+        .chain(after)
+        .map(f64::ln)
         .collect();
     for (index, point) in points.iter_mut().enumerate() {
         let reach = (point.ratio.high / point.ratio.low).ln() / 2.0;
-        let near = reach.max(STEP.ln());
-        let times = |level: f64| levels.iter().filter(|l| (*l - level).abs() <= near).count();
+        let tolerance = reach.max(STEP.ln());
+        let times = |level: f64| {
+            let levels = levels.iter();
+            levels.filter(|l| (*l - level).abs() <= tolerance).count()
+        };
         // If both levels are within reach of each other, returning means nothing.
-        let apart = (levels[index + 1] - levels[index]).abs() > 2.0 * near;
+        let apart = (levels[index + 1] - levels[index]).abs() > 2.0 * tolerance;
         let visits = [levels[index], levels[index + 1]].map(times);
-        let open = matches!(point.cause, Cause::NoRuler | Cause::Unclear);
-        point.returns =
-            open && apart && visits.iter().all(|n| *n > 1) && visits[0] + visits[1] >= VISITS;
+        let unexplained = matches!(point.cause, Cause::NoRuler | Cause::Unclear);
+        point.returns = unexplained
+            && apart
+            && visits.iter().all(|n| *n > 1)
+            && visits[0] + visits[1] >= VISITS;
     }
 }
