@@ -7,7 +7,7 @@
 use crate::clear::intersection;
 use crate::device::Device;
 use crate::error::internal;
-use crate::extended::Further;
+use crate::extended::DynamicStates;
 use crate::state;
 use ash::vk;
 use etalon_backend::BackendError;
@@ -45,7 +45,8 @@ const STATES: [vk::DynamicState; 18] = [
 pub(crate) struct Setting {
     /// True if all state is part of the pipeline.
     pub(crate) fixed: bool,
-    pub(crate) further: Further,
+    /// The states beyond Vulkan 1.3's that are dynamic.
+    pub(crate) beyond: DynamicStates,
     pub(crate) viewport: PathViewport,
 }
 
@@ -61,7 +62,7 @@ impl Setting {
             (_, false) => &[vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR],
         };
         let states: &[_] = if self.fixed { &[] } else { &STATES };
-        [viewports, states, &self.further.states(colored)].concat()
+        [viewports, states, &self.beyond.states(colored)].concat()
     }
 }
 

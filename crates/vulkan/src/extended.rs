@@ -7,19 +7,20 @@ use crate::state;
 use ash::vk;
 use etalon_scene::{ColorTarget, Draw, LogicOperation, Multisample, PolygonMode};
 
-/// The states of extended dynamic state 3 that are set together.
-const STATES: [vk::DynamicState; 7] = [
+/// The states of extended dynamic state 3 that every pass has. They and [`COLOR_STATES`] are set together.
+const RASTER_STATES: [vk::DynamicState; 4] = [
     vk::DynamicState::POLYGON_MODE_EXT,
     vk::DynamicState::DEPTH_CLAMP_ENABLE_EXT,
     vk::DynamicState::SAMPLE_MASK_EXT,
     vk::DynamicState::ALPHA_TO_COVERAGE_ENABLE_EXT,
+];
+
+/// The states of extended dynamic state 3 that only passes with colour attachments have.
+const COLOR_STATES: [vk::DynamicState; 3] = [
     vk::DynamicState::COLOR_BLEND_ENABLE_EXT,
     vk::DynamicState::COLOR_BLEND_EQUATION_EXT,
     vk::DynamicState::COLOR_WRITE_MASK_EXT,
 ];
-
-/// The number of [`STATES`] that a pass without colour attachments has.
-const COLORLESS: usize = 4;
 
 /// The part of the logic operation state that is dynamic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -28,7 +29,7 @@ pub(crate) enum DynamicLogic {
     Nothing,
     /// The operation.
     Operation,
-    /// The operation, and whether it is enabled.
+    /// The operation, and whether it is enabled; only beside extended dynamic state 3.
     All,
 }
 
@@ -49,15 +50,15 @@ impl DynamicLogic {
 
 /// The dynamic states beyond Vulkan 1.3's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) struct Further {
-    /// True if all of [`STATES`] are dynamic.
+pub(crate) struct DynamicStates {
+    /// True if [`RASTER_STATES`] and [`COLOR_STATES`] are dynamic.
     pub(crate) extended: bool,
     pub(crate) logic: DynamicLogic,
     /// The state that is dynamic alone, if any.
     pub(crate) single: Option<SingleState>,
 }
 
-impl Further {
+impl DynamicStates {
     /// Returns true if any of these states is dynamic.
     pub(crate) fn any(self) -> bool {
         self.extended || self.logic != DynamicLogic::Nothing || self.single.is_some()
@@ -65,43 +66,44 @@ impl Further {
 
     /// Returns the dynamic states of a pipeline. `colored` is true if it has colour attachments.
     pub(crate) fn states(self, colored: bool) -> Vec<vk::DynamicState> {
-        let extended: &[_] = match (self.extended, colored) {
-            (false, _) => &[],
-            (true, false) => &STATES[..COLORLESS],
-            (true, true) => &STATES,
-        };
+        let raster: &[_] = if self.extended { &RASTER_STATES } else { &[] };
+        let is_colored = self.extended && colored;
+        let color: &[_] = if is_colored { &COLOR_STATES } else { &[] };
         let logic = if colored { self.logic.states() } else { &[] };
         let single: Vec<_> = self.single.iter().map(|state| state.dynamic()).collect();
-        [extended, logic, &single].concat()
+        [raster, color, logic, &single].concat()
     }
 }
 
 /// The logic operation that a pipeline is created with if the operation is dynamic. It must have no effect.
-const HELD: LogicOperation = LogicOperation::Equivalent;
+const PLACEHOLDER_OPERATION: LogicOperation = LogicOperation::Equivalent;
 
-/// Returns the draw that a pipeline is made from: its values of the dynamic states differ from the draw's, and
-/// must have no effect. Draws of all logic operations then share a pipeline.
-pub(crate) fn held_by(further: Further, draw: &Draw) -> Draw {
-    let logic = match further.logic {
-        DynamicLogic::All if !draw.targets.is_empty() => Some(HELD),
-        DynamicLogic::Operation => draw.logic.map(|_| HELD),
+/// Returns the draw that a pipeline is made from. Its values of the dynamic states must have no effect; see
+/// [`pipeline_draw_of_extended`]. Draws of all logic operations share a pipeline.
+pub(crate) fn pipeline_draw(states: DynamicStates, draw: &Draw) -> Draw {
+    let logic = match states.logic {
+        DynamicLogic::All if !draw.targets.is_empty() => Some(PLACEHOLDER_OPERATION),
+        DynamicLogic::Operation => draw.logic.map(|_| PLACEHOLDER_OPERATION),
         DynamicLogic::All | DynamicLogic::Nothing => draw.logic,
     };
-    let drawn = if further.extended {
-        held(draw)
+    let pipeline_draw = if states.extended {
+        pipeline_draw_of_extended(draw)
     } else {
         draw.clone()
     };
-    let drawn = Draw { logic, ..drawn };
-    match further.single {
-        Some(state) => state.held(&drawn),
-        None => drawn,
+    let pipeline_draw = Draw {
+        logic,
+        ..pipeline_draw
+    };
+    match states.single {
+        Some(state) => state.held(&pipeline_draw),
+        None => pipeline_draw,
     }
 }
 
-/// Returns a draw whose values of [`STATES`] differ from this draw's. Its pipeline is made from it, and these
-/// values must have no effect.
-pub(crate) fn held(draw: &Draw) -> Draw {
+/// Returns a draw whose masks are the opposite of this draw's, and whose other values of [`RASTER_STATES`] and
+/// [`COLOR_STATES`] are the defaults. Its pipeline is made from it, and these values must have no effect.
+pub(crate) fn pipeline_draw_of_extended(draw: &Draw) -> Draw {
     let opposite = |target: &ColorTarget| ColorTarget {
         blend: None,
         advanced: None,
@@ -120,9 +122,9 @@ pub(crate) fn held(draw: &Draw) -> Draw {
     }
 }
 
-/// The values that a draw gives the further dynamic states.
-pub(crate) struct Extended {
-    further: Further,
+/// The values that a draw gives the dynamic states beyond Vulkan 1.3's.
+pub(crate) struct DynamicValues {
+    states: DynamicStates,
     logic: Option<LogicOperation>,
     polygon_mode: PolygonMode,
     depth_clamp: bool,
@@ -132,10 +134,11 @@ pub(crate) struct Extended {
     targets: Vec<vk::PipelineColorBlendAttachmentState>,
 }
 
-impl Extended {
-    pub(crate) fn new(draw: &Draw, samples: u32, further: Further) -> Self {
+impl DynamicValues {
+    pub(crate) fn new(draw: &Draw, samples: u32, states: DynamicStates) -> Self {
+        debug_assert!(states.extended || states.logic != DynamicLogic::All);
         Self {
-            further,
+            states,
             logic: draw.logic,
             polygon_mode: draw.polygon_mode,
             depth_clamp: draw.depth_clamp,
@@ -146,24 +149,24 @@ impl Extended {
         }
     }
 
-    /// Records all further dynamic states.
+    /// Records the values.
     ///
     /// # Safety
     /// `commands` is being recorded.
-    pub(crate) unsafe fn set(&self, device: &Device, commands: vk::CommandBuffer) {
+    pub(crate) unsafe fn record(&self, device: &Device, commands: vk::CommandBuffer) {
         let colored = !self.targets.is_empty();
         if let (Some(api), true) = (&device.dynamic_logic, colored)
-            && self.further.logic != DynamicLogic::Nothing
+            && self.states.logic != DynamicLogic::Nothing
         {
-            // If the operation is disabled, drawing with this one would be visible.
+            // A disabled operation must have no effect, so this is one whose effect would be visible.
             let operation = self.logic.unwrap_or(LogicOperation::Invert);
             // SAFETY: upheld by the caller; the feature is enabled if the function is loaded.
             unsafe { api.cmd_set_logic_op(commands, state::logic(operation)) };
         }
-        let Some(api) = device.extended.as_ref().filter(|_| self.further.extended) else {
+        let Some(api) = device.extended.as_ref().filter(|_| self.states.extended) else {
             return;
         };
-        if colored && self.further.logic == DynamicLogic::All {
+        if colored && self.states.logic == DynamicLogic::All {
             // SAFETY: as above.
             unsafe { (api.cmd_set_logic_op_enable_ext)(commands, self.logic.is_some().into()) };
         }
@@ -203,34 +206,78 @@ mod tests {
     use super::*;
     use etalon_scene::{Mesh, Shader, Viewport};
 
+    fn draw(logic: Option<LogicOperation>) -> Draw {
+        let mesh = Mesh {
+            vertices: Vec::new(),
+            indices: None,
+        };
+        Draw {
+            logic,
+            ..Draw::new(Shader::FlatColor, mesh, Viewport::whole([4, 4]))
+        }
+    }
+
+    fn states(extended: bool, logic: DynamicLogic) -> DynamicStates {
+        DynamicStates {
+            extended,
+            logic,
+            single: None,
+        }
+    }
+
     #[test]
-    fn draws_of_all_logic_operations_share_a_pipeline_that_holds_another() {
-        let draw = |logic| {
-            let mesh = Mesh {
-                vertices: Vec::new(),
-                indices: None,
-            };
-            Draw {
-                logic,
-                ..Draw::new(Shader::FlatColor, mesh, Viewport::whole([4, 4]))
-            }
+    fn draws_of_all_logic_operations_share_a_pipeline() {
+        let logic_of_pipeline = |logic: DynamicLogic, extended, logic_of_draw| {
+            pipeline_draw(states(extended, logic), &draw(logic_of_draw)).logic
         };
-        let held = |logic: DynamicLogic, extended, logic_of_draw| {
-            let further = Further {
-                extended,
-                logic,
-                single: None,
-            };
-            held_by(further, &draw(logic_of_draw)).logic
-        };
-        let (xor, nor) = (Some(LogicOperation::Xor), Some(LogicOperation::Nor));
-        for operation in [xor, nor] {
-            assert_eq!(held(DynamicLogic::Nothing, false, operation), operation);
-            assert_eq!(held(DynamicLogic::Operation, false, operation), Some(HELD));
-            assert_eq!(held(DynamicLogic::All, true, operation), Some(HELD));
+        let shared = Some(PLACEHOLDER_OPERATION);
+        for operation in [
+            LogicOperation::Xor,
+            LogicOperation::Nor,
+            PLACEHOLDER_OPERATION,
+        ] {
+            let operation = Some(operation);
+            assert_eq!(
+                logic_of_pipeline(DynamicLogic::Nothing, false, operation),
+                operation
+            );
+            assert_eq!(
+                logic_of_pipeline(DynamicLogic::Operation, false, operation),
+                shared
+            );
+            assert_eq!(
+                logic_of_pipeline(DynamicLogic::All, true, operation),
+                shared
+            );
         }
         // A draw without an operation: the enable is dynamic only if all of it is.
-        assert_eq!(held(DynamicLogic::Operation, false, None), None);
-        assert_eq!(held(DynamicLogic::All, true, None), Some(HELD));
+        assert_eq!(
+            logic_of_pipeline(DynamicLogic::Operation, false, None),
+            None
+        );
+        assert_eq!(logic_of_pipeline(DynamicLogic::All, true, None), shared);
+    }
+
+    #[test]
+    fn a_pipeline_of_extended_states_has_opposite_masks() {
+        let draw = draw(None);
+        let pipeline = pipeline_draw(states(true, DynamicLogic::Nothing), &draw);
+        assert_eq!(pipeline.multisample.mask, !draw.multisample.mask);
+        assert_eq!(pipeline.targets.len(), draw.targets.len());
+        for (target, original) in pipeline.targets.iter().zip(&draw.targets) {
+            assert_eq!(target.write_mask ^ original.write_mask, 0b1111);
+        }
+        assert_eq!(
+            pipeline_draw(states(false, DynamicLogic::Nothing), &draw),
+            draw
+        );
+    }
+
+    #[test]
+    fn a_pass_without_colour_has_no_dynamic_colour_state() {
+        let all = states(true, DynamicLogic::All);
+        assert_eq!(all.states(false), RASTER_STATES);
+        assert_eq!(all.states(true).len(), 4 + 3 + 2);
+        assert_eq!(states(false, DynamicLogic::Nothing).states(true), []);
     }
 }

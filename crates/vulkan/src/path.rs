@@ -4,7 +4,7 @@
 //! functions.
 
 use crate::device::Device;
-use crate::extended::{self, DynamicLogic, Further};
+use crate::extended::{self, DynamicLogic, DynamicStates};
 use crate::format::{self, Native};
 use crate::image::{DRAWN_LAYERS, ImageKey};
 use crate::role::Role;
@@ -45,7 +45,7 @@ pub(crate) fn offered(device: &Device) -> BTreeSet<PathValue> {
 }
 
 /// Returns the dynamic states beyond Vulkan 1.3's if state is set in the way of `state`.
-pub(crate) fn further(device: &Device, state: PathState) -> Further {
+pub(crate) fn dynamic_states(device: &Device, state: PathState) -> DynamicStates {
     let extended = matches!(
         state,
         PathState::ExtendedDynamic3 | PathState::BeforePipeline
@@ -55,7 +55,7 @@ pub(crate) fn further(device: &Device, state: PathState) -> Further {
         _ if extended && device.logic_enable => DynamicLogic::All,
         _ => DynamicLogic::Nothing,
     };
-    Further {
+    DynamicStates {
         extended,
         logic,
         single: SingleState::of(state),
@@ -242,6 +242,6 @@ pub(crate) fn other(draw: &Draw) -> Draw {
     Draw {
         logic: None,
         multisample: Multisample::default(),
-        ..extended::held(draw)
+        ..extended::pipeline_draw_of_extended(draw)
     }
 }

@@ -354,7 +354,7 @@ fn create(
         .polygon_mode(state::polygon_mode(key.polygon_mode))
         .depth_clamp_enable(key.depth_clamp)
         .line_width(1.0);
-    let single = way.setting.further.single;
+    let single = way.setting.beyond.single;
     // This must differ from the value that is set dynamically.
     let mut clip = vk::PipelineRasterizationDepthClipStateCreateInfoEXT::default()
         .depth_clip_enable(key.depth_clamp);

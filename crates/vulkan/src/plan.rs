@@ -5,7 +5,7 @@ use crate::clear::{ClearPlan, Ends, color_value, depth_stencil_value};
 use crate::counting::{CounterQueries, PoolQuery};
 use crate::dynamic::Dynamic;
 use crate::error::internal;
-use crate::extended::Extended;
+use crate::extended::DynamicValues;
 use crate::format;
 use crate::gpu::Gpu;
 use crate::image::{DeviceImage, ImageKey, ImagePlace};
@@ -120,8 +120,8 @@ pub(crate) struct DrawPlan {
     pub(crate) overwritten: bool,
     /// True if the state is set before the pipeline is bound.
     pub(crate) before_pipeline: bool,
-    /// The further dynamic states, if the path asks for them.
-    pub(crate) extended: Option<Extended>,
+    /// The values of the dynamic states beyond Vulkan 1.3's, if the path asks for them.
+    pub(crate) beyond: Option<DynamicValues>,
     /// The state that is dynamic alone, if the path asks for one.
     pub(crate) single: Option<Single>,
     /// The arguments of an indirect draw.
@@ -294,7 +294,7 @@ impl DrawPlan {
             again: None,
             overwritten: false,
             before_pipeline: false,
-            extended: None,
+            beyond: None,
             single: None,
             set,
             params: u32::try_from(inputs.params).map_err(|_| internal("inputs too large"))?,

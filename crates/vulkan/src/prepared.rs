@@ -6,7 +6,7 @@ use crate::descriptors::Descriptors;
 use crate::device::Device;
 use crate::dynamic::{Dynamic, Setting};
 use crate::error::internal;
-use crate::extended::{self, Extended};
+use crate::extended::{self, DynamicValues};
 use crate::format;
 use crate::gpu::{Gpu, Pools};
 use crate::image::{DRAWN_LAYERS, DeviceImage};
@@ -267,7 +267,7 @@ impl<'a> VulkanScene<'a> {
         };
         let setting = Setting {
             fixed: scene.path.state == PathState::Static,
-            further: path::further(device, scene.path.state),
+            beyond: path::dynamic_states(device, scene.path.state),
             viewport: scene.path.viewport,
         };
         let counting = &mut self.plan.counting;
@@ -383,16 +383,13 @@ impl SceneDrawing<'_> {
         };
         let mut get =
             |draw: &Draw, layer| pipelines.get(device, targets, draw, Way { layer, ..way });
-        let extended = setting
-            .further
-            .any()
-            .then(|| Extended::new(draw, targets.samples, setting.further));
-        let held = extended
-            .as_ref()
-            .map(|_| extended::held_by(setting.further, draw));
-        let held = held.as_ref().unwrap_or(draw);
-        let pipeline = get(held, layer)?;
-        let again = again.map(|_| get(held, again)).transpose()?;
+        let states = setting.beyond;
+        let is_dynamic = states.any();
+        let values = is_dynamic.then(|| DynamicValues::new(draw, targets.samples, states));
+        let pipeline_draw = is_dynamic.then(|| extended::pipeline_draw(states, draw));
+        let pipeline_draw = pipeline_draw.as_ref().unwrap_or(draw);
+        let pipeline = get(pipeline_draw, layer)?;
+        let again = again.map(|_| get(pipeline_draw, again)).transpose()?;
         let single = SingleState::of(self.state).is_some();
         let before_pipeline = self.state == PathState::BeforePipeline;
         let other = if single || before_pipeline || self.state == PathState::OtherPipeline {
@@ -404,8 +401,8 @@ impl SceneDrawing<'_> {
         let mut drawn = DrawPlan::new(place, dynamic, pipeline, set, enclosing)?;
         drawn.overwritten = self.state == PathState::Overwritten;
         drawn.before_pipeline = before_pipeline;
-        (drawn.other, drawn.again, drawn.extended) = (other, again, extended);
-        let state = setting.further.single;
+        (drawn.other, drawn.again, drawn.beyond) = (other, again, values);
+        let state = setting.beyond.single;
         drawn.single = state.map(|state| Single::new(state, draw, targets.samples));
         Ok(drawn)
     }
@@ -422,7 +419,7 @@ fn check_advanced(device: &Device, pass: &Pass, setting: Setting) -> Result<(), 
         let needed = Requirement::Feature(Feature::AdvancedBlendCoherent);
         return Err(BackendError::NotSupported(needed));
     }
-    if setting.further.extended {
+    if setting.beyond.extended {
         // Extended dynamic state sets the equation, which cannot be an advanced blend
         // (VUID-VkColorBlendEquationEXT-colorBlendOp-07361).
         let path = PathValue::State(PathState::ExtendedDynamic3);

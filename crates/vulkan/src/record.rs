@@ -555,8 +555,8 @@ unsafe fn draws(
             if let (Some(kept), Some(text)) = (kept, text) {
                 *kept.borrow_mut() = text;
             }
-            if let Some(extended) = &draw.extended {
-                extended.set(device, commands);
+            if let Some(values) = &draw.beyond {
+                values.record(device, commands);
             }
             if draw.before_pipeline {
                 bind(pipeline);
