@@ -5,105 +5,119 @@ use crate::mesh::PrimitiveVertices;
 use crate::rasterization::PrimitiveTopology;
 use std::collections::HashMap;
 
-/// Returns twice the signed area of each triangle with y up, and the least distance of any edge from any
-/// texel centre.
-fn measure(mesh: &Mesh, size: [u32; 2]) -> (Vec<f64>, f64) {
-    let to_texels = |v: &Vertex| {
-        DVec2::new(
-            (f64::from(v.position[0]) + 1.0) / 2.0 * f64::from(size[0]),
-            (1.0 - f64::from(v.position[1])) / 2.0 * f64::from(size[1]),
-        )
-    };
-    let mut areas = Vec::new();
+/// Returns a vertex's position in texels, with y down.
+fn texel_position(vertex: &Vertex, size: [u32; 2]) -> DVec2 {
+    let [x, y, ..] = vertex.position.map(f64::from);
+    DVec2::new(
+        (x + 1.0) / 2.0 * f64::from(size[0]),
+        (1.0 - y) / 2.0 * f64::from(size[1]),
+    )
+}
+
+/// Returns twice the signed area in clip space, positive if the winding is counter-clockwise.
+fn signed_area(mesh: &Mesh, triangle: [usize; 3]) -> f64 {
+    let [a, b, c] = triangle.map(|i| {
+        let [x, y, ..] = mesh.vertices[i].position.map(f64::from);
+        DVec2::new(x, y)
+    });
+    (b - a).perp_dot(c - a)
+}
+
+/// Returns the triangles of a mesh, which has at least one, and nothing else.
+fn triangles(mesh: &Mesh) -> Vec<[usize; 3]> {
+    let primitives = mesh.primitives(PrimitiveTopology::TriangleList);
+    assert!(!primitives.is_empty());
+    primitives
+        .into_iter()
+        .map(|p| match p {
+            PrimitiveVertices::Triangle(triangle) => triangle,
+            other => panic!("{other:?} is not a triangle"),
+        })
+        .collect()
+}
+
+/// Returns the least distance of any edge from any texel centre, in texels.
+fn least_distance_to_centres(mesh: &Mesh, size: [u32; 2]) -> f64 {
     let mut least = f64::MAX;
-    for primitive in mesh.primitives(PrimitiveTopology::TriangleList) {
-        let PrimitiveVertices::Triangle(t) = primitive else {
-            continue;
-        };
-        let p = t.map(|i| to_texels(&mesh.vertices[i]));
-        areas.push(-(p[1] - p[0]).perp_dot(p[2] - p[0]));
+    for triangle in triangles(mesh) {
+        let p = triangle.map(|i| texel_position(&mesh.vertices[i], size));
         for (a, b) in [(p[0], p[1]), (p[1], p[2]), (p[2], p[0])] {
             for y in 0..size[1] {
                 for x in 0..size[0] {
-                    let c = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
-                    let along = (b - a).normalize();
-                    let t = (c - a).dot(along).clamp(0.0, (b - a).length());
-                    least = least.min((a + along * t).distance(c));
+                    let centre = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
+                    let direction = (b - a).normalize();
+                    let along = (centre - a).dot(direction).clamp(0.0, (b - a).length());
+                    least = least.min((a + direction * along).distance(centre));
                 }
             }
         }
     }
-    (areas, least)
+    least
 }
 
-#[test]
-fn every_edge_keeps_away_from_every_centre() {
-    let sources = [
+fn columns(count: usize) -> MeshSource {
+    MeshSource::Columns {
+        values: vec![Splat::default(); count],
+        z: zero(),
+        windings: one_ccw(),
+    }
+}
+
+/// Returns counter-clockwise sources, whose edges must avoid centres.
+fn sources() -> [MeshSource; 3] {
+    [
         MeshSource::Full {
             z: 0.0,
             value: Splat::default(),
             winding: FrontFace::Ccw,
         },
-        MeshSource::Columns {
-            values: vec![Splat::default(); 5],
-            z: zero(),
-            windings: one_ccw(),
-        },
+        columns(5),
         MeshSource::Rect {
             texels: [3, 1, 10, 4],
             z: 0.0,
             value: Splat::default(),
             winding: FrontFace::Ccw,
         },
-    ];
-    for source in sources {
+    ]
+}
+
+#[test]
+fn every_edge_keeps_away_from_every_centre() {
+    for source in sources() {
         let mesh = source.expand([16, 16]).expect("valid");
-        let (areas, least) = measure(&mesh, [16, 16]);
-        assert!(areas.iter().all(|a| *a > 0.0), "{source:?} is not ccw");
+        let least = least_distance_to_centres(&mesh, [16, 16]);
+        // The slanted edge of the full-screen triangles comes nearest.
         assert!(least > 0.17, "{source:?}: {least}");
     }
 }
 
 #[test]
-fn a_clockwise_mesh_has_negative_areas() {
+fn a_counter_clockwise_source_gives_counter_clockwise_triangles() {
+    for source in sources() {
+        let mesh = source.expand([16, 16]).expect("valid");
+        for triangle in triangles(&mesh) {
+            assert!(signed_area(&mesh, triangle) > 0.0, "{source:?}");
+        }
+    }
+}
+
+#[test]
+fn a_clockwise_source_gives_clockwise_triangles() {
     let source = MeshSource::Full {
         z: 0.5,
         value: Splat([1.0; 4]),
         winding: FrontFace::Cw,
     };
     let mesh = source.expand([16, 16]).expect("valid");
-    let (areas, _) = measure(&mesh, [16, 16]);
-    assert!(areas.iter().all(|a| *a < 0.0));
+    for triangle in triangles(&mesh) {
+        assert!(signed_area(&mesh, triangle) < 0.0);
+    }
 }
 
 #[test]
 fn more_columns_than_texels_are_refused() {
-    let source = MeshSource::Columns {
-        values: vec![Splat::default(); 17],
-        z: zero(),
-        windings: one_ccw(),
-    };
-    assert!(source.expand([16, 16]).is_err());
-}
-
-fn triangles(mesh: &Mesh) -> Vec<[usize; 3]> {
-    let primitives = mesh.primitives(PrimitiveTopology::TriangleList);
-    primitives
-        .into_iter()
-        .map(|p| match p {
-            PrimitiveVertices::Triangle(t) => t,
-            other => panic!("{other:?} is not a triangle"),
-        })
-        .collect()
-}
-
-/// Returns twice the signed area in clip space, positive if the winding is counter-clockwise.
-fn area(mesh: &Mesh, t: [usize; 3]) -> f64 {
-    let p = t.map(|i| {
-        let [x, y, ..] = mesh.vertices[i].position.map(f64::from);
-        DVec2::new(x, y)
-    });
-    (p[1] - p[0]).perp_dot(p[2] - p[0])
+    assert!(columns(16).expand([16, 16]).is_ok());
+    assert!(columns(17).expand([16, 16]).is_err());
 }
 
 fn grid(cells: [u32; 2], size: [u32; 2]) -> Mesh {
@@ -122,22 +136,15 @@ fn a_grid_covers_every_centre_once_with_room() {
         let mesh = grid(cells, size);
         let triangles = triangles(&mesh);
         assert_eq!(triangles.len() as u32, 2 * cells[0] * cells[1]);
-        assert!(triangles.iter().all(|t| area(&mesh, *t) > 0.0));
-        let texels = |i: usize| {
-            let [x, y, ..] = mesh.vertices[i].position.map(f64::from);
-            DVec2::new(
-                (x + 1.0) / 2.0 * f64::from(size[0]),
-                (1.0 - y) / 2.0 * f64::from(size[1]),
-            )
-        };
+        assert!(triangles.iter().all(|t| signed_area(&mesh, *t) > 0.0));
         // The first cells' diagonals pass through centres, which both triangles of the cell share.
         let fine = cells[0] >= size[0];
         for y in 0..size[1] {
             for x in 0..size[0] {
                 let centre = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
                 let mut covered = 0;
-                for t in &triangles {
-                    let p = t.map(texels);
+                for triangle in &triangles {
+                    let p = triangle.map(|i| texel_position(&mesh.vertices[i], size));
                     let sides = [(p[0], p[1]), (p[1], p[2]), (p[2], p[0])];
                     let distances = sides.map(|(a, b)| -(b - a).normalize().perp_dot(centre - a));
                     let least = distances.into_iter().fold(f64::MAX, f64::min);
@@ -170,10 +177,10 @@ fn a_torus_is_closed_and_faces_outwards() {
         assert_eq!((*count, edges.get(&(*to, *from))), (1, Some(&1)));
     }
     // Triangles of the nearer half face the eye.
-    for t in triangles {
-        let depth = t.map(|i| f64::from(mesh.vertices[i].position[2]));
+    for triangle in triangles {
+        let depth = triangle.map(|i| f64::from(mesh.vertices[i].position[2]));
         let nearer = depth.iter().sum::<f64>() / 3.0 < 0.5;
-        assert_eq!(area(&mesh, t) > 0.0, nearer, "{t:?}");
+        assert_eq!(signed_area(&mesh, triangle) > 0.0, nearer, "{triangle:?}");
     }
 }
 
