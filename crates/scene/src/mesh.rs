@@ -3,6 +3,7 @@
 use crate::rasterization::PrimitiveTopology;
 use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::borrow::Cow;
 use std::ops::{Deref, DerefMut};
 use std::sync::Arc;
 
@@ -41,14 +42,19 @@ impl Mesh {
         bytemuck::cast_slice(&self.vertices)
     }
 
+    /// Returns the indices of the vertices in the order of fetching.
+    pub(crate) fn order(&self) -> Cow<'_, [u32]> {
+        match &self.indices {
+            Some(indices) => Cow::Borrowed(indices),
+            None => (0..self.vertices.len() as u32).collect(),
+        }
+    }
+
     /// Returns the vertex indices of each primitive in order: one for points, two for lines, three for
     /// triangles. Triangles keep their winding: in a strip's odd triangles, the first two vertices are
     /// exchanged (Vulkan, Triangle Strips; OpenGL 4.6, 10.1.8).
     pub fn primitives(&self, topology: PrimitiveTopology) -> Vec<PrimitiveVertices> {
-        let order: Vec<u32> = match &self.indices {
-            Some(indices) => indices.clone(),
-            None => (0..self.vertices.len() as u32).collect(),
-        };
+        let order = self.order();
         let mut primitives = Vec::new();
         for run in order.split(|i| *i == RESTART) {
             let run: Vec<usize> = run.iter().map(|i| *i as usize).collect();

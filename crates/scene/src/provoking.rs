@@ -8,9 +8,10 @@ use crate::mesh::{Mesh, RESTART};
 use crate::rasterization::{PrimitiveTopology, ProvokingVertex};
 
 impl Mesh {
-    /// Returns the first and the last vertex of each primitive, in the order of
-    /// [`Mesh::primitives`] (OpenGL 4.6, table 13.2; Vulkan, Primitive Topologies).
-    fn ends(&self, topology: PrimitiveTopology) -> Vec<[usize; 2]> {
+    /// Returns the two vertices of each primitive that can provoke, its first and its last, in the order of
+    /// [`Mesh::primitives`] (OpenGL 4.6, table 13.2; Vulkan, Primitive Topologies). A fan's first vertex never
+    /// provokes, so its triangles have their second and third.
+    fn provoking_candidates(&self, topology: PrimitiveTopology) -> Vec<[usize; 2]> {
         // For each topology: the number of vertices that the first primitive takes, the number that each
         // further one adds, and the positions of the first and the last vertex within the primitive.
         let (size, step, [first, last]) = match topology {
@@ -19,13 +20,9 @@ impl Mesh {
             PrimitiveTopology::LineStrip => (2, 1, [0, 1]),
             PrimitiveTopology::TriangleList => (3, 3, [0, 2]),
             PrimitiveTopology::TriangleStrip => (3, 1, [0, 2]),
-            // The first vertex of a fan never provokes.
             PrimitiveTopology::TriangleFan => (3, 1, [1, 2]),
         };
-        let order: Vec<u32> = match &self.indices {
-            Some(indices) => indices.clone(),
-            None => (0..self.vertices.len() as u32).collect(),
-        };
+        let order = self.order();
         let runs = order.split(|i| *i == RESTART);
         runs.flat_map(|run| {
             let windows = run.windows(size).step_by(step);
@@ -36,15 +33,16 @@ impl Mesh {
 }
 
 impl Draw {
-    /// Returns the first and the last vertex of each primitive, in the order of [`Draw::primitives`].
+    /// Returns the two vertices of each primitive that can provoke, its first and its last, in the order of
+    /// [`Draw::primitives`]. A fan's triangles have their second and third.
     pub fn primitive_ends(&self) -> Vec<[usize; 2]> {
-        self.mesh.ends(self.topology)
+        self.mesh.provoking_candidates(self.topology)
     }
 
     /// Returns the provoking vertex of each primitive, in the order of [`Draw::primitives`]; the first one if
     /// the draw sets no convention.
     pub fn provoking_vertices(&self) -> Vec<usize> {
-        let ends = self.mesh.ends(self.topology).into_iter();
+        let ends = self.mesh.provoking_candidates(self.topology).into_iter();
         ends.map(|[first, last]| match self.provoking {
             None | Some(ProvokingVertex::First) => first,
             Some(ProvokingVertex::Last) => last,
@@ -68,8 +66,8 @@ mod tests {
 
     /// OpenGL 4.6, table 13.2, with vertices counted from 0.
     #[test]
-    fn provoking_vertices_are_those_of_the_table() {
-        let ends = |topology, vertices| mesh(vertices, None).ends(topology);
+    fn candidates_are_those_of_the_table() {
+        let ends = |topology, vertices| mesh(vertices, None).provoking_candidates(topology);
         use PrimitiveTopology as T;
         assert_eq!(ends(T::PointList, 2), [[0, 0], [1, 1]]);
         assert_eq!(ends(T::LineList, 5), [[0, 1], [2, 3]]);
@@ -80,11 +78,27 @@ mod tests {
     }
 
     #[test]
-    fn provoking_vertices_belong_to_their_primitive() {
+    fn the_convention_chooses_the_vertex_and_defaults_to_the_first() {
+        use crate::{Shader, Viewport};
+        let whole = Viewport::whole([4, 4]);
+        let mut draw = Draw::new(Shader::FlatColor, mesh(5, None), whole);
+        draw.topology = PrimitiveTopology::TriangleFan;
+        assert_eq!(draw.provoking_vertices(), [1, 2, 3]);
+        draw.provoking = Some(ProvokingVertex::First);
+        assert_eq!(draw.provoking_vertices(), [1, 2, 3]);
+        draw.provoking = Some(ProvokingVertex::Last);
+        assert_eq!(draw.provoking_vertices(), [2, 3, 4]);
+    }
+
+    #[test]
+    fn each_primitive_has_its_own_candidates() {
         let indices = vec![4, 2, 0, 1, RESTART, 3, 1, 0];
         for topology in PrimitiveTopology::ALL {
             let mesh = mesh(5, Some(indices.clone()));
-            let (primitives, ends) = (mesh.primitives(*topology), mesh.ends(*topology));
+            let (primitives, ends) = (
+                mesh.primitives(*topology),
+                mesh.provoking_candidates(*topology),
+            );
             assert_eq!(primitives.len(), ends.len(), "{topology}");
             for (primitive, ends) in primitives.iter().zip(&ends) {
                 let vertices = match primitive {
