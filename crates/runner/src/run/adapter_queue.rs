@@ -33,9 +33,9 @@ pub(super) struct AdapterQueue {
     pub(super) start_error: Option<String>,
     pub(super) failed_starts: FailedStarts,
     pub(super) bad_ends: BadEnds,
-    /// The indices of cases without a record, in drawing order, except those in `first`.
-    numbers: Vec<usize>,
-    first: First,
+    /// The indices of cases without a record, in drawing order, except those in `leading`.
+    cases: Vec<usize>,
+    leading: LeadingRoundTrips,
     /// The result of the round trips, once all are drawn.
     round_trips: OnceLock<RoundTrips>,
     taken: Mutex<usize>,
@@ -51,9 +51,9 @@ pub(super) struct AdapterQueue {
 
 /// The round trips that are drawn before all other cases.
 #[derive(Clone, Debug, Default)]
-pub(super) struct First {
+pub(super) struct LeadingRoundTrips {
     /// The cases' indices, in drawing order.
-    pub(super) numbers: Vec<usize>,
+    pub(super) cases: Vec<usize>,
     /// The indices of round trips without a record of their own: not selected, or already recorded.
     pub(super) silent: BTreeSet<usize>,
     /// The results of round trips that were drawn before the run was resumed.
@@ -79,22 +79,23 @@ pub(super) struct QueueState {
 
 impl AdapterQueue {
     pub(super) fn new(
-        mut numbers: Vec<usize>,
-        mut first: First,
+        mut cases: Vec<usize>,
+        mut leading: LeadingRoundTrips,
         launch: Launch,
         worker: Worker,
         expectations: &Expectations,
     ) -> Self {
-        if numbers.is_empty() {
-            first.numbers.clear();
+        // Without other cases, no one asks for the round trips.
+        if cases.is_empty() {
+            leading.cases.clear();
         }
-        numbers.retain(|number| !first.numbers.contains(number));
+        cases.retain(|case| !leading.cases.contains(case));
         let adapter = AdapterRecord::from(&worker);
         Self {
             opening: worker.opening,
             running: Mutex::new(Some(worker)),
-            first,
-            ..Self::with(numbers, adapter, launch, expectations)
+            leading,
+            ..Self::base(cases, adapter, launch, expectations)
         }
     }
 
@@ -106,11 +107,12 @@ impl AdapterQueue {
 
     /// Returns the queue of an adapter whose driver does not start.
     pub(super) fn not_started(
-        numbers: Vec<usize>,
+        cases: Vec<usize>,
         adapter: AdapterRecord,
         error: String,
         expectations: &Expectations,
     ) -> Self {
+        // It is never used.
         let launch = Launch {
             adapter: adapter.info.name.clone(),
             program: PathBuf::new(),
@@ -123,12 +125,12 @@ impl AdapterQueue {
         };
         Self {
             start_error: Some(error),
-            ..Self::with(numbers, adapter, launch, expectations)
+            ..Self::base(cases, adapter, launch, expectations)
         }
     }
 
-    fn with(
-        numbers: Vec<usize>,
+    fn base(
+        cases: Vec<usize>,
         adapter: AdapterRecord,
         launch: Launch,
         expectations: &Expectations,
@@ -140,8 +142,8 @@ impl AdapterQueue {
             start_error: None,
             failed_starts: FailedStarts::default(),
             bad_ends: BadEnds::default(),
-            numbers,
-            first: First::default(),
+            cases,
+            leading: LeadingRoundTrips::default(),
             round_trips: OnceLock::new(),
             taken: Mutex::default(),
             threads: AtomicUsize::new(0),
@@ -156,28 +158,28 @@ impl AdapterQueue {
     /// so that all workers end at about the same time.
     pub(super) fn take(&self) -> VecDeque<usize> {
         let mut taken = lock(&self.taken);
-        let left = self.numbers.len() - *taken;
-        let share = left / (4 * self.threads.load(Ordering::Relaxed).max(1));
-        let most = share.clamp(1, CHUNK).min(left);
-        let numbers = self.numbers[*taken..*taken + most].iter().copied();
-        *taken += most;
-        numbers.collect()
+        let untaken = self.cases.len() - *taken;
+        let share = untaken / (4 * self.threads.load(Ordering::Relaxed).max(1));
+        let chunk = share.clamp(1, CHUNK).min(untaken);
+        let cases = self.cases[*taken..*taken + chunk].iter().copied();
+        *taken += chunk;
+        cases.collect()
     }
 
     /// Returns the number of cases that get a record, counted at the start of the run.
-    pub(super) fn cases(&self) -> u64 {
-        let first = self.first.numbers.iter();
-        (self.numbers.len() + first.filter(|n| self.records(**n)).count()) as u64
+    pub(super) fn record_count(&self) -> u64 {
+        let leading = self.leading.cases.iter();
+        (self.cases.len() + leading.filter(|case| self.has_record(**case)).count()) as u64
     }
 
     /// Returns true if a case gets a record.
-    pub(super) fn records(&self, number: usize) -> bool {
-        !self.first.silent.contains(&number)
+    pub(super) fn has_record(&self, case: usize) -> bool {
+        !self.leading.silent.contains(&case)
     }
 
-    /// Returns the round trips to draw, and the known results of others.
-    pub(super) fn first(&self) -> &First {
-        &self.first
+    /// Returns the round trips that are drawn before all other cases.
+    pub(super) fn leading(&self) -> &LeadingRoundTrips {
+        &self.leading
     }
 
     /// Returns the result of the round trips. The first thread draws them, and all others wait for it.
@@ -191,23 +193,23 @@ impl AdapterQueue {
     }
 
     /// Returns the number of cases that no thread has taken.
-    fn left(&self) -> usize {
-        let before = match self.round_trips.get() {
+    fn untaken(&self) -> usize {
+        let leading = match self.round_trips.get() {
             Some(_) => 0,
-            None => self.first.numbers.len(),
+            None => self.leading.cases.len(),
         };
-        before + self.numbers.len() - *lock(&self.taken)
+        leading + self.cases.len() - *lock(&self.taken)
     }
 
     /// Returns true if one more thread saves more time than its worker takes to open the adapter. `threads`
     /// already take from the queue.
-    fn pays_another(&self, threads: usize) -> bool {
+    fn another_thread_pays(&self, threads: usize) -> bool {
         let Some(begun) = self.state().begun else {
             return false;
         };
         let done = self.written.load(Ordering::Relaxed);
-        let left = time_left(begun.elapsed(), done, self.left());
-        left > self.opening.as_secs_f64() * (threads + 1) as f64
+        let seconds_left = time_left(begun.elapsed(), done, self.untaken());
+        seconds_left > self.opening.as_secs_f64() * (threads + 1) as f64
     }
 
     /// Takes the worker that was started to discover the adapter.
@@ -222,12 +224,12 @@ impl AdapterQueue {
     /// Marks the adapter as begun, and returns true for the first thread.
     pub(super) fn begin(&self, budget: Option<&Budget>) -> bool {
         let mut state = self.state();
-        let first = state.begun.is_none();
-        if first {
+        let is_first_thread = state.begun.is_none();
+        if is_first_thread {
             state.begun = Some(Instant::now());
             state.end = budget.map(Budget::next_end);
         }
-        first
+        is_first_thread
     }
 
     /// Returns true if the adapter's time is over.
@@ -236,27 +238,22 @@ impl AdapterQueue {
     }
 
     /// Counts a written record. After the last record, returns the time that all of them took.
-    pub(super) fn written(&self) -> Option<Duration> {
+    pub(super) fn record_written(&self) -> Option<Duration> {
         let written = self.written.fetch_add(1, Ordering::Relaxed) + 1;
         let begun = self.state().begun;
-        (written == self.cases()).then(|| begun.map_or(Duration::ZERO, |b| b.elapsed()))
+        (written == self.record_count()).then(|| begun.map_or(Duration::ZERO, |b| b.elapsed()))
     }
 
     pub(super) fn is_unfinished(&self) -> bool {
-        self.written.load(Ordering::Relaxed) < self.cases()
+        self.written.load(Ordering::Relaxed) < self.record_count()
     }
 
-    pub(super) fn leave(&self) {
-        self.threads.fetch_sub(1, Ordering::Relaxed);
-    }
-
-    /// Returns true if a bad verdict must be checked again. Only `most` of each kind are, so that a broken
-    /// driver does not double the time of a run. The limits are counts, which do not depend on
-    /// the machine's speed.
-    pub(super) fn may_recheck(&self, kind: &Symptom, most: u32) -> bool {
+    /// Claims a recheck of a bad verdict. At most `limit` of each kind are granted, so that a broken driver does
+    /// not double the time of a run. The limits are counts, which do not depend on the machine's speed.
+    pub(super) fn claim_recheck(&self, kind: &Symptom, limit: u32) -> bool {
         let mut state = self.state();
         let confirmed = state.confirmed.get(kind).copied().unwrap_or(0);
-        let fits = confirmed < most && state.rechecks.done < u64::from(MAX_RECHECKS);
+        let fits = confirmed < limit && state.rechecks.done < u64::from(MAX_RECHECKS);
         if fits {
             // Counted as confirmed until it is refuted, so that no other worker exceeds the limit in the
             // meantime.
@@ -268,9 +265,9 @@ impl AdapterQueue {
         fits
     }
 
-    /// Returns the case whose record shows an expected failure in full; `None` if this case does:
-    /// the first case of each reason.
-    pub(super) fn example(&self, reason: &str, case: &str) -> Option<String> {
+    /// Returns the case whose record shows an expected failure in full; `None` if this case does. The first
+    /// case of each reason becomes its example.
+    pub(super) fn example_or_insert(&self, reason: &str, case: &str) -> Option<String> {
         let mut state = self.state();
         if let Some(example) = state.examples.get(reason) {
             return Some(example.clone()).filter(|example| example != case);
@@ -292,8 +289,8 @@ impl AdapterQueue {
         self.state().rechecks
     }
 
-    /// Returns true if the cases that must precede a case may be searched.
-    pub(super) fn may_search(&self) -> bool {
+    /// Claims a search for the cases that must precede a case, and counts it even if it is refused.
+    pub(super) fn claim_search(&self) -> bool {
         let mut state = self.state();
         state.searches += 1;
         state.searches <= MAX_SEARCHES
@@ -306,26 +303,38 @@ fn time_left(elapsed: Duration, done: u64, left: usize) -> f64 {
     elapsed.as_secs_f64() * left as f64 / (done + 1) as f64
 }
 
-/// The next action of a free thread.
+/// A thread's place at a queue, which it leaves when this is dropped.
+pub(super) struct EnteredQueue<'q> {
+    pub(super) queue: &'q AdapterQueue,
+}
+
+impl Drop for EnteredQueue<'_> {
+    fn drop(&mut self) {
+        self.queue.threads.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+/// What a free thread does.
 pub(super) enum Next<'q> {
-    Draw(&'q AdapterQueue),
+    Draw(EnteredQueue<'q>),
     /// It waits, since the threads of the queues will be done before another worker could help them.
     Wait,
     End,
 }
 
-/// Returns what a free thread does: of the queues with cases left, it takes from the one with the fewest
-/// threads.
-pub(super) fn next(queues: &[AdapterQueue]) -> Next<'_> {
-    let open = queues.iter().filter(|queue| queue.left() > 0);
-    let open = open.map(|queue| (queue, queue.threads.load(Ordering::Relaxed)));
-    let mut open = open
+/// Chooses what a free thread does, and counts it as a thread of the chosen queue: of the queues with untaken
+/// cases, the one with the fewest threads.
+pub(super) fn enter_next(queues: &[AdapterQueue]) -> Next<'_> {
+    let candidates = queues.iter().filter(|queue| queue.untaken() > 0);
+    let candidates = candidates.map(|queue| (queue, queue.threads.load(Ordering::Relaxed)));
+    let mut candidates = candidates
         .filter(|(queue, threads)| !queue.launch.alone || *threads == 0)
         .peekable();
-    if open.peek().is_none() {
+    if candidates.peek().is_none() {
         return Next::End;
     }
-    let useful = open.filter(|(queue, threads)| *threads == 0 || queue.pays_another(*threads));
+    let useful =
+        candidates.filter(|(queue, threads)| *threads == 0 || queue.another_thread_pays(*threads));
     let Some((queue, threads)) = useful.min_by_key(|(_, threads)| *threads) else {
         return Next::Wait;
     };
@@ -334,7 +343,7 @@ pub(super) fn next(queues: &[AdapterQueue]) -> Next<'_> {
             .threads
             .compare_exchange(threads, threads + 1, Ordering::Relaxed, Ordering::Relaxed);
     match entered {
-        Ok(_) => Next::Draw(queue),
+        Ok(_) => Next::Draw(EnteredQueue { queue }),
         // Another thread was faster, and may be enough.
         Err(_) => Next::Wait,
     }
@@ -343,6 +352,73 @@ pub(super) fn next(queues: &[AdapterQueue]) -> Next<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde_json::json;
+
+    fn queue(name: &str, cases: usize) -> AdapterQueue {
+        let adapter = json!({
+            "name": name, "backend": "cpu", "device": "d", "driver": "d", "driver_version": "1",
+            "api_version": "1", "software": true,
+            "limits": { "api": "vulkan", "sub_pixel_bits": 8, "max_size": 1024,
+                "max_color_attachments": 8, "formats": {}, "features": [], "sample_positions": {} },
+        });
+        let adapter = serde_json::from_value(adapter).expect("the adapter is read");
+        let error = String::new();
+        let cases = (0..cases).collect();
+        AdapterQueue::not_started(cases, adapter, error, &Expectations::default())
+    }
+
+    fn entered(next: Next<'_>) -> EnteredQueue<'_> {
+        match next {
+            Next::Draw(entered) => entered,
+            Next::Wait => panic!("the thread waits"),
+            Next::End => panic!("the thread ends"),
+        }
+    }
+
+    #[test]
+    fn all_cases_are_taken_once_in_shrinking_chunks() {
+        let queue = queue("a", 200);
+        let mut chunks = Vec::new();
+        loop {
+            let chunk = queue.take();
+            if chunk.is_empty() {
+                break;
+            }
+            chunks.push(chunk);
+        }
+        let lengths: Vec<usize> = chunks.iter().map(VecDeque::len).collect();
+        assert_eq!((lengths[0], lengths[lengths.len() - 1]), (CHUNK, 1));
+        assert!(lengths.is_sorted_by(|a, b| a >= b), "{lengths:?}");
+        let cases: Vec<usize> = chunks.into_iter().flatten().collect();
+        assert_eq!(cases, (0..200).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn a_thread_enters_the_queue_with_the_fewest_threads() {
+        let queues = [queue("a", 9), queue("b", 9), queue("empty", 0)];
+        let first = entered(enter_next(&queues));
+        let second = entered(enter_next(&queues));
+        let names = [&first, &second].map(|entered| entered.queue.launch.adapter.as_str());
+        assert_eq!(names, ["a", "b"]);
+        // No queue has begun, so another worker might not pay.
+        assert!(matches!(enter_next(&queues), Next::Wait));
+        drop(second);
+        let third = entered(enter_next(&queues));
+        assert_eq!(third.queue.launch.adapter, "b");
+        while !queues.iter().all(|queue| queue.take().is_empty()) {}
+        assert!(matches!(enter_next(&queues), Next::End));
+    }
+
+    #[test]
+    fn an_adapter_that_runs_alone_has_one_thread() {
+        let mut alone = queue("alone", 9);
+        alone.launch.alone = true;
+        let queues = [alone];
+        let first = entered(enter_next(&queues));
+        assert!(matches!(enter_next(&queues), Next::End));
+        drop(first);
+        assert!(matches!(enter_next(&queues), Next::Draw(_)));
+    }
 
     #[test]
     fn the_estimated_time_grows_with_the_first_case_and_shrinks_with_the_last() {

@@ -146,7 +146,7 @@ impl<'s> RunningAdapter<'s, '_> {
         number: usize,
         observed: &mut Observation,
     ) -> Result<(), RecordError> {
-        if !self.queue.records(number) {
+        if !self.queue.has_record(number) {
             return Ok(());
         }
         let record = &mut observed.record;
@@ -189,7 +189,7 @@ impl<'s> RunningAdapter<'s, '_> {
         let Some(reason) = settled.excuse() else {
             return ShownDetail::Whole;
         };
-        let example = self.queue.example(reason, &record.case);
+        let example = self.queue.example_or_insert(reason, &record.case);
         example.map_or(ShownDetail::Example, ShownDetail::By)
     }
 
@@ -226,7 +226,7 @@ impl<'s> RunningAdapter<'s, '_> {
         }
         lock(&self.shared.summary).count(&record);
         (self.shared.events)(RunEvent::Recorded(Box::new(record)));
-        if let Some(wall) = self.queue.written() {
+        if let Some(wall) = self.queue.record_written() {
             (self.shared.events)(RunEvent::AdapterFinished {
                 adapter: self.queue.adapter.info.name.clone(),
                 wall,

@@ -1,6 +1,6 @@
 //! Executing a plan: the folder, the shared state and the threads.
 
-use super::adapter_queue::{self, AdapterQueue, First, Next};
+use super::adapter_queue::{AdapterQueue, LeadingRoundTrips, Next, enter_next};
 use super::budget::Budget;
 use super::plan::{Plan, Rechecks, RunError, RunSummary};
 use super::shared::Shared;
@@ -120,11 +120,8 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(RunEvent) + Sync)) -> Result<RunSumm
     let queues: Vec<AdapterQueue> = running.chain(dead).collect();
     share(plan.options.jobs, || {
         while !shared.stopped() {
-            match adapter_queue::next(&queues) {
-                Next::Draw(queue) => {
-                    WorkerLoop::new(&shared, queue).run();
-                    queue.leave();
-                }
+            match enter_next(&queues) {
+                Next::Draw(entered) => WorkerLoop::new(&shared, entered.queue).run(),
                 Next::Wait => std::thread::sleep(WAITING),
                 Next::End => break,
             }
@@ -164,8 +161,8 @@ fn to_draw_first(
     cases: &[&Case],
     selected: usize,
     drawn: &[(usize, Record)],
-) -> First {
-    let mut result = First::default();
+) -> LeadingRoundTrips {
+    let mut result = LeadingRoundTrips::default();
     for number in first {
         let recorded = drawn.iter().find(|(n, _)| n == number).map(|(_, r)| r);
         let started = |r: &&Record| {
@@ -176,7 +173,7 @@ fn to_draw_first(
             result.known.take(cases[*number], record);
             continue;
         }
-        result.numbers.push(*number);
+        result.cases.push(*number);
         if *number >= selected || recorded.is_some() {
             result.silent.insert(*number);
         }

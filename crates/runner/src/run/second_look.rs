@@ -61,7 +61,7 @@ pub(super) fn confirm(
         return Some(first);
     }
     let only_after_others = verdict.is_bad() && repeats.iter().all(|v| !v.is_bad());
-    if only_after_others && !before.is_empty() && run.queue.may_search() {
+    if only_after_others && !before.is_empty() && run.queue.claim_search() {
         match search(run, number, verdict, before) {
             OrderCause::Cases(cases) => {
                 let named = cases.iter().take(MAX_NAMED);
@@ -94,7 +94,7 @@ fn needs_confirmation(run: &RunningAdapter<'_, '_>, observed: &Observation, most
         .is_none_or(|p| p.kind != LossKind::NotStarted);
     started
         && is_unexpectedly_bad(record, &run.queue.expectations, &run.queue.adapter)
-        && run.queue.may_recheck(&Symptom::of(record).broad(), most)
+        && run.queue.claim_recheck(&Symptom::of(record).broad(), most)
 }
 
 /// The result of drawing a case in a fresh process.

@@ -60,7 +60,7 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
         if queue.begin(shared.budget.as_ref()) {
             (shared.events)(RunEvent::AdapterStarted {
                 adapter: queue.adapter.info.name.clone(),
-                cases: queue.cases(),
+                cases: queue.record_count(),
             });
         }
         if let Some(error) = &queue.start_error {
@@ -80,12 +80,12 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
     /// Draws the adapter's round trips. Selected round trips are recorded.
     fn draw_round_trips(&mut self) -> RoundTrips {
         let run = self.run;
-        let first = run.queue.first();
-        let mut found = first.known.clone();
-        let mut left: VecDeque<usize> = first.numbers.iter().copied().collect();
+        let leading = run.queue.leading();
+        let mut found = leading.known.clone();
+        let mut left: VecDeque<usize> = leading.cases.iter().copied().collect();
         self.draw(&mut || std::mem::take(&mut left), &mut |number, record| {
             found.take(run.case(number), &record);
-            if run.queue.records(number) {
+            if run.queue.has_record(number) {
                 run.record(record);
             }
         });
