@@ -12,35 +12,45 @@ use etalon_scene::Scene;
 use std::borrow::Cow;
 use std::time::{Duration, Instant};
 
+/// The steps of the clock that times frames, in seconds: too fine to matter.
+const EXACT_CLOCK: f64 = 0.0;
+
+/// What a frame of a scene costs.
+pub(crate) struct FrameCost {
+    /// The frame times; `None` if the backend reports an error.
+    pub(crate) times: Option<Times>,
+    /// The number of fragments, if the adapter has statistics.
+    pub(crate) fragments: Option<u64>,
+}
+
 impl WorkerProcess {
     /// Times frames of a scene, and counts its fragments if the adapter has statistics. Fragments are
     /// counted in a separate frame, since counting costs time. No other request may be in flight.
-    pub(crate) fn time(
+    pub(crate) fn measure(
         &mut self,
         slot: u32,
         scene: &Scene,
         limits: &Limits,
         timeout: Duration,
-    ) -> Result<(Option<Times>, Option<u64>), Loss> {
+    ) -> Result<FrameCost, Loss> {
         let times = self.time_frames(slot, scene, timeout)?;
         if !limits.features.contains(&Feature::FragmentInvocations) {
-            return Ok((times, None));
+            let fragments = None;
+            return Ok(FrameCost { times, fragments });
         }
-        let asked = Instant::now();
+        let requested_at = Instant::now();
         let counting = scene.counting(CounterKind::FragmentInvocations);
         self.request_frames(slot, &counting, vec![1]);
-        match self
-            .receive_frames(slot, DueAnswers::ONE, asked, Wait::of(timeout))
+        let fragments = match self
+            .receive_frames(slot, DueAnswers::ONE, requested_at, Wait::of(timeout))
             .frames
         {
-            Ok(frames) => {
-                let count = frames.first().and_then(|f| f.counters.first().copied());
-                Ok((times, count))
-            }
+            Ok(frames) => frames.first().and_then(|f| f.counters.first().copied()),
             // The picture was drawn and timed, so a failed count does not matter.
-            Err(RequestError::Backend(_)) => Ok((times, None)),
-            Err(RequestError::Lost(loss)) => Err(loss),
-        }
+            Err(RequestError::Backend(_)) => None,
+            Err(RequestError::Lost(loss)) => return Err(loss),
+        };
+        Ok(FrameCost { times, fragments })
     }
 
     /// Times frames of a scene; `None` if the backend reports an error.
@@ -51,15 +61,14 @@ impl WorkerProcess {
         timeout: Duration,
     ) -> Result<Option<Times>, Loss> {
         let timed = self.prepare_and_time(slot, scene, timeout);
-        let dropped = match timed {
-            Err(RequestError::Lost(loss)) => return Err(loss),
-            _ => self.ask(Request::Drop { slot }, timeout),
-        };
-        match (timed, dropped) {
-            (_, Err(RequestError::Lost(loss))) => Err(loss),
-            (Ok(times), _) => Ok(medians(&times, 0.0)),
-            (Err(_), _) => Ok(None),
+        if let Err(RequestError::Lost(loss)) = timed {
+            return Err(loss);
         }
+        // A failed drop does not matter unless the worker is lost.
+        if let Err(RequestError::Lost(loss)) = self.ask(Request::Drop { slot }, timeout) {
+            return Err(loss);
+        }
+        Ok(timed.ok().and_then(|times| medians(&times, EXACT_CLOCK)))
     }
 
     fn prepare_and_time(

@@ -225,13 +225,13 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
             let quiet = &run.shared.quiet;
             let _alone = quiet.write().unwrap_or_else(PoisonError::into_inner);
             let timeout = run.measuring_timeout();
-            worker.time(number as u32, scene, &run.queue.adapter.limits, timeout)
+            worker.measure(number as u32, scene, &run.queue.adapter.limits, timeout)
         };
         match timed {
-            Ok((times, fragments)) => {
+            Ok(cost) => {
                 if let Some(measured) = &mut record.measured {
-                    measured.time = times;
-                    measured.fragments = fragments;
+                    measured.time = cost.times;
+                    measured.fragments = cost.fragments;
                 }
             }
             Err(loss) => {
