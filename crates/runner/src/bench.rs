@@ -65,7 +65,7 @@ pub enum BenchEvent {
         /// True if the verdict counts against the bench.
         unexpected: bool,
         /// The number of rounds that the bench already has.
-        known: u32,
+        rounds_done: u32,
     },
     /// The instructions of a case's frame were counted on an adapter.
     Counted {
@@ -320,7 +320,7 @@ impl RunningBench<'_, '_> {
                 (self.events)(BenchEvent::Judged {
                     picture: judged,
                     unexpected,
-                    known: rounds,
+                    rounds_done: rounds,
                 });
             }
         }
@@ -382,7 +382,7 @@ impl RunningBench<'_, '_> {
         (self.events)(BenchEvent::Judged {
             picture: known.picture.clone(),
             unexpected: false,
-            known: self.rounds,
+            rounds_done: self.rounds,
         });
     }
 

@@ -12,8 +12,8 @@ use clap::Args;
 use etalon_adapters::{Adapters, Query, cache};
 use etalon_case::Case;
 use etalon_record::{
-    BENCH_FORMAT, Bench, BenchHeader, BenchSettings, FolderKind, ProcessorLimits, Shard, beside,
-    cell, selection_digest,
+    BENCH_FORMAT, Bench, BenchHeader, BenchSettings, FolderKind, ProcessorLimits, Reason, Shard,
+    Verdict, beside, cell, selection_digest,
 };
 use etalon_report::{WrittenBench, message, reasons_text};
 use etalon_runner::{BenchError, BenchEvent, BenchPlan, BenchSummary, instruction_counter};
@@ -33,7 +33,7 @@ pub(crate) struct Arguments {
     #[arg(long = "adapter", value_name = "NAME")]
     pub(crate) adapters: Vec<String>,
     /// Folder for samples and reports
-    #[arg(long, value_name = "DIR", default_value = "reports/bench-latest")]
+    #[arg(long, value_name = "DIR", default_value = LATEST)]
     pub(crate) out: PathBuf,
     /// Continue the bench in the folder: measure what is missing
     #[arg(long, conflicts_with = "force")]
@@ -74,10 +74,10 @@ pub(crate) struct Arguments {
     pub(crate) format: OutputFormat,
 }
 
-/// The folder that each bench without `--out` replaces.
+/// The folder that each bench without `--out` replaces; other folders need `--force`.
 const LATEST: &str = "reports/bench-latest";
 
-/// The cases that are measured by default, except those of [`MATRIX`].
+/// The glob of the cases that are measured by default; see [`MATRIX`].
 const DEFAULT: &str = "perf/*";
 
 /// The cells of the performance matrix, which are measured only if globs name them.
@@ -106,8 +106,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         ..Query::default()
     })?;
     refuse_absent(&arguments.adapters, &adapters.absent)?;
-    let names = names(&adapters)?;
-    let header = header(arguments, &selected, &adapters);
+    let adapter_names = adapter_names(&adapters)?;
+    let header = bench_header(arguments, &selected, &adapters);
     let resume = claim.resume;
     let _lock = claim.take()?;
     let summary = measure(BenchPlan {
@@ -122,7 +122,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         header,
     })?;
     let written = etalon_report::write_bench(&arguments.out).map_err(Failure::incomplete)?;
-    print(arguments, &summary, &names, &written)?;
+    print(arguments, &summary, &adapter_names, &written)?;
     for end in beside::read(&arguments.out).map_err(Failure::incomplete)? {
         say!(
             "{} {} {}: {}",
@@ -157,7 +157,7 @@ impl BenchCases {
         }
         let mut cases = chosen(&selection)?;
         cases.retain(|case| !by_default || !case.id.starts_with(MATRIX));
-        beside_each_other(&mut cases);
+        group_by_cell(&mut cases);
         Ok(Self {
             digest: selection_digest(cases.iter().map(|case| case.id.as_str())),
             shard: shard::retain_shard(arguments.shard, &mut cases)?,
@@ -167,7 +167,7 @@ impl BenchCases {
 }
 
 /// Returns the names that adapters report. Fails if two are equal.
-fn names(adapters: &Adapters) -> Result<BTreeSet<String>, Failure> {
+fn adapter_names(adapters: &Adapters) -> Result<BTreeSet<String>, Failure> {
     let mut names = BTreeSet::new();
     for (_, worker) in &adapters.ready {
         let name = &worker.hello.info.name;
@@ -181,7 +181,7 @@ fn names(adapters: &Adapters) -> Result<BTreeSet<String>, Failure> {
     Ok(names)
 }
 
-fn header(arguments: &Arguments, selected: &BenchCases, adapters: &Adapters) -> BenchHeader {
+fn bench_header(arguments: &Arguments, selected: &BenchCases, adapters: &Adapters) -> BenchHeader {
     BenchHeader {
         format: BENCH_FORMAT,
         provenance: provenance::here(),
@@ -236,24 +236,18 @@ fn show(bar: &ProgressBar, rounds: u64, event: BenchEvent) {
         BenchEvent::Judged {
             picture,
             unexpected,
-            known,
+            rounds_done,
         } => {
             bar.set_message(format!("judging {}", picture.adapter));
-            let never_timed = if picture.may_be_timed() {
-                u64::from(known)
+            let rounds_not_timed = if picture.may_be_timed() {
+                u64::from(rounds_done)
             } else {
                 rounds
             };
-            bar.inc(1 + never_timed);
+            bar.inc(1 + rounds_not_timed);
             if unexpected {
-                let (verdict, adapter) = (picture.verdict, &picture.adapter);
-                bar.suspend(|| {
-                    say!(
-                        "{verdict} {adapter} {}: {}",
-                        picture.case,
-                        reasons_text(&picture.reasons)
-                    );
-                });
+                let (adapter, case) = (&picture.adapter, &picture.case);
+                report_bad(bar, picture.verdict, adapter, case, &picture.reasons);
             }
         }
         BenchEvent::Counted {
@@ -273,16 +267,14 @@ fn show(bar: &ProgressBar, rounds: u64, event: BenchEvent) {
         BenchEvent::Done { spared, .. } => bar.inc(u64::from(spared)),
         BenchEvent::Ended { ended, missing } => {
             bar.inc(u64::from(missing));
-            let (verdict, adapter) = (ended.verdict, &ended.adapter);
-            bar.suspend(|| {
-                say!(
-                    "{verdict} {adapter} {}: {}",
-                    ended.case,
-                    reasons_text(&ended.reasons)
-                )
-            });
+            let (adapter, case) = (&ended.adapter, &ended.case);
+            report_bad(bar, ended.verdict, adapter, case, &ended.reasons);
         }
     }
+}
+
+fn report_bad(bar: &ProgressBar, verdict: Verdict, adapter: &str, case: &str, reasons: &[Reason]) {
+    bar.suspend(|| say!("{verdict} {adapter} {case}: {}", reasons_text(reasons)));
 }
 
 fn print(
@@ -316,7 +308,7 @@ fn print(
 }
 
 /// Moves the cases of each cell of the matrix together, so that they are timed directly after one another.
-fn beside_each_other(cases: &mut [Case]) {
+fn group_by_cell(cases: &mut [Case]) {
     let mut places = HashMap::new();
     for (place, case) in cases.iter().enumerate() {
         places.entry(group(case)).or_insert(place);
@@ -330,12 +322,10 @@ fn group(case: &Case) -> String {
 }
 
 fn parse_share(text: &str) -> Result<f64, String> {
-    let number = text.strip_suffix('%').unwrap_or_default().trim();
-    let percent: f64 = number.parse().unwrap_or(f64::NAN);
-    if (0.1..=100.0).contains(&percent) {
-        Ok(percent / 100.0)
-    } else {
-        Err("expected a share from 0.1% to 100%, such as 3%".to_owned())
+    let number = text.strip_suffix('%');
+    match number.and_then(|number| number.trim().parse::<f64>().ok()) {
+        Some(percent) if (0.1..=100.0).contains(&percent) => Ok(percent / 100.0),
+        _ => Err("expected a share from 0.1% to 100%, such as 3%".to_owned()),
     }
 }
 

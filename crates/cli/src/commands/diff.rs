@@ -68,8 +68,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     ];
     let [before, after] = [before.as_path(), after.as_path()];
     match [before, after].map(FolderKind::of) {
-        [Some(FolderKind::Run), Some(FolderKind::Run)] => of_runs(arguments, [before, after]),
-        [Some(FolderKind::Bench), Some(FolderKind::Bench)] => of_benches(arguments),
+        [Some(FolderKind::Run), Some(FolderKind::Run)] => compare_runs(arguments, [before, after]),
+        [Some(FolderKind::Bench), Some(FolderKind::Bench)] => {
+            compare_benches(arguments, [before, after])
+        }
         [Some(FolderKind::Run), Some(FolderKind::Bench)] => Err(mixed(before, after)),
         [Some(FolderKind::Bench), Some(FolderKind::Run)] => Err(mixed(after, before)),
         [first, _] => {
@@ -91,7 +93,7 @@ fn mixed(run: &Path, bench: &Path) -> Failure {
     ))
 }
 
-fn of_runs(arguments: &Arguments, folders: [&Path; 2]) -> Result<u8, Failure> {
+fn compare_runs(arguments: &Arguments, folders: [&Path; 2]) -> Result<u8, Failure> {
     if arguments.time.is_some() {
         return Err(Failure::usage(
             "--time is for two benches; the times of a run are single samples taken during other work",
@@ -134,14 +136,14 @@ fn code(diff: &RunDiff) -> u8 {
     }
 }
 
-fn of_benches(arguments: &Arguments) -> Result<u8, Failure> {
+fn compare_benches(arguments: &Arguments, folders: [&Path; 2]) -> Result<u8, Failure> {
     if arguments.adapter_before.is_some() {
         return Err(Failure::usage(
             "--adapter-before and --adapter-after are for two runs; benches are compared adapter by adapter",
         ));
     }
-    let before = Bench::read(&arguments.before).map_err(Failure::usage)?;
-    let after = Bench::read(&arguments.after).map_err(Failure::usage)?;
+    let before = Bench::read(folders[0]).map_err(Failure::usage)?;
+    let after = Bench::read(folders[1]).map_err(Failure::usage)?;
     let time = arguments.time.map_or(Time::Wall, Time::from);
     let diff = etalon_report::diff(&before, &after, time);
     if diff.changes.is_empty() && diff.gone.is_empty() {
