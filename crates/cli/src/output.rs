@@ -6,8 +6,8 @@
 //! failed write of the summary is not an error. JSON goes through [`print()`], because a program must not take
 //! truncated output as complete.
 //!
-//! Texts from outside, such as names of devices, must not command a terminal, so hidden characters are written as their
-//! escapes here, at the end of all ways. Only the suite's own colours pass, if there are any.
+//! Texts from outside, such as names of devices, must not command a terminal, so hidden characters are escaped here,
+//! where all output passes. Only the suite's own colours pass, if there are any.
 
 use crate::failure::Failure;
 use etalon_frame::is_hidden;
@@ -22,7 +22,7 @@ use std::io::{self, ErrorKind, IsTerminal, Write};
 /// # Errors
 /// If a write fails, except because the reader closed the pipe.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
-    print_all(&shown(text, color()))
+    print_all(&for_terminal(text, color()))
 }
 
 fn print_all(text: &str) -> Result<(), Failure> {
@@ -42,7 +42,7 @@ pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
 /// Writes a summary of a folder to standard output. A failed write is reported on standard error and is no
 /// error.
 pub(crate) fn summarize(text: &str) {
-    match write_output(shown(text, color()).as_bytes()) {
+    match write_output(for_terminal(text, color()).as_bytes()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             say!("cannot write the summary: {error}");
         }
@@ -78,10 +78,11 @@ fn escaped(text: &str, escape: impl Fn(char) -> String) -> String {
 }
 
 /// Returns a text for a terminal, in colours or without.
-fn shown(text: &str, color: bool) -> String {
+fn for_terminal(text: &str, color: bool) -> String {
     let escape = |c: char| c.escape_unicode().to_string();
     let mut parts = text.split("\u{1b}[");
     let mut result = escaped(parts.next().unwrap_or_default(), escape);
+    // Each part follows an introducer of a control sequence; only `m`, colours, is kept.
     for part in parts {
         let code = part
             .split_once('m')
@@ -100,7 +101,7 @@ fn shown(text: &str, color: bool) -> String {
 const MOST_ON_A_LINE: usize = 8000;
 
 /// Returns the lines of a message, without the ends of very long ones.
-fn cut(text: &str) -> String {
+fn without_long_ends(text: &str) -> String {
     let lines = text
         .split('\n')
         .map(|line| match line.char_indices().nth(MOST_ON_A_LINE) {
@@ -112,7 +113,7 @@ fn cut(text: &str) -> String {
 
 /// Writes a line to standard error; see [`say!`].
 pub(crate) fn write_error(line: Arguments<'_>) {
-    let line = shown(&cut(&line.to_string()), false);
+    let line = for_terminal(&without_long_ends(&line.to_string()), false);
     // If standard error fails, there is nowhere to report it.
     let _ = io::stderr()
         .lock()
@@ -163,17 +164,17 @@ mod tests {
     fn only_colour_sequences_pass_and_only_to_a_colour_terminal() {
         let text = "a\u{1b}[31mb\u{1b}[0m\u{1b}[2J\u{202e}\n";
         assert_eq!(
-            shown(text, false),
+            for_terminal(text, false),
             "a\\u{1b}[31mb\\u{1b}[0m\\u{1b}[2J\\u{202e}\n"
         );
         assert_eq!(
-            shown(text, true),
+            for_terminal(text, true),
             "a\u{1b}[31mb\u{1b}[0m\\u{1b}[2J\\u{202e}\n"
         );
     }
 
     #[test]
-    fn json_escapes_hidden_characters_and_reads_back_equal() {
+    fn escaped_json_reads_back_equal() {
         let value = ["\u{1b}[31m\u{7f}\u{9b}\u{202e}\u{e0001}"];
         let text = json(&value).unwrap();
         assert!(!text.chars().any(|c| is_hidden(c) && c != '\n'), "{text}");
@@ -183,7 +184,7 @@ mod tests {
 
     #[test]
     fn a_long_line_is_cut() {
-        let text = cut(&format!("{}\nb", "a".repeat(5 << 20)));
+        let text = without_long_ends(&format!("{}\nb", "a".repeat(5 << 20)));
         assert_eq!(text, format!("{}…\nb", "a".repeat(MOST_ON_A_LINE)));
     }
 }
