@@ -59,6 +59,6 @@ pub fn measured(case: &Case, truth: &TruthPicture, frame: &Frame) -> Option<Meas
         fragments: None,
         bytes: case.scene.bytes(),
         picture: None,
-        truth: None,
+        truth_picture: None,
     })
 }

@@ -45,7 +45,7 @@ pub fn keep_pictures<E>(
     if let Some(measured) = &mut record.measured {
         measured.picture = Some(write(&record.case, image.size, &rgb8(image))?);
         let name = format!("truth/{}", record.case);
-        measured.truth = Some(write(&name, truth.size, &truth.rgb8())?);
+        measured.truth_picture = Some(write(&name, truth.size, &truth.rgb8())?);
     }
     Ok(())
 }

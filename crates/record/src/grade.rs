@@ -14,7 +14,7 @@ state_enum! {
         RequiredByCts = "required-by-cts",
         /// Only a contested reading of the specification forbids the behaviour.
         Disputed = "disputed",
-        /// The behaviour was not yet compared with the specification.
+        /// The behaviour has not been compared with the specification yet.
         Unread = "unread",
     }
 }

@@ -21,11 +21,11 @@ pub struct Measured {
     /// Frame times; `None` if the picture is wrong by the rules, and therefore not timed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time: Option<Times>,
-    /// Render passes.
+    /// The number of render passes.
     pub passes: u32,
-    /// Draw calls.
+    /// The number of draw calls.
     pub draws: u32,
-    /// Fragment shader invocations, if the adapter has statistics.
+    /// The number of fragment shader invocations, if the adapter has statistics.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fragments: Option<u64>,
     /// Bytes of all attachments, by their formats' texel sizes.
@@ -33,9 +33,9 @@ pub struct Measured {
     /// A PNG of the picture below the run folder, with `/` between its parts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub picture: Option<String>,
-    /// A PNG of the truth, likewise.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub truth: Option<String>,
+    /// A PNG of the truth below the run folder.
+    #[serde(default, rename = "truth", skip_serializing_if = "Option::is_none")]
+    pub truth_picture: Option<String>,
 }
 
 /// A parameter and its value.

@@ -168,7 +168,7 @@ impl Record {
     /// Returns the paths of its pictures below the run folder: the drawn one and the truth.
     pub(crate) fn pictures(&self) -> impl Iterator<Item = &str> {
         let measured = self.measured.as_ref().into_iter();
-        let both = measured.flat_map(|m| [m.picture.as_deref(), m.truth.as_deref()]);
+        let both = measured.flat_map(|m| [m.picture.as_deref(), m.truth_picture.as_deref()]);
         both.flatten()
     }
 

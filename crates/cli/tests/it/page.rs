@@ -308,7 +308,10 @@ fn compare_measurements(above: &Path, adapter: &str) {
         let flips = [measured.distance.flip, by_relay.distance.flip];
         assert!((flips[0] - flips[1]).abs() < 1e-9, "{case}: {flips:?}");
         measured.distance.flip = by_relay.distance.flip;
-        for path in [&measured.picture, &measured.truth].into_iter().flatten() {
+        for path in [&measured.picture, &measured.truth_picture]
+            .into_iter()
+            .flatten()
+        {
             let [picture, by_relay] =
                 [&page, &relay].map(|folder| fs::read(folder.join(path)).unwrap());
             assert!(picture == by_relay, "{path}");

@@ -93,7 +93,7 @@ fn records() -> Vec<Record> {
         fragments: None,
         bytes: 64,
         picture: None,
-        truth: None,
+        truth_picture: None,
     });
     vec![
         Record::new("depth/a", "vulkan:a@2", Verdict::Pass),

@@ -142,7 +142,7 @@ fn measured(f: &[u64; 7]) -> Measured {
         fragments: even(f[3]).then_some(f[2]),
         bytes: f[6],
         picture: even(f[6]).then(|| "pictures/a.png".to_owned()),
-        truth: even(f[0]).then(|| "pictures/truth.png".to_owned()),
+        truth_picture: even(f[0]).then(|| "pictures/truth.png".to_owned()),
     }
 }
 

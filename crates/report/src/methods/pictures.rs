@@ -59,7 +59,7 @@ impl<'f> PagePictures<'f> {
                     continue;
                 };
                 if truth.is_none() {
-                    truth = m.truth.as_deref().and_then(|t| self.read(t));
+                    truth = m.truth_picture.as_deref().and_then(|t| self.read(t));
                 }
                 if let Some(data) = self.read(path) {
                     shots.push(Shot {

@@ -538,7 +538,9 @@ fn hostile_names_of_methods_stay_text() {
             fragments: Some(u64::MAX),
             bytes: u64::MAX,
             picture: Some("pictures/secret.png".to_owned()),
-            truth: Some("pictures/\"><script>alert(1)</script><i class='x'>.png".to_owned()),
+            truth_picture: Some(
+                "pictures/\"><script>alert(1)</script><i class='x'>.png".to_owned(),
+            ),
         });
         record
     });
@@ -576,7 +578,7 @@ fn pictures_of_methods_are_shown_only_if_they_are_pictures() {
     {
         let measured = record.measured.as_mut().unwrap();
         measured.picture = Some(format!("pictures/{name}"));
-        measured.truth = Some("pictures/truth.png".to_owned());
+        measured.truth_picture = Some("pictures/truth.png".to_owned());
         writer.append(record).unwrap();
     }
     let pictures = folder.path().join("with/pictures");

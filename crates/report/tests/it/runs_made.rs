@@ -90,7 +90,7 @@ pub(crate) fn rich(case: &str) -> Record {
         fragments: Some(4096),
         bytes: 1024,
         picture: None,
-        truth: None,
+        truth_picture: None,
     });
     record.seconds = Seconds {
         draw: 0.01,

@@ -88,7 +88,7 @@ impl Made {
             fragments: self.fragments,
             bytes: 4,
             picture: None,
-            truth: None,
+            truth_picture: None,
         });
         record
     }

@@ -81,7 +81,7 @@ pub(super) fn write(folder: &Path) -> PathBuf {
             let right = measured.method == "sorted";
             let picture = if right { "truth.png" } else { "drawn.png" };
             measured.picture = Some(format!("pictures/{picture}"));
-            measured.truth = Some("pictures/truth.png".to_owned());
+            measured.truth_picture = Some("pictures/truth.png".to_owned());
         }
         writer.append(&record).unwrap();
     }

@@ -139,7 +139,7 @@ fn record(
         fragments: Some((16384.0 * cost.round()) as u64),
         bytes: 65536 * u64::from(*passes),
         picture: None,
-        truth: None,
+        truth_picture: None,
     });
     r
 }
