@@ -9,41 +9,26 @@ use std::path::{Path, PathBuf};
 
 type Check = fn(&Chromium, &Path);
 
+macro_rules! checks {
+    ($($check:ident),+ $(,)?) => { [$((stringify!($check), $check as Check)),+] };
+}
+
 /// Every check, with its name.
-pub(super) const CHECKS: [(&str, Check); 7] = [
-    (
-        "a budget says which methods are left",
-        a_budget_says_which_methods_are_left,
-    ),
-    (
-        "a legend highlights its method",
-        a_legend_highlights_its_method,
-    ),
-    (
-        "a slider swaps the pictures and moves the mark",
-        a_slider_swaps_pictures_and_moves_the_mark,
-    ),
-    (
-        "pictures are enlarged by click and by keys",
-        pictures_are_enlarged_by_click_and_by_keys,
-    ),
-    (
-        "the page's FLIP is that of its authors' code",
-        the_pages_flip_is_that_of_its_authors_code,
-    ),
-    (
-        "break points lead to the pictures beside them",
-        break_points_lead_to_the_pictures_beside_them,
-    ),
-    (
-        "a narrow window and no scripts",
-        a_narrow_window_and_no_scripts,
-    ),
+pub(super) const CHECKS: [(&str, Check); 9] = checks![
+    a_budget_says_which_methods_are_left,
+    a_legend_highlights_its_method,
+    a_slider_swaps_pictures_and_moves_the_mark,
+    pictures_are_enlarged_by_click_and_by_keys,
+    the_pages_flip_is_that_of_its_authors_code,
+    break_points_lead_to_the_pictures_beside_them,
+    a_narrow_window_does_not_scroll_sideways,
+    texts_of_charts_do_not_overlap,
+    without_scripts_the_page_says_so,
 ];
 
 const SIZE: [u32; 2] = [16, 8];
 
-/// The transparency scene that has pictures, of `cpu`.
+/// The scene for which [`write`] adds pictures of `cpu`.
 const WINDOWS: &str = "[data-name='transparency/windows']";
 
 /// As in `crates/truth/tests/truth/distances.rs`.
@@ -51,7 +36,8 @@ fn truth(x: u32, y: u32) -> [u8; 3] {
     [(x * 16) as u8, (y * 32) as u8, (x * y * 2) as u8]
 }
 
-fn drawn(x: u32, y: u32) -> [u8; 3] {
+/// A wrong picture.
+fn wrong_picture(x: u32, y: u32) -> [u8; 3] {
     let [r, g, b] = truth(x, y);
     if x >= 8 {
         [255 - r, g, b]
@@ -62,9 +48,9 @@ fn drawn(x: u32, y: u32) -> [u8; 3] {
 
 /// Writes a run with pictures, and its page.
 pub(super) fn write(folder: &Path) -> PathBuf {
-    let plain = folder.join("plain-methods");
-    synthetic::methods::write(&plain);
-    let run = Run::read(&plain).unwrap();
+    let without_pictures = folder.join("plain-methods");
+    synthetic::methods::write(&without_pictures);
+    let run = Run::read(&without_pictures).unwrap();
     let out = folder.join("methods");
     let mut writer = RunWriter::create(&out, &run.header).unwrap();
     fs::create_dir_all(out.join("pictures")).unwrap();
@@ -73,7 +59,7 @@ pub(super) fn write(folder: &Path) -> PathBuf {
         picture.save(out.join("pictures").join(name)).unwrap();
     };
     save("truth.png", &truth);
-    save("drawn.png", &drawn);
+    save("drawn.png", &wrong_picture);
     for record in run.records {
         let mut record = record;
         if record.adapter == "cpu" && record.case.contains("/windows/") {
@@ -91,14 +77,14 @@ pub(super) fn write(folder: &Path) -> PathBuf {
 
 fn a_budget_says_which_methods_are_left(chromium: &Chromium, path: &Path) {
     let page = chromium.open(path, "");
-    let left = || -> Vec<String> {
+    let remaining_methods = || -> Vec<String> {
         page.eval("[...document.querySelectorAll('.card .left')].map(p => p.textContent)")
     };
     let count =
         |what: &str| -> u64 { page.eval(&format!("document.querySelectorAll(\"{what}\").length")) };
     let cards = count(".card") as usize;
     assert!(cards > 1);
-    assert_eq!(left(), vec![String::new(); cards], "no budget");
+    assert_eq!(remaining_methods(), vec![String::new(); cards], "no budget");
     assert_eq!(count(".card .on:not(.off)") as usize, cards, "one adapter");
     let set = |id: &str, value: &str| {
         page.run(&format!(
@@ -107,18 +93,18 @@ fn a_budget_says_which_methods_are_left(chromium: &Chromium, path: &Path) {
     };
     set("most-error", "0");
     assert_eq!(page.text("#budget output[for=most-error]"), "0\u{a0}%");
-    assert_eq!(left(), ["Left: none.", "Left: depth-peeling."]);
+    assert_eq!(remaining_methods(), ["Left: none.", "Left: depth-peeling."]);
     assert!(count(".card .on:not(.off) .of.beyond") > 0);
     // No method draws in zero time, and another adapter has its own marks.
     set("most-time", "0");
     set("on", "1");
     assert_eq!(count(".card .on[data-on='1']:not(.off)") as usize, cards);
     assert!(
-        left()
+        remaining_methods()
             .iter()
             .all(|text| text == "Left: none." || text.is_empty()),
         "{:?}",
-        left()
+        remaining_methods()
     );
     assert_eq!(count(".card.none"), count(".card .left:not(:empty)"));
 }
@@ -188,8 +174,10 @@ fn a_slider_swaps_pictures_and_moves_the_mark(chromium: &Chromium, path: &Path) 
     let text = || page.text(&format!("{WINDOWS} .setting output"));
     assert_eq!(text(), "alpha 0.5");
     assert_eq!(shown(&page, ".pictures"), ["2"]);
-    let place = "(e => e.getBoundingClientRect().x)(document.querySelector(\"[data-name='transparency/windows'] .cursor:not(.off)\"))";
-    let before: f64 = page.eval(place);
+    let mark = format!(
+        "(e => e.getBoundingClientRect().x)(document.querySelector(\"{WINDOWS} .cursor:not(.off)\"))"
+    );
+    let before: f64 = page.eval(&mark);
     page.run(&format!(
         "document.querySelector(\"{WINDOWS} .setting input\").focus()"
     ));
@@ -197,7 +185,7 @@ fn a_slider_swaps_pictures_and_moves_the_mark(chromium: &Chromium, path: &Path) 
     assert_eq!(text(), "alpha 0.7");
     assert_eq!(shown(&page, ".pictures"), ["3"]);
     assert!(
-        page.eval::<f64>(place) > before,
+        page.eval::<f64>(&mark) > before,
         "the mark on the curve moves"
     );
     // One group of marks per adapter, all at the same setting.
@@ -219,24 +207,30 @@ fn a_slider_swaps_pictures_and_moves_the_mark(chromium: &Chromium, path: &Path) 
     );
 }
 
-const UNSORTED: &str =
-    "[data-name='transparency/windows'] .pictures:not(.off) [data-method=unsorted]";
+/// Returns the selector of a method's pictures in [`WINDOWS`].
+fn pictures_of(method: &str) -> String {
+    format!("{WINDOWS} .pictures:not(.off) [data-method={method}]")
+}
 
 /// Opens the page where its pictures are compared.
 fn with_pictures<'c>(chromium: &'c Chromium, path: &Path) -> Page<'c> {
     let page = chromium.open(path, "");
+    let unsorted = pictures_of("unsorted");
     page.run(&format!(
-        "document.querySelector(\"{UNSORTED}\").scrollIntoView({{block: 'center'}})"
+        "document.querySelector(\"{unsorted}\").scrollIntoView({{block: 'center'}})"
     ));
     page.wait(&format!(
-        "document.querySelectorAll(\"{UNSORTED} button\").length === 3"
+        "document.querySelectorAll(\"{unsorted} button\").length === 3"
     ));
     page
 }
 
 fn pictures_are_enlarged_by_click_and_by_keys(chromium: &Chromium, path: &Path) {
     let page = with_pictures(chromium, path);
-    page.click(&format!("{UNSORTED} button[data-mode=picture]"));
+    page.click(&format!(
+        "{} button[data-mode=picture]",
+        pictures_of("unsorted")
+    ));
     page.wait("document.querySelector('dialog').open");
     assert_eq!(
         page.text("#viewer-title"),
@@ -247,7 +241,7 @@ fn pictures_are_enlarged_by_click_and_by_keys(chromium: &Chromium, path: &Path) 
         let codes = |color: [u8; 3]| color.map(|c| format!("{c:4}")).concat();
         format!(
             "texel {x},{y}\npicture    {}\ntruth      {}\n",
-            codes(drawn(x, y)),
+            codes(wrong_picture(x, y)),
             codes(truth(x, y))
         )
     };
@@ -278,13 +272,17 @@ fn pictures_are_enlarged_by_click_and_by_keys(chromium: &Chromium, path: &Path) 
     assert_eq!(page.texts("dialog [aria-pressed=true]"), ["difference"]);
 }
 
+/// The mean of the authors' code for these pictures, as in `crates/truth/tests/truth/distances.rs`.
+const AUTHORS_MEAN: f64 = 0.7392;
+
 fn the_pages_flip_is_that_of_its_authors_code(chromium: &Chromium, path: &Path) {
     let page = with_pictures(chromium, path);
     let mean: f64 = page.eval(&format!(
-        "Number(document.querySelector(\"{UNSORTED}\").dataset.mapMean)"
+        "Number(document.querySelector(\"{}\").dataset.mapMean)",
+        pictures_of("unsorted")
     ));
-    assert!((mean - 0.7392).abs() < 2e-3, "{mean}");
-    let same = "[data-name='transparency/windows'] .pictures:not(.off) [data-method=sorted]";
+    assert!((mean - AUTHORS_MEAN).abs() < 2e-3, "{mean}");
+    let same = pictures_of("sorted");
     page.wait(&format!(
         "document.querySelectorAll(\"{same} button\").length === 3"
     ));
@@ -315,15 +313,15 @@ fn break_points_lead_to_the_pictures_beside_them(chromium: &Chromium, path: &Pat
         page.text(&format!("{WINDOWS} .setting output")),
         "alpha 0.7"
     );
-    let seen = format!(
+    let in_view = format!(
         "(r => r.top >= 0 && r.top < innerHeight)(document.querySelector(\"{WINDOWS} .pictures:not(.off)\").getBoundingClientRect())"
     );
-    page.wait(&seen);
+    page.wait(&in_view);
     page.click("#side0");
     assert_eq!(shown(&page, ".pictures"), ["2"]);
 }
 
-fn a_narrow_window_and_no_scripts(chromium: &Chromium, path: &Path) {
+fn a_narrow_window_does_not_scroll_sideways(chromium: &Chromium, path: &Path) {
     let page = with_pictures(chromium, path);
     page.resize(390, 800);
     page.wait("innerWidth === 390");
@@ -336,7 +334,11 @@ fn a_narrow_window_and_no_scripts(chromium: &Chromium, path: &Path) {
     let reach: [u64; 2] =
         page.eval("(e => [e.scrollWidth, e.clientWidth])(document.querySelector('#claims .wide'))");
     assert!(reach[0] <= reach[1], "{reach:?}");
-    // No text of a chart overlaps another or extends beyond the chart.
+}
+
+/// No text of a chart overlaps another or extends beyond the chart.
+fn texts_of_charts_do_not_overlap(chromium: &Chromium, path: &Path) {
+    let page = chromium.open(path, "");
     page.resize(1400, 900);
     page.wait("innerWidth === 1400");
     let clashes: Vec<String> = page.eval(
@@ -349,7 +351,9 @@ fn a_narrow_window_and_no_scripts(chromium: &Chromium, path: &Path) {
            ...rects.slice(i + 1).filter(([, s]) => r.left + 1 < s.right && s.left + 1 < r.right && r.top + 3 < s.bottom && s.top + 3 < r.bottom).map(([b]) => a + ' over ' + b)]); })",
     );
     assert_eq!(clashes, [] as [&str; 0]);
+}
 
+fn without_scripts_the_page_says_so(chromium: &Chromium, path: &Path) {
     let page = chromium.open_without_scripts(path);
     assert!(page.eval::<bool>(&format!(
         "document.querySelector(\"{WINDOWS} .setting input\").disabled"
