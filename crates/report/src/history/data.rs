@@ -16,7 +16,10 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// The number of bytes at which a file ends and the next begins.
-const FILE: usize = 100_000;
+const FILE_BYTES: usize = 100_000;
+
+/// About the bytes of an index and its comma.
+const INDEX_BYTES: usize = 4;
 
 /// Returns the text of a file.
 pub(super) fn file(name: &str, value: &str) -> String {
@@ -24,7 +27,7 @@ pub(super) fn file(name: &str, value: &str) -> String {
     format!("etalonHistory(\"{name}\",{value});\n")
 }
 
-/// Packs texts into files of about [`FILE`] bytes, without dividing a text.
+/// Packs texts into files of about [`FILE_BYTES`] bytes, without dividing a text.
 #[derive(Default)]
 pub(super) struct Files {
     /// The number of the first text of each file.
@@ -36,7 +39,7 @@ pub(super) struct Files {
 impl Files {
     pub(super) fn push(&mut self, number: usize, text: &str) {
         match self.files.last_mut() {
-            Some(file) if file.len() + text.len() < FILE => {
+            Some(file) if file.len() + text.len() < FILE_BYTES => {
                 file.push(',');
                 file.push_str(text);
             }
@@ -48,55 +51,11 @@ impl Files {
     }
 }
 
-/// Returns the runs, timelines, drivers, machines and looks as JSON.
+/// Returns the runs, timelines, drivers, machines and looks as JSON. `script/runs.js` names the places of a row.
 pub(super) fn runs(model: &Model<'_>) -> Value {
-    let places = model.places;
     let (mut drivers, mut machines) = (Interner::default(), Interner::default());
-    let timelines: Vec<Value> = places
-        .timelines
-        .iter()
-        .map(|line| {
-            let runs = line.runs.iter().map(|run| {
-                let a = &run.part.adapter;
-                let driver = drivers.place([
-                    a.shown_version().to_owned(),
-                    a.info.driver.clone(),
-                    a.info.device.clone(),
-                ]);
-                json!([run.place, u8::from(run.whole), driver, run.part.records])
-            });
-            json!([*line.name, runs.collect::<Vec<Value>>()])
-        })
-        .collect();
-    let runs: Vec<Value> = places
-        .runs
-        .iter()
-        .map(|run| {
-            let on = model.history.machine(run.machine).map(machine);
-            let on = machines.place(on.unwrap_or_default());
-            let labels: Vec<[String; 2]> = run
-                .labels
-                .iter()
-                .map(|(key, value)| [key.to_string(), value.to_string()])
-                .collect();
-            json!([
-                run.id.number(),
-                run.kind.name(),
-                format_time(run.started),
-                match (run.kind, run.released) {
-                    (Kind::Release, Some(_)) => run.day(),
-                    _ => String::new(),
-                },
-                run.etalon,
-                run.commit.clone().unwrap_or_default(),
-                on,
-                run.profile.clone().unwrap_or_default(),
-                run.missing,
-                labels,
-                run.digest_text().chars().take(12).collect::<String>()
-            ])
-        })
-        .collect();
+    let timelines = timeline_rows(model, &mut drivers);
+    let runs = run_rows(model, &mut machines);
     json!({
         "runs": runs,
         "timelines": timelines,
@@ -104,6 +63,51 @@ pub(super) fn runs(model: &Model<'_>) -> Value {
         "machines": machines,
         "looks": model.looks.data(),
     })
+}
+
+fn timeline_rows(model: &Model<'_>, drivers: &mut Interner<[String; 3]>) -> Vec<Value> {
+    let timelines = model.places.timelines.iter().map(|line| {
+        let runs = line.runs.iter().map(|run| {
+            let a = &run.part.adapter;
+            let driver = drivers.place([
+                a.shown_version().to_owned(),
+                a.info.driver.clone(),
+                a.info.device.clone(),
+            ]);
+            json!([run.place, u8::from(run.whole), driver, run.part.records])
+        });
+        json!([*line.name, runs.collect::<Vec<Value>>()])
+    });
+    timelines.collect()
+}
+
+fn run_rows(model: &Model<'_>, machines: &mut Interner<String>) -> Vec<Value> {
+    let runs = model.places.runs.iter().map(|run| {
+        let machine = model.history.machine(run.machine).map(machine);
+        let machine = machines.place(machine.unwrap_or_default());
+        let labels: Vec<[String; 2]> = run
+            .labels
+            .iter()
+            .map(|(key, value)| [key.to_string(), value.to_string()])
+            .collect();
+        json!([
+            run.id.number(),
+            run.kind.name(),
+            format_time(run.started),
+            match (run.kind, run.released) {
+                (Kind::Release, Some(_)) => run.day(),
+                _ => String::new(),
+            },
+            run.etalon,
+            run.commit.clone().unwrap_or_default(),
+            machine,
+            run.profile.clone().unwrap_or_default(),
+            run.missing,
+            labels,
+            run.digest_text().chars().take(12).collect::<String>()
+        ])
+    });
+    runs.collect()
 }
 
 /// Returns the ids of all cases in the given order, each as the length of the prefix it shares with the id
@@ -128,58 +132,61 @@ pub(super) struct CaseFiles {
     /// For each file except the first, the index of its first case among all cases.
     first: Vec<usize>,
     files: Vec<String>,
-    now: HistoryFile,
+    current: HistoryFile,
 }
 
 /// The file being filled.
 #[derive(Default)]
 struct HistoryFile {
     courses: Interner<String>,
-    of: Vec<usize>,
+    /// The index of each case's history in `courses`.
+    course_of_case: Vec<usize>,
     /// Entries of cases with times or triage: the case's index within the file, the file of its times or -1,
     /// and the triage entries.
-    more: Vec<Value>,
+    extras: Vec<Value>,
     bytes: usize,
 }
 
 impl CaseFiles {
-    /// Adds the case with this index: its history on all timelines, the file of its times, and its triage
-    /// entries.
+    /// Adds a case: its history on all timelines, the file of its times, and its triage entries. `rank` is its
+    /// position in the order of the files, `case` its index in the courses. Unlike [`Files`], a file can exceed
+    /// its size by one case, whose history is often in it already.
     pub(super) fn push(
         &mut self,
-        place: usize,
+        rank: usize,
         case: usize,
         timelines: &[Timeline<'_>],
         times: Option<usize>,
-        said: &[&TriageEntry],
+        triage: &[&TriageEntry],
     ) {
-        if self.now.bytes > FILE {
-            self.files.push(std::mem::take(&mut self.now).text());
-            self.first.push(place);
+        if self.current.bytes > FILE_BYTES {
+            self.files.push(std::mem::take(&mut self.current).text());
+            self.first.push(rank);
         }
-        let now = &mut self.now;
+        let current = &mut self.current;
         let on_line = |(line, timeline): (usize, &Timeline<'_>)| {
             let courses = &timeline.courses;
             Some(course_data(line, courses.of[case].as_ref()?, courses))
         };
         let lines = timelines.iter().enumerate().filter_map(on_line);
         let text = lines.collect::<Value>().to_string();
-        now.bytes += 4;
-        if !now.courses.has(&text) {
-            now.bytes += text.len();
+        current.bytes += INDEX_BYTES;
+        if !current.courses.has(&text) {
+            current.bytes += text.len();
         }
-        if times.is_some() || !said.is_empty() {
-            let said: Vec<Value> = said.iter().map(|entry| entry_data(entry)).collect();
-            let more = json!([now.of.len(), times.map_or(-1, |t| t as i64), said]);
-            now.bytes += more.to_string().len();
-            now.more.push(more);
+        if times.is_some() || !triage.is_empty() {
+            let triage: Vec<Value> = triage.iter().map(|entry| entry_data(entry)).collect();
+            let index = current.course_of_case.len();
+            let extra = json!([index, times.map_or(-1, |t| t as i64), triage]);
+            current.bytes += extra.to_string().len();
+            current.extras.push(extra);
         }
-        now.of.push(now.courses.place(text));
+        current.course_of_case.push(current.courses.place(text));
     }
 
     /// Returns the first case of each file, and the texts of all files.
     pub(super) fn finish(mut self) -> (Vec<usize>, Vec<String>) {
-        self.files.push(self.now.text());
+        self.files.push(self.current.text());
         self.first.insert(0, 0);
         (self.first, self.files)
     }
@@ -188,7 +195,11 @@ impl CaseFiles {
 impl HistoryFile {
     fn text(self) -> String {
         let courses = self.courses.values.join(",");
-        format!("[[{courses}],{},{}]", json!(self.of), json!(self.more))
+        format!(
+            "[[{courses}],{},{}]",
+            json!(self.course_of_case),
+            json!(self.extras)
+        )
     }
 }
 
@@ -234,14 +245,11 @@ pub(super) fn times(id: &str, history: &History, series: &[&CaseTimes]) -> Strin
     let series_data: Vec<Value> = series
         .iter()
         .map(|series| {
-            let on = history
-                .machine(series.machine)
-                .map(machine)
-                .unwrap_or_default();
+            let machine = history.machine(series.machine).map(machine);
             let times: Vec<Value> = series.times.iter().map(timed).collect();
             json!([
                 series.line,
-                on,
+                machine.unwrap_or_default(),
                 series.ruler.clone().unwrap_or_default(),
                 times
             ])
@@ -250,6 +258,7 @@ pub(super) fn times(id: &str, history: &History, series: &[&CaseTimes]) -> Strin
     json!([id, series_data]).to_string()
 }
 
+/// Returns times and their changes. `script/chart.js` names the places of a row.
 fn timed(timed: &Timed) -> Value {
     let micros = |seconds: f64| number(seconds * 1e6);
     let medians: Vec<Value> = timed.points.iter().map(|p| micros(p.median)).collect();
@@ -310,7 +319,7 @@ fn ranges(numbers: &[usize]) -> Vec<usize> {
         .collect()
 }
 
-/// Returns a number with four digits.
+/// Returns a number rounded to four significant digits.
 fn number(value: f64) -> Value {
     if !value.is_finite() || value == 0.0 {
         return json!(0);
@@ -327,36 +336,38 @@ fn number(value: f64) -> Value {
 /// Returns the events of each run, by the run's index: timeline, kind, and cases as indices into the list of
 /// all cases.
 pub(super) fn events(model: &Model<'_>, ranks: &[usize]) -> BTreeMap<usize, String> {
-    let mut found: BTreeMap<usize, BTreeMap<(usize, usize), Vec<usize>>> = BTreeMap::new();
+    let mut events_by_run: BTreeMap<usize, BTreeMap<(usize, usize), Vec<usize>>> = BTreeMap::new();
     for (line, timeline) in model.timelines.iter().enumerate() {
         for (case, course) in timeline.courses.of.iter().enumerate() {
             for event in course.iter().flat_map(|course| &course.events) {
                 let place = timeline.line.runs[event.at as usize].place;
-                let kinds = found.entry(place).or_default();
+                let kinds = events_by_run.entry(place).or_default();
                 let key = (line, news::number(event.event));
                 kinds.entry(key).or_default().push(ranks[case]);
             }
         }
     }
     let text = |kinds: BTreeMap<(usize, usize), Vec<usize>>| -> Vec<Value> {
-        let each = kinds.into_iter().map(|((line, kind), mut cases)| {
-            cases.sort_unstable();
-            json!([line, kind, cases])
-        });
-        each.collect()
+        let kinds = kinds.into_iter();
+        kinds
+            .map(|((line, kind), mut cases)| {
+                cases.sort_unstable();
+                json!([line, kind, cases])
+            })
+            .collect()
     };
-    found
+    events_by_run
         .into_iter()
         .map(|(place, kinds)| (place, json!([place, text(kinds)]).to_string()))
         .collect()
 }
 
 /// The maximum number of lines of news that are kept.
-const NEWS: usize = 5_000;
+const MAX_NEWS: usize = 5_000;
 
-/// Returns all lines of news.
+/// Returns the first [`MAX_NEWS`] lines of news.
 pub(super) fn news(news: &News) -> Value {
-    let lines = news.items.iter().take(NEWS).map(|item| {
+    let lines = news.items.iter().take(MAX_NEWS).map(|item| {
         json!([
             item.kind.colour(),
             item.word,
@@ -374,7 +385,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_short() {
+    fn numbers_have_four_significant_digits() {
         for (value, expected) in [
             (1234.56, "1235"),
             (12.3456, "12.35"),
@@ -388,11 +399,15 @@ mod tests {
         ] {
             assert_eq!(number(value).to_string(), expected);
         }
+    }
+
+    #[test]
+    fn ranges_are_first_numbers_and_lengths() {
         assert_eq!(ranges(&[0, 1, 2, 5, 7, 8]), [0, 3, 5, 1, 7, 2]);
     }
 
     #[test]
-    fn ids_are_stored_as_differences_from_the_one_before() {
+    fn ids_share_prefixes_counted_in_utf_16() {
         let ids: Vec<Rc<str>> = ["a/𝄞x", "a/𝄞y", "b"].map(Rc::from).to_vec();
         let text = cases(&ids, &[0, 1, 2]).to_string();
         assert_eq!(text, r#"[[0,"a/𝄞x"],[4,"y"],[0,"b"]]"#);
