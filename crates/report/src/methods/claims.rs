@@ -15,9 +15,9 @@ use outcome::{CaseFigure, Holds, Reproduction};
 
 /// Returns the checked claims that the run has measurements for, and the others.
 fn checked<'a>(methods: &Methods<'a>) -> (Vec<Checked<'a>>, Vec<Checked<'a>>) {
-    claims()
-        .map(|c| check(c, methods))
-        .partition(|checked| !(checked.figures.is_empty() && checked.blind.is_empty()))
+    claims().map(|c| check(c, methods)).partition(|checked| {
+        !(checked.figures.is_empty() && checked.counting_before_depth_test.is_empty())
+    })
 }
 
 /// Returns the outcomes of claims for a terminal.
@@ -79,8 +79,8 @@ fn measured(checked: &Checked<'_>) -> Markup {
                 b { (figures.text) } small { " " (figures.places) }
             }
         }
-        @if !checked.blind.is_empty() {
-            div.u { span.chip.u { "not measured" } " on " (checked.blind.join(", ")) ", where fragments are counted before the depth test" }
+        @if !checked.counting_before_depth_test.is_empty() {
+            div.u { span.chip.u { "not measured" } " on " (checked.counting_before_depth_test.join(", ")) ", where fragments are counted before the depth test" }
         }
     }
 }

@@ -12,12 +12,88 @@ const HALF_CODE: f64 = 0.5 / 255.0;
 /// The factor up to which two errors count as the same.
 const ALIKE: f64 = 1.5;
 
+/// The ratio of a curve's last value to its first from which on values are interpolated by their logarithms.
+const LOGARITHMIC_SPAN: f64 = 20.0;
+
+/// Passes that a method can need beside those that its parameter counts, such as a first and a last one.
+const FURTHER_PASSES: u32 = 2;
+
+/// The distance from a half level up to which a parameter, which comes from a decimal text, is on it.
+const ON_LEVEL: f64 = 1e-6;
+
+/// The largest error of a value on a level, a little more than one 8-bit code, and the factor by which errors
+/// between levels exceed the errors on them.
+const LEVEL_ERROR: f64 = 0.005;
+const LEVEL_CONTRAST: f64 = 4.0;
+
+/// A number and the ends of its interval, which equal the number if it is exact.
+#[derive(Clone, Copy, Debug, Default)]
+struct Estimate {
+    value: f64,
+    low: f64,
+    high: f64,
+}
+
+impl Estimate {
+    fn exact(value: f64) -> Self {
+        Self {
+            value,
+            low: value,
+            high: value,
+        }
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self {
+            value: self.value + other.value,
+            low: self.low + other.low,
+            high: self.high + other.high,
+        }
+    }
+
+    fn scaled(self, factor: f64) -> Self {
+        let Self { value, low, high } = self;
+        let (low, high) = if factor < 0.0 {
+            (high, low)
+        } else {
+            (low, high)
+        };
+        Self {
+            value: factor * value,
+            low: factor * low,
+            high: factor * high,
+        }
+    }
+
+    /// Returns the ratio; `None` unless this is at least zero and the other above zero for certain.
+    fn over(self, other: Self) -> Option<Self> {
+        (other.low > 0.0 && self.low >= 0.0).then(|| Self {
+            value: self.value / other.value,
+            low: self.low / other.high,
+            high: self.high / other.low,
+        })
+    }
+
+    fn is_finite(self) -> bool {
+        [self.value, self.low, self.high]
+            .iter()
+            .all(|v| v.is_finite())
+    }
+}
+
+/// The part of a curve that stays within the limit.
+enum ResolvedRange {
+    /// From this value on.
+    From(f64),
+    Nothing,
+}
+
 /// A claim and what the records show about it.
 pub(super) struct Checked<'a> {
     pub(super) claim: &'static Claim,
     pub(super) figures: Vec<CaseFigure>,
-    /// Adapters that count fragments before the depth test, for claims that depend on it.
-    pub(super) blind: Vec<&'a str>,
+    /// Adapters that count fragments before the depth test, which show nothing about a claim that depends on it.
+    pub(super) counting_before_depth_test: Vec<&'a str>,
 }
 
 /// Returns the figures for and against a claim.
@@ -25,7 +101,7 @@ pub(super) fn check<'a>(claim: &'static Claim, methods: &Methods<'a>) -> Checked
     let mut checked = Checked {
         claim,
         figures: Vec::new(),
-        blind: Vec::new(),
+        counting_before_depth_test: Vec::new(),
     };
     let scenes = methods.scenes().filter(|s| {
         s.question == claim.question
@@ -33,21 +109,24 @@ pub(super) fn check<'a>(claim: &'static Claim, methods: &Methods<'a>) -> Checked
     });
     for scene in scenes {
         for (index, adapter) in methods.adapters.iter().enumerate() {
-            let on = On {
+            let claim_check = ClaimCheck {
                 claim,
                 scene,
                 adapter: index,
                 name: adapter.name,
             };
-            let mut figures = on.figures();
+            let mut figures = claim_check.figures();
             if figures.is_empty() {
                 continue;
             }
             if claim.fewer.is_some() {
-                figures.retain(|(setting, _)| setting.as_ref().is_some_and(|s| on.counts(s)));
+                figures.retain(|(setting, _)| {
+                    let setting = setting.as_ref();
+                    setting.is_some_and(|s| claim_check.depth_test_lowers_fragments(s))
+                });
                 if figures.is_empty() {
-                    if !checked.blind.contains(&adapter.name) {
-                        checked.blind.push(adapter.name);
+                    if !checked.counting_before_depth_test.contains(&adapter.name) {
+                        checked.counting_before_depth_test.push(adapter.name);
                     }
                     continue;
                 }
@@ -59,7 +138,7 @@ pub(super) fn check<'a>(claim: &'static Claim, methods: &Methods<'a>) -> Checked
 }
 
 /// A claim, checked on a family of cases and an adapter.
-struct On<'s, 'a> {
+struct ClaimCheck<'s, 'a> {
     claim: &'static Claim,
     scene: &'s SceneSeries<'a>,
     adapter: usize,
@@ -67,22 +146,21 @@ struct On<'s, 'a> {
 }
 
 /// A figure and its setting; `None` for a figure of a whole curve.
-type Found<'a> = (Option<SceneSetting<'a>>, CaseFigure);
+type SettingFigure<'a> = (Option<SceneSetting<'a>>, CaseFigure);
 
-impl<'a> On<'_, 'a> {
-    fn figures(&self) -> Vec<Found<'a>> {
+impl<'a> ClaimCheck<'_, 'a> {
+    fn figures(&self) -> Vec<SettingFigure<'a>> {
         match self.claim.test {
             Test::Value {
                 quantity,
                 of,
                 holds,
             } => self.at_settings(|s| {
-                let (value, interval) = self.quantity(s, of, quantity)?;
                 let unit = match quantity {
                     Quantity::Rmse | Quantity::Largest => Unit::Share,
                     other => Unit::Count(other.name()),
                 };
-                Some((unit, value, interval, holds))
+                Some((unit, self.quantity(s, of, quantity)?, holds))
             }),
             Test::Ratio {
                 quantity,
@@ -90,19 +168,15 @@ impl<'a> On<'_, 'a> {
                 over,
                 holds,
             } => self.at_settings(|s| {
-                let (top, [top_low, top_high]) = self.sum(s, of, quantity)?;
-                let (bottom, [bottom_low, bottom_high]) = self.sum(s, over, quantity)?;
-                let interval = [top_low / bottom_high, top_high / bottom_low];
-                let known = bottom_low > 0.0 && top_low >= 0.0;
-                known.then_some((Unit::Factor, top / bottom, interval, holds))
+                let (top, bottom) = (self.sum(s, of, quantity)?, self.sum(s, over, quantity)?);
+                Some((Unit::Factor, top.over(bottom)?, holds))
             }),
             Test::Same { methods: [a, b] } => self.same(a, b),
             Test::HalfCodes { of, holds } => self.at_settings(|s| {
                 let (_, parameter) = s.parameter.filter(|(_, v)| *v > 0.0)?;
-                let (largest, _) = self.quantity(s, of, Quantity::Largest)?;
-                let value = largest * parameter / HALF_CODE;
-                let unit = Unit::Count("halves of a code over alpha");
-                Some((unit, value, [value; 2], holds))
+                let largest = self.quantity(s, of, Quantity::Largest)?.value;
+                let halves = Estimate::exact(largest * parameter / HALF_CODE);
+                Some((Unit::Count("halves of a code over alpha"), halves, holds))
             }),
             Test::Trend {
                 quantity,
@@ -111,12 +185,9 @@ impl<'a> On<'_, 'a> {
             } => self.per_series(of, |series| {
                 let points = self.points(series);
                 let (first, last) = (points.first()?, points.last()?);
-                let (start, [start_low, start_high]) = measured(first, quantity)?;
-                let (end, [low, high]) = measured(last, quantity)?;
-                (points.len() > 1 && start_low > 0.0).then(|| {
-                    let interval = [low / start_high, high / start_low];
-                    self.figure("", Unit::Factor, end / start, interval, holds)
-                })
+                let (start, end) = (measured(first, quantity)?, measured(last, quantity)?);
+                let factor = end.over(start).filter(|_| points.len() > 1)?;
+                Some(self.figure("", Unit::Factor, factor, holds))
             }),
             Test::Unlike { right, wrong } => self.unlike(right, wrong),
             Test::Halves { of, over } => self.halves(of, over),
@@ -126,15 +197,16 @@ impl<'a> On<'_, 'a> {
     }
 
     /// Returns true if the depth test lowers the adapter's count at a setting.
-    fn counts(&self, setting: &SceneSetting<'a>) -> bool {
+    fn depth_test_lowers_fragments(&self, setting: &SceneSetting<'a>) -> bool {
         let Some([less, more]) = self.claim.fewer else {
             return true;
         };
         let fragments = |method| self.quantity(setting, method, Quantity::Fragments);
-        matches!((fragments(less), fragments(more)), (Some((less, _)), Some((more, _))) if less < more)
+        matches!((fragments(less), fragments(more)), (Some(less), Some(more)) if less.value < more.value)
     }
 
-    fn counted(&self, value: Option<f64>) -> bool {
+    /// Returns true if the claim is about a value of the parameter.
+    fn is_claimed_value(&self, value: Option<f64>) -> bool {
         match (self.claim.values, value) {
             (ClaimedValues::All, _) => true,
             (ClaimedValues::Between(low, high), Some(v)) => (low..=high).contains(&v),
@@ -142,22 +214,22 @@ impl<'a> On<'_, 'a> {
         }
     }
 
-    /// Returns the figure at each setting that counts, if it has one.
+    /// Returns the figure at each setting that the claim is about, if it has one.
     fn at_settings(
         &self,
-        figure: impl Fn(&SceneSetting<'a>) -> Option<(Unit, f64, [f64; 2], FigureCondition)>,
-    ) -> Vec<Found<'a>> {
+        figure: impl Fn(&SceneSetting<'a>) -> Option<(Unit, Estimate, FigureCondition)>,
+    ) -> Vec<SettingFigure<'a>> {
         let settings = self.scene.settings().into_iter();
-        let counted = settings.filter(|s| self.counted(s.parameter.map(|(_, value)| value)));
-        let found = counted.filter_map(|s| {
-            let (unit, value, interval, holds) = figure(&s)?;
-            let finite = value.is_finite() && interval.iter().all(|v| v.is_finite());
-            finite.then(|| {
-                let figure = self.figure(&s.text(), unit, value, interval, holds);
+        let claimed =
+            settings.filter(|s| self.is_claimed_value(s.parameter.map(|(_, value)| value)));
+        let figures = claimed.filter_map(|s| {
+            let (unit, estimate, condition) = figure(&s)?;
+            estimate.is_finite().then(|| {
+                let figure = self.figure(&s.text(), unit, estimate, condition);
                 (Some(s), figure)
             })
         });
-        found.collect()
+        figures.collect()
     }
 
     /// Returns a figure of each curve of a method.
@@ -165,7 +237,7 @@ impl<'a> On<'_, 'a> {
         &self,
         method: &str,
         figure: impl Fn(&MethodSeries<'a>) -> Option<CaseFigure>,
-    ) -> Vec<Found<'a>> {
+    ) -> Vec<SettingFigure<'a>> {
         let series = self.scene.series.iter().filter(|s| s.method == method);
         series.filter_map(|s| Some((None, figure(s)?))).collect()
     }
@@ -174,31 +246,30 @@ impl<'a> On<'_, 'a> {
         &self,
         setting: &str,
         unit: Unit,
-        value: f64,
-        interval: [f64; 2],
-        holds: FigureCondition,
+        estimate: Estimate,
+        condition: FigureCondition,
     ) -> CaseFigure {
+        let Estimate { value, low, high } = estimate;
         CaseFigure {
             scene: self.scene.name.to_owned(),
             setting: setting.to_owned(),
             adapter: self.name.to_owned(),
             unit,
             value,
-            interval,
-            holds: Holds::of(|v| holds.met(v), value, interval),
+            interval: [low, high],
+            holds: Holds::of(|v| condition.met(v), value, [low, high]),
         }
     }
 
-    fn told(&self, setting: &str, text: String, holds: bool) -> CaseFigure {
+    fn text_figure(&self, setting: &str, text: String, holds: bool) -> CaseFigure {
         CaseFigure {
+            scene: self.scene.name.to_owned(),
+            setting: setting.to_owned(),
+            adapter: self.name.to_owned(),
+            unit: Unit::Text(text),
+            value: 0.0,
+            interval: [0.0; 2],
             holds: holds.into(),
-            ..self.figure(
-                setting,
-                Unit::Text(text),
-                0.0,
-                [0.0; 2],
-                FigureCondition::AtMost(0.0),
-            )
         }
     }
 
@@ -213,7 +284,7 @@ impl<'a> On<'_, 'a> {
         setting: &SceneSetting<'a>,
         method: &str,
         quantity: Quantity,
-    ) -> Option<(f64, [f64; 2])> {
+    ) -> Option<Estimate> {
         measured(self.point(setting, method)?, quantity)
     }
 
@@ -223,33 +294,26 @@ impl<'a> On<'_, 'a> {
         setting: &SceneSetting<'a>,
         terms: &[(&str, f64)],
         quantity: Quantity,
-    ) -> Option<(f64, [f64; 2])> {
-        let mut sum = (0.0, [0.0; 2]);
+    ) -> Option<Estimate> {
+        let mut sum = Estimate::default();
         for (method, sign) in terms {
-            let (value, [low, high]) = self.quantity(setting, method, quantity)?;
-            sum.0 += sign * value;
-            let ends = if *sign < 0.0 {
-                [high, low]
-            } else {
-                [low, high]
-            };
-            sum.1[0] += sign * ends[0];
-            sum.1[1] += sign * ends[1];
+            let term = self.quantity(setting, method, quantity)?;
+            sum = sum.plus(term.scaled(*sign));
         }
         Some(sum)
     }
 
-    /// Returns the points of a curve that count, in order.
+    /// Returns the points of a curve that the claim is about, in order.
     fn points<'p>(&self, series: &'p MethodSeries<'a>) -> Vec<&'p SeriesPoint<'a>> {
-        let times = series.on(self.adapter);
-        times
-            .filter(|p| p.value.is_some() && self.counted(p.value))
+        let points = series.on(self.adapter);
+        points
+            .filter(|p| p.value.is_some() && self.is_claimed_value(p.value))
             .collect()
     }
 
-    fn same(&self, a: &str, b: &str) -> Vec<Found<'a>> {
+    fn same(&self, a: &str, b: &str) -> Vec<SettingFigure<'a>> {
         let settings = self.scene.settings().into_iter();
-        let found = settings.filter_map(|s| {
+        let figures = settings.filter_map(|s| {
             let [first, other] = [a, b].map(|method| {
                 let distance = self.point(&s, method)?.measured.distance;
                 Some((distance.rmse, distance.max))
@@ -260,19 +324,19 @@ impl<'a> On<'_, 'a> {
             } else {
                 format!("RMSE {} and {}", share(first.0), share(other.0))
             };
-            let figure = self.told(&s.text(), text, first == other);
+            let figure = self.text_figure(&s.text(), text, first == other);
             Some((Some(s), figure))
         });
-        found.collect()
+        figures.collect()
     }
 
     /// Compares two methods at each value at which both were measured.
-    fn unlike(&self, right: &str, wrong: &str) -> Vec<Found<'a>> {
+    fn unlike(&self, right: &str, wrong: &str) -> Vec<SettingFigure<'a>> {
         let settings = self.scene.settings().into_iter();
         let pairs: Vec<(f64, f64)> = settings
             .filter_map(|s| {
                 let [a, b] = [right, wrong].map(|m| self.quantity(&s, m, Quantity::Rmse));
-                Some((a?.0, b?.0))
+                Some((a?.value, b?.value))
             })
             .collect();
         if pairs.is_empty() {
@@ -286,12 +350,12 @@ impl<'a> On<'_, 'a> {
         let text = format!("{right} right at {first} of {compared}, {wrong} at {second}");
         vec![(
             None,
-            self.told("", text, first == compared && second < compared),
+            self.text_figure("", text, first == compared && second < compared),
         )]
     }
 
     /// Compares each value of one method with twice the value of the other.
-    fn halves(&self, method: &str, over: &str) -> Vec<Found<'a>> {
+    fn halves(&self, method: &str, over: &str) -> Vec<SettingFigure<'a>> {
         let curve = |method: &str| -> Vec<(f64, f64, u32)> {
             let series = self.scene.series.iter().filter(|s| s.method == method);
             series
@@ -305,64 +369,70 @@ impl<'a> On<'_, 'a> {
             .filter_map(|(value, error, passes)| {
                 let (_, twice_error, twice) = double.iter().find(|d| d.0 == 2.0 * value)?;
                 let factor = (*twice_error > 0.0).then(|| error / twice_error)?;
-                let half = passes < *twice && passes <= twice.div_ceil(2) + 2;
+                let half = passes < *twice && passes <= twice.div_ceil(2) + FURTHER_PASSES;
                 let text = format!("{twice} → {passes} passes, RMSE ×{}", digits(factor, 2));
                 let place = format!("{} against {}", digits(value, 3), digits(2.0 * value, 3));
-                Some((None, self.told(&place, text, half && factor <= ALIKE)))
+                Some((
+                    None,
+                    self.text_figure(&place, text, half && factor <= ALIKE),
+                ))
             });
         figures.collect()
     }
 
-    /// Returns the first value after which a curve stays within the limit, `Some(None)` if it never does, and
-    /// `None` if it has too few points to decide.
-    fn resolved(&self, series: &MethodSeries<'a>) -> Option<Option<f64>> {
+    /// Returns the values from which on a curve stays within the limit; `None` if it has too few points to
+    /// decide.
+    fn resolved(&self, series: &MethodSeries<'a>) -> Option<ResolvedRange> {
         let curve = series.curve(self.adapter);
         let ratio = curve.last()?.0 / curve.first()?.0;
-        match breaks::find(&curve, ratio >= 20.0)? {
-            Break::Never => Some(Some(curve.first()?.0)),
-            Break::Always => Some(None),
-            Break::Crossings(crossings) => {
-                Some(crossings.last().filter(|c| !c.leaves).map(|c| c.value))
-            }
-        }
+        Some(match breaks::find(&curve, ratio >= LOGARITHMIC_SPAN)? {
+            Break::Never => ResolvedRange::From(curve.first()?.0),
+            Break::Always => ResolvedRange::Nothing,
+            Break::Crossings(crossings) => match crossings.last().filter(|c| !c.leaves) {
+                Some(crossing) => ResolvedRange::From(crossing.value),
+                None => ResolvedRange::Nothing,
+            },
+        })
     }
 
     fn narrowest(
         &self,
         narrow: &'static str,
         wide: &'static str,
-        holds: FigureCondition,
-    ) -> Vec<Found<'a>> {
+        condition: FigureCondition,
+    ) -> Vec<SettingFigure<'a>> {
+        use ResolvedRange::{From, Nothing};
         let curves = |method: &'static str| {
             let series = self.scene.series.iter();
             series.filter(move |s| s.method == method)
         };
-        let mut found = Vec::new();
+        let mut figures = Vec::new();
         for base in curves(wide) {
-            for other in curves(narrow).filter(|s| s.variant == base.variant) {
-                // Only curves over the same values are compared.
-                let same = base.values() == other.values();
+            // Only curves over the same values are compared.
+            let is_comparable =
+                |s: &&MethodSeries<'a>| s.variant == base.variant && s.values() == base.values();
+            for other in curves(narrow).filter(is_comparable) {
                 let (Some(a), Some(b)) = (self.resolved(other), self.resolved(base)) else {
                     continue;
                 };
                 let figure = match (a, b) {
-                    _ if !same => continue,
-                    // Neither method resolves any value.
-                    (None, None) => continue,
-                    (Some(a), Some(b)) => self.figure("", Unit::Factor, a / b, [a / b; 2], holds),
-                    (Some(a), None) => {
-                        self.told("", format!("{} against none", digits(a, 2)), holds.met(0.0))
+                    (Nothing, Nothing) => continue,
+                    (From(a), From(b)) => {
+                        self.figure("", Unit::Factor, Estimate::exact(a / b), condition)
                     }
-                    (None, Some(b)) => self.told(
-                        "",
-                        format!("none against {}", digits(b, 2)),
-                        holds.met(f64::INFINITY),
-                    ),
+                    (From(a), Nothing) => {
+                        let text = format!("{} against none", digits(a, 2));
+                        self.text_figure("", text, condition.met(0.0))
+                    }
+                    (Nothing, From(b)) => {
+                        let text = format!("none against {}", digits(b, 2));
+                        self.text_figure("", text, condition.met(f64::INFINITY))
+                    }
                 };
-                found.push((None, figure));
+                figures.push((None, figure));
             }
         }
-        found
+        figures
     }
 
     fn levels(&self, series: &MethodSeries<'a>, samples: u32) -> Option<CaseFigure> {
@@ -370,33 +440,38 @@ impl<'a> On<'_, 'a> {
         let range = |halves: bool| {
             let among = move |v: f64| {
                 let steps = v * f64::from(2 * samples);
-                (steps - steps.round()).abs() < 1e-6 && (steps.round() % 2.0 == 1.0) == halves
+                (steps - steps.round()).abs() < ON_LEVEL && (steps.round() % 2.0 == 1.0) == halves
             };
             let values = curve.iter().filter(move |(v, _)| among(*v));
             values.map(|(_, e)| *e)
         };
-        let on = range(false).reduce(f64::max)?;
-        let between = range(true).reduce(f64::min)?;
+        let worst_on_levels = range(false).reduce(f64::max)?;
+        let best_between = range(true).reduce(f64::min)?;
         let text = format!(
             "at most {} on levels, at least {} between",
-            share(on),
-            share(between)
+            share(worst_on_levels),
+            share(best_between)
         );
-        Some(self.told("", text, on <= 0.005 && between >= 4.0 * on))
+        let holds =
+            worst_on_levels <= LEVEL_ERROR && best_between >= LEVEL_CONTRAST * worst_on_levels;
+        Some(self.text_figure("", text, holds))
     }
 }
 
-/// Returns a quantity of one record with its interval.
-fn measured(point: &SeriesPoint<'_>, quantity: Quantity) -> Option<(f64, [f64; 2])> {
-    let exact = |v: f64| (v, [v; 2]);
+/// Returns a quantity of one record.
+fn measured(point: &SeriesPoint<'_>, quantity: Quantity) -> Option<Estimate> {
     let m = point.measured;
-    match quantity {
-        Quantity::Rmse => point.error().map(exact),
-        Quantity::Largest => Some(m.distance.max).filter(|v| usable(*v)).map(exact),
-        Quantity::Passes => Some(exact(f64::from(m.passes))),
-        Quantity::Draws => Some(exact(f64::from(m.draws))),
-        Quantity::Fragments => m.fragments.map(|n| exact(n as f64)),
+    let exact = match quantity {
+        Quantity::Rmse => point.error(),
+        Quantity::Largest => Some(m.distance.max).filter(|v| usable(*v)),
+        Quantity::Passes => Some(f64::from(m.passes)),
+        Quantity::Draws => Some(f64::from(m.draws)),
+        Quantity::Fragments => m.fragments.map(|n| n as f64),
         // A time without an interval does not show its uncertainty.
-        Quantity::Time => Some((point.wall()?, point.interval()?)),
-    }
+        Quantity::Time => {
+            let (value, [low, high]) = (point.wall()?, point.interval()?);
+            return Some(Estimate { value, low, high });
+        }
+    };
+    exact.map(Estimate::exact)
 }

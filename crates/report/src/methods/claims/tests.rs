@@ -12,7 +12,11 @@ fn of(claim: &'static Claim, made: &[Made]) -> (Reproduction, Vec<CaseFigure>, V
     let run = run(made);
     let methods = Methods::of(&run).unwrap();
     let checked = check(claim, &methods);
-    let blind = checked.blind.iter().map(|b| (*b).to_owned()).collect();
+    let blind = checked
+        .counting_before_depth_test
+        .iter()
+        .map(|b| (*b).to_owned())
+        .collect();
     (Reproduction::of(&checked.figures), checked.figures, blind)
 }
 
