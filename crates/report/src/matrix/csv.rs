@@ -4,12 +4,28 @@ use super::data::{CellOutcome, Matrix, unit};
 use crate::words::plain;
 use etalon_record::CellRate;
 
-const HEAD: &str = "adapter,cell,unit,rate,low,high,of_base,of_clear,of_memory,of_arithmetic,work,time,rounds,state,message";
+const COLUMNS: [&str; 15] = [
+    "adapter",
+    "cell",
+    "unit",
+    "rate",
+    "low",
+    "high",
+    "of_base",
+    "of_clear",
+    "of_memory",
+    "of_arithmetic",
+    "work",
+    "time",
+    "rounds",
+    "state",
+    "message",
+];
 
 /// Returns the lines, with the names of the columns first. Rates are in the row's unit; relative rates and shares
 /// of limits are fractions of 1.
 pub(crate) fn csv(matrix: &Matrix<'_>) -> String {
-    let mut text = format!("{HEAD}\r\n");
+    let mut text = COLUMNS.join(",") + "\r\n";
     for adapter in &matrix.adapters {
         for cell in &matrix.cells {
             let Some(entry) = cell.results.get(*adapter) else {
@@ -17,11 +33,11 @@ pub(crate) fn csv(matrix: &Matrix<'_>) -> String {
             };
             let [unit, rate, low, high, work, time, rounds] = figures(entry.outcome.times());
             let [base, clear] = [entry.of_base, entry.of_clear].map(number);
-            let shares = entry.reached.map(|reached| reached.shares());
-            let [memory, arithmetic] = [0, 1].map(|limit| number(shares.map(|s| s[limit])));
+            let memory = number(entry.reached.map(|reached| reached.of_memory()));
+            let arithmetic = number(entry.reached.map(|reached| reached.of_arithmetic()));
             let (state, message) = state(&entry.outcome);
             let (adapter, name, message) = (field(adapter), field(&cell.name), field(&message));
-            let fields = [
+            let fields: [String; COLUMNS.len()] = [
                 adapter, name, unit, rate, low, high, base, clear, memory, arithmetic, work, time,
                 rounds, state, message,
             ];

@@ -273,11 +273,11 @@ fn listed(
         })
         .number("of memory", |cell| {
             Some(roofline::of_limit(
-                cell.results.get(adapter)?.reached?.shares()[0],
+                cell.results.get(adapter)?.reached?.of_memory(),
             ))
         })
         .number("of arithmetic", |cell| {
-            let share = cell.results.get(adapter)?.reached?.shares()[1];
+            let share = cell.results.get(adapter)?.reached?.of_arithmetic();
             (share > 0.0).then(|| roofline::of_limit(share))
         })
         .page(cells.iter().copied())

@@ -22,11 +22,13 @@ impl Reached {
         })
     }
 
-    /// Returns the share of the limit of memory, and of arithmetic.
-    pub(crate) fn shares(&self) -> [f64; 2] {
-        [
-            self.bytes / self.limits.bytes,
-            self.operations / self.limits.operations,
-        ]
+    /// Returns the share of the limit of memory.
+    pub(crate) fn of_memory(&self) -> f64 {
+        self.bytes / self.limits.bytes
+    }
+
+    /// Returns the share of the limit of arithmetic.
+    pub(crate) fn of_arithmetic(&self) -> f64 {
+        self.operations / self.limits.operations
     }
 }

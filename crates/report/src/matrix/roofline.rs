@@ -94,7 +94,8 @@ pub(super) fn section(matrix: &Matrix<'_>) -> Option<Markup> {
 
 /// Returns what a cell reaches, in words.
 pub(super) fn words(reached: &Reached) -> String {
-    let [memory, arithmetic] = reached.shares().map(of_limit);
+    let memory = of_limit(reached.of_memory());
+    let arithmetic = of_limit(reached.of_arithmetic());
     let bytes = format!("{} GB/s, {memory} of memory's limit", giga(reached.bytes));
     if reached.operations == 0.0 {
         return bytes;

@@ -11,7 +11,7 @@ use maud::{Markup, html};
 /// The smallest error of each colour of cells.
 const STEPS: [f64; 5] = [0.0, 1e-9, 0.001, LIMIT, 0.1];
 
-/// A method along its parameter in a scene.
+/// A row: a method's errors along its parameter, in one scene.
 struct Row<'s, 'a> {
     shown: &'s ShownScene<'s, 'a>,
     series: &'s MethodSeries<'a>,
@@ -40,10 +40,10 @@ pub(super) fn picture(shown: &[ShownScene<'_, '_>]) -> Markup {
         });
     html! {
         p.legend {
-            @for (step, name) in ["exact", "below 0.1 %", "below 1 %", "below 10 %", "above"].iter().enumerate() {
-                i class={ "e" (step) } {} " " (name) " "
+            @for step in 0..STEPS.len() {
+                i class={ "e" (step) } {} " " (step_text(step)) " "
             }
-            i.e3.turn {} " the error crosses 1 %"
+            i.e3.turn {} " the error crosses " (LIMIT * 100.0) " %"
         }
         div.wide { (table.page(rows)) }
     }
@@ -62,7 +62,8 @@ fn rows<'s, 'a>(shown: &'s ShownScene<'s, 'a>) -> Vec<Row<'s, 'a>> {
         .collect()
 }
 
-/// Returns the values of a series, each with the largest error of all adapters.
+/// Returns the values of a series, each with the largest error of all adapters. Its points are in the order of
+/// their values.
 fn errors(series: &MethodSeries<'_>) -> Vec<(f64, f64)> {
     let mut errors: Vec<(f64, f64)> = Vec::new();
     for point in &series.points {
@@ -89,6 +90,15 @@ fn strip(row: &Row<'_, '_>) -> Markup {
                 i class={ "e" (step(*error)) @if turns { " turn" } } title={ (parameter) " " (value_text(*value)) ": " (share(*error)) } {}
             }
         }
+    }
+}
+
+/// Returns the errors of a colour, in words.
+fn step_text(step: usize) -> String {
+    match STEPS.get(step + 1) {
+        Some(_) if step == 0 => "exact".to_owned(),
+        Some(end) => format!("below {} %", end * 100.0),
+        None => "above".to_owned(),
     }
 }
 
