@@ -8,7 +8,8 @@ use etalon_cpu::CpuBackend;
 use etalon_scene::Scene;
 use std::hint::black_box;
 
-const IDS: [&str; 3] = [
+/// Cases of 16 by 16 texels.
+const SMALL: [&str; 3] = [
     "depth/compare/compare=less/format=depth24plus/write=true",
     "stencil/operations/depth_fail=invert/fail=replace/pass=increment-wrap",
     "blend/factors/dst=one-minus-src-alpha/operation=add/src=src-alpha",
@@ -23,15 +24,15 @@ const LARGE: [&str; 5] = [
     "perf/blended-layers/size=1280x720",
 ];
 
-fn built(text: &str) -> Scene {
+fn scene_of(text: &str) -> Scene {
     let file = CaseFile::parse("bench.json", text).expect("the scene parses");
     let case = file.cases(Profile::Full).next().expect("one case").build();
     case.expect("the scene builds").scene
 }
 
-/// Returns a million triangles of 2 by 1 texels, which cover 1280 by 720 texels twice, with a depth test.
+/// Returns a million triangles with a depth test, one per cell of 2 by 1 texels; each reaches 2.5 by 1.5 texels. They cover 1280 by 720 texels twice.
 fn small_triangles() -> Scene {
-    let mut scene = built(
+    let mut scene = scene_of(
         r#"{"about":"b","spec":["b"],"scene":{"attachments":{"color":{"format":"rgba8unorm","size":[1280,720]},
         "depth":{"format":"depth32float","clear":1}},
         "passes":[{"color":["color"],"depth_stencil":"depth","draws":[{"mesh":{"kind":"cover"},"shader":"flat_color",
@@ -61,7 +62,7 @@ fn overdraw([width, height]: [u32; 2]) -> Scene {
         r#"{{"mesh":{{"kind":"vertices","positions":[[-1,-1,0],[1,-1,0],[1,1,0],[-1,-1,0],[1,1,0],[-1,1,0]]}},
         "shader":"uniform_color","params":{{"color":[0.2,0.4,0.6,0.25]}},"blend":{{"color":{part},"alpha":{part}}}}}"#
     );
-    built(&format!(
+    scene_of(&format!(
         r#"{{"about":"b","spec":["b"],"scene":{{"attachments":{{"color":{{"format":"rgba8unorm","size":[{width},{height}]}}}},
         "passes":[{{"color":["color"],"draws":[{}]}}],"read":["color"]}}}}"#,
         vec![draw; 16].join(",")
@@ -79,11 +80,11 @@ fn raster(c: &mut Criterion) {
         group.finish();
     };
     let case = |id: &str| {
-        let reference = library.cases(Profile::Full).find(|case| case.id() == id);
-        let reference = reference.unwrap_or_else(|| panic!("there is no case {id}"));
-        reference.build().expect("a built-in case builds")
+        let case = library.cases(Profile::Full).find(|case| case.id() == id);
+        let case = case.unwrap_or_else(|| panic!("there is no case {id}"));
+        case.build().expect("a scene_of-in case builds")
     };
-    for id in IDS {
+    for id in SMALL {
         bench(id.split('=').next().unwrap_or(id), &case(id).scene, 100);
     }
     for id in LARGE {

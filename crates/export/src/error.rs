@@ -29,7 +29,7 @@ pub enum ExportError {
     #[error(transparent)]
     Folder(#[from] RecordError),
     /// The system refused to write.
-    #[error("cannot write {}: {source}; free space or name another folder", path.display())]
+    #[error("cannot write {}: {source}; check the permissions and the free space, or name another folder", path.display())]
     Io {
         /// The file or folder.
         path: PathBuf,
@@ -45,7 +45,7 @@ pub enum ExportError {
         source: serde_json::Error,
     },
     /// A table could not be written.
-    #[error("cannot write {}: {source}; free space or name another folder", path.display())]
+    #[error("cannot write {}: {source}; check the permissions and the free space, or name another folder", path.display())]
     Table {
         /// The file.
         path: PathBuf,

@@ -1,8 +1,8 @@
 //! The guard of a program: a process between the program and its user.
 //!
-//! Guard and program are in one process group. The guard's standard input is a pipe from the process that uses
-//! the program. When that process ends, even by SIGKILL and before the program has done anything, the guard kills
-//! the group.
+//! Guard and program are in one process group. The guard's standard input is a pipe from the process that uses the
+//! program. When that process ends, even by SIGKILL and before the program has done anything, the guard
+//! waits [`GRACE`] and kills the group.
 
 use etalon_process::Parent;
 use std::ffi::OsString;
@@ -14,22 +14,23 @@ use std::time::Duration;
 /// The time that a program has to end by itself.
 const GRACE: Duration = Duration::from_secs(5);
 
-/// Runs a program, named by its words, until it or standard input ends. Returns its exit status. `input` is true if the
-/// program reads standard input.
+/// Runs `words`, a program and its arguments, until it ends or standard input does. Returns its exit status. `input` is
+/// true if the program reads standard input.
 ///
 /// # Errors
 /// If it cannot be started.
 pub fn guard(words: &[OsString], input: bool) -> io::Result<ExitStatus> {
     let no_word = || io::Error::from(io::ErrorKind::InvalidInput);
-    let (name, words) = words.split_first().ok_or_else(no_word)?;
-    let mut command = Command::new(name);
-    command.args(words);
+    let (program, arguments) = words.split_first().ok_or_else(no_word)?;
+    let mut command = Command::new(program);
+    command.args(arguments);
     if !input {
         command.stdin(Stdio::null());
     }
     // A guard that is killed takes the program along.
     etalon_process::end_with_thread(&mut command);
     let parent = Parent::now();
+    // `thread::spawn` panics if no thread can start.
     thread::Builder::new().spawn(|| {
         etalon_process::wait_for_end_of_input();
         thread::sleep(GRACE);
