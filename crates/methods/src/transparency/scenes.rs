@@ -134,7 +134,7 @@ fn windows(alpha: f64) -> GlassScene {
 /// The width in texels across which a pane at 45 degrees passes through the whole range of depths.
 const DEPTH_RANGE: f64 = 320.0;
 
-/// Three panes, two of which are turned and pass through the others.
+/// Three panes. Two are turned, and pass through the others.
 fn intersecting_panes(angle: f64, alpha: f64) -> GlassScene {
     let slope = angle.to_radians().tan() / DEPTH_RANGE;
     let turned = |rect, depth: f64, slope: f64, hue| {

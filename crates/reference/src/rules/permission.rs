@@ -452,7 +452,7 @@ rules! {
     /// True if the restart index of a strip is detected before the base vertex is added; otherwise it may be
     /// detected before or after.
     restarts_before_base_vertex: bool,
-    /// The part of a texel to multiples of which the bounds of viewports may be rounded; 0 for none.
+    /// The step, in texels, to which the bounds of viewports may be rounded; 0 for none.
     viewport_step: f64,
     /// Vertex snapping.
     snap: Snap,

@@ -227,8 +227,8 @@ fn analyze(points: &[TimedRun]) -> Changes {
     }
 }
 
-/// Returns the changes as measured, and those that the driver caused while the machine hid them: a machine
-/// whose speed changes constantly hides steps of the times, but not in units of the ruler.
+/// Returns the changes as measured, and the driver's changes that the machine hid: a machine whose speed changes
+/// constantly hides steps of the times, but not in units of the ruler.
 fn candidates(logs: &Logs, places: ChangePlaces, runs: usize) -> Vec<ChangeCandidate> {
     let ChangePlaces { measured, ruled } = places;
     let is_far = |place: &usize| {

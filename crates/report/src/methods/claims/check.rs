@@ -15,14 +15,14 @@ const ALIKE: f64 = 1.5;
 /// The ratio of a curve's last value to its first from which on values are interpolated by their logarithms.
 const LOGARITHMIC_SPAN: f64 = 20.0;
 
-/// Passes that a method can need beside those that its parameter counts, such as a first and a last one.
+/// Passes that a method can need beside its parameter's count, such as a first and a last one.
 const FURTHER_PASSES: u32 = 2;
 
 /// The distance from a half level up to which a parameter, which comes from a decimal text, is on it.
 const ON_LEVEL: f64 = 1e-6;
 
-/// The largest error of a value on a level, a little more than one 8-bit code, and the factor by which errors
-/// between levels exceed the errors on them.
+/// The largest error of a value on a level, 1.3 codes of 8 bits, and the factor by which errors between levels
+/// exceed the errors on them.
 const LEVEL_ERROR: f64 = 0.005;
 const LEVEL_CONTRAST: f64 = 4.0;
 
