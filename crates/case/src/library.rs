@@ -295,7 +295,7 @@ mod tests {
             (
                 r#""derived":{"rect":{"axis":"side","values":{"large":[0,0,2,2]}}}"#,
                 "derived.rect.values",
-                "the value `small` of axis `side` has none",
+                "no entry for the value `small` of axis `side`",
             ),
             (
                 r#""derived":{"rect":{"axis":"side","values":{"tiny":[0,0,2,2],"*":null}}}"#,
