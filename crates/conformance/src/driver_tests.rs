@@ -1,7 +1,7 @@
 //! The macro that generates tests from checks.
 
 /// Generates tests for each driver `NAME`, which a function `drivers::NAME` returns as a
-/// [`Driver`](crate::Driver): one of all checks, since to open a driver costs as much as many of them, and one
+/// [`TestedDriver`](crate::TestedDriver): one of all checks, since to open a driver costs as much as many of them, and one
 /// of each function in brackets, which takes the open backend.
 #[macro_export]
 macro_rules! driver_tests {

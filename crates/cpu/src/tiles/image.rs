@@ -98,7 +98,7 @@ impl TiledImage {
         (self.tile(x, y) * self.samples + sample) * AREA + y % TILE * TILE + x % TILE
     }
 
-    /// Returns the codes of one aspect in the order of [`etalon_frame::TiledImage`]. Several threads write them, with
+    /// Returns the codes of one aspect in the order of [`etalon_frame::Image`]. Several threads write them, with
     /// these vector instructions.
     pub(crate) fn codes(
         &self,

@@ -1,7 +1,7 @@
 //! Paints: how a source that is constant over a triangle changes the codes of a colour attachment.
 //!
 //! With a constant source, an 8-bit result is a function of the destination's codes, mostly of each channel
-//! alone. The pipeline's plain arithmetic computes each function for all codes; a [linear](Linear) function
+//! alone. The pipeline's plain arithmetic computes each function for all codes; a [linear](LinearCodes) function
 //! replaces it if it gives the same result for every code. Other results have few operands that are not
 //! constant, so that [affine](Affine) functions and [weights](Weights) express them without branches per
 //! texel.
