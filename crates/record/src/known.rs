@@ -14,7 +14,7 @@ use std::sync::Arc;
 pub struct Entry {
     /// A glob over adapter names.
     pub adapter: String,
-    /// A glob over [`AdapterRecord::driver_text`], driver and version; `*` for any.
+    /// A glob over [`driver_text`](crate::AdapterRecord::driver_text), driver and version; `*` for any.
     pub driver: String,
     /// A glob over the device's name; any device if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
