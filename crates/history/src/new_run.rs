@@ -43,7 +43,7 @@ pub struct NewRun {
 /// One adapter of a run to add.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NewAdapter {
-    /// The name that connects its runs. Unlike [`Adapter::name`], it is the same for all releases of one
+    /// The name that connects its runs. Unlike the name in [`Adapter::info`], it is the same for all releases of one
     /// line.
     pub timeline: String,
     /// The adapter as the run found it.
