@@ -60,8 +60,7 @@ impl CaseRef<'_> {
         }
         let derived = wire.derived.get(name)?;
         let axis = wire.axes.get(&derived.axis)?;
-        let index =
-            (self.file.positions(self.index)[derived.axis.as_str()] + derived.shift) % axis.len();
+        let index = derived.index(axis, self.file.positions(self.index)[derived.axis.as_str()]);
         let values = derived.values.as_ref();
         Some(match values.and_then(|values| values.get(axis, index)) {
             Some((_, step)) => {

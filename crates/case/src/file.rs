@@ -271,8 +271,7 @@ impl CaseRef<'_> {
             .collect();
         for (name, derived) in &wire.derived {
             let list = &wire.axes[&derived.axis];
-            let index =
-                (positions[derived.axis.as_str()] + derived.shift % list.len()) % list.len();
+            let index = derived.index(list, positions[derived.axis.as_str()]);
             let given = derived
                 .values
                 .as_ref()

@@ -145,6 +145,13 @@ pub(crate) struct DerivedWire {
     pub(crate) values: Option<DerivedValues>,
 }
 
+impl DerivedWire {
+    /// Returns the index of the axis's value that belongs to a case at a position of the axis.
+    pub(crate) fn index(&self, axis: &[AxisValue], position: usize) -> usize {
+        (position + self.shift % axis.len()) % axis.len()
+    }
+}
+
 /// The key of the value for all values of an axis that are not named.
 pub(crate) const OTHERS: &str = "*";
 
