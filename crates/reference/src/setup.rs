@@ -53,7 +53,7 @@ pub(crate) fn draw(
                 .collect()
         })
     };
-    vertices.enter(&draw.viewport);
+    vertices.enter(context, &draw.viewport);
     let draw_geometry = draw_geometry(draw);
     let assembled = draw.primitives();
     // On a lattice, most primitives can be far from all judged texels.

@@ -39,6 +39,8 @@ pub(crate) struct SnappedVertex {
 pub(crate) struct Vertices {
     /// The viewport of the kept coordinates.
     viewport: Option<Viewport>,
+    /// The viewports, by the bounds of each axis, to which it can be rounded.
+    rounded: [Vec<Viewport>; 2],
     /// Columns and rows of each grid: the least and the greatest snapped coordinate.
     snapped: [[Latest<(i64, i64)>; 2]; 2],
     /// The depth in the window and in clip space.
@@ -74,19 +76,25 @@ impl Vertices {
         let slots = count.sum::<usize>().min(MOST).next_power_of_two();
         Self {
             viewport: None,
+            rounded: [Vec::new(), Vec::new()],
             snapped: [(); 2].map(|()| [(); 2].map(|()| Latest(vec![None; slots]))),
             depths: Latest(vec![None; slots]),
         }
     }
 
     /// Prepares for draws with a viewport.
-    pub(crate) fn enter(&mut self, viewport: &Viewport) {
-        if self.viewport.is_some_and(|known| known != *viewport) {
+    pub(crate) fn enter(&mut self, context: &PassContext<'_>, viewport: &Viewport) {
+        if self.viewport == Some(*viewport) {
+            return;
+        }
+        if self.viewport.is_some() {
             let axes = self.snapped.iter_mut().flatten();
             axes.for_each(|axis| axis.0.fill(None));
             self.depths.0.fill(None);
         }
         self.viewport = Some(*viewport);
+        self.rounded =
+            [0, 1].map(|axis| viewport_bounds::rounded(viewport, axis, context.rules).collect());
     }
 
     /// Returns a vertex of a draw whose viewport was entered.
@@ -101,8 +109,9 @@ impl Vertices {
         let [x, y, z, w] = position;
         let viewport = &draw.viewport;
         let [columns, rows] = &mut self.snapped[grid as usize];
-        let x = columns.get([x, w], || snapped(context, [x, w], 0, viewport, grid));
-        let y = rows.get([y, w], || snapped(context, [y, w], 1, viewport, grid));
+        let [across, down] = &self.rounded;
+        let x = columns.get([x, w], || snapped(context, [x, w], 0, across, grid));
+        let y = rows.get([y, w], || snapped(context, [y, w], 1, down, grid));
         let [window_z, clip_z] = self.depths.get([z, w], || {
             let mut judging = Judging::new(context.rules);
             let window = window_coordinate(&mut judging, [z, w], 2, viewport);
@@ -120,17 +129,19 @@ impl Vertices {
     }
 }
 
-/// Returns the least and the greatest position along an axis to which a coordinate can be snapped.
+/// Returns the least and the greatest position along an axis to which a coordinate can be snapped in one of the
+/// viewports.
 fn snapped(
     context: &PassContext<'_>,
     coordinate: [f32; 2],
     axis: usize,
-    viewport: &Viewport,
+    viewports: &[Viewport],
     grid: Grid,
 ) -> (i64, i64) {
     let mut judging = Judging::new(context.rules);
-    let windows = viewport_bounds::rounded(viewport, axis, context.rules)
-        .map(|viewport| window_coordinate(&mut judging, coordinate, axis, &viewport).hull());
+    let windows = viewports
+        .iter()
+        .map(|viewport| window_coordinate(&mut judging, coordinate, axis, viewport).hull());
     let window = windows.reduce(Interval::hull);
     let Interval { low, high } = window.unwrap_or(Interval::EVERYTHING);
     let units = units_per_texel(context.limits);
