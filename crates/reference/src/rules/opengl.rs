@@ -216,19 +216,9 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             ]),
         ),
         depth_bias_unit: narrowed(
-            BiasUnit {
-                unorm16: &[(0.999, 1e9)],
-                unorm: &[(0.999, 1e9)],
-                float: &[(0.999, 1.001)],
-                assumed: None,
-            },
+            BiasUnit::open_above(&[(0.999, 1.001)]),
             // For a mantissa below 1, as 8.25 writes floats, the exponent is one more.
-            BiasUnit {
-                unorm16: &[(0.999, 1e9)],
-                unorm: &[(0.999, 1e9)],
-                float: &[(0.999, 1.001), (1.998, 2.002)],
-                assumed: None,
-            },
+            BiasUnit::open_above(&[(0.999, 1.001), (1.998, 2.002)]),
             Grade::Disputed,
             text.cite([
                 "OpenGL 3.3: 3.6.4 Depth Offset: for fixed point one r throughout the depth buffer, sure to be resolved and open above; 2^(e-n) for floats, e and n not defined (read as in 2.1.2, with a mantissa of at least 1)",

@@ -164,6 +164,16 @@ pub struct BiasUnit {
 }
 
 impl BiasUnit {
+    /// Returns the unit of an API that leaves the step of normalized depth open above.
+    pub(super) const fn open_above(float: &'static [(f64, f64)]) -> Self {
+        Self {
+            unorm16: &[(0.999, 1e9)],
+            unorm: &[(0.999, 1e9)],
+            float,
+            assumed: None,
+        }
+    }
+
     /// Returns the readings for an encoding.
     pub(crate) fn readings(&self, encoding: ChannelEncoding) -> &'static [(f64, f64)] {
         match encoding {
