@@ -54,6 +54,8 @@ struct CoverState<'a> {
     uncovered: HashSet<ValuePair>,
     /// The number of rows with each value of each axis.
     used: Vec<Vec<usize>>,
+    /// The number of rows with each value, in their order, that are known to be taken.
+    passed: Vec<Vec<usize>>,
     rows: Vec<Vec<usize>>,
 }
 
@@ -63,6 +65,7 @@ impl<'a> CoverState<'a> {
             lengths,
             uncovered: pairs(lengths).into_iter().collect(),
             used: lengths.iter().map(|n| vec![0; *n]).collect(),
+            passed: lengths.iter().map(|n| vec![0; *n]).collect(),
             rows: Vec::new(),
         }
     }
@@ -104,30 +107,34 @@ impl<'a> CoverState<'a> {
         self.rows.push(row);
     }
 
-    /// Returns the greedy row with this value, or the next one that is not taken; `None` if all are.
+    /// Returns the greedy row with this value, or the first one that is not taken; `None` if all are.
     fn untaken_row(
-        &self,
+        &mut self,
         axis: usize,
         value: usize,
         taken: &HashSet<Vec<usize>>,
     ) -> Option<Vec<usize>> {
-        let start = self.greedy_row(&[(axis, value)]);
-        let others: Vec<usize> = (0..start.len())
-            .rev()
-            .filter(|other| *other != axis)
-            .collect();
-        let count: usize = others.iter().map(|other| self.lengths[*other]).product();
-        (0..count)
-            .map(|mut steps| {
-                let mut row = start.clone();
-                for other in &others {
-                    let length = self.lengths[*other];
-                    row[*other] = (start[*other] + steps) % length;
-                    steps /= length;
-                }
-                row
-            })
-            .find(|row| !taken.contains(row))
+        let greedy = self.greedy_row(&[(axis, value)]);
+        if !taken.contains(&greedy) {
+            return Some(greedy);
+        }
+        // Rows stay taken, so that each is passed once.
+        let passed = self.passed[axis][value];
+        let rows = (passed..).map_while(|number| self.row_with(axis, value, number));
+        let rows_passed = rows.take_while(|row| taken.contains(row)).count();
+        self.passed[axis][value] = passed + rows_passed;
+        self.row_with(axis, value, passed + rows_passed)
+    }
+
+    /// Returns the row of this number of those with a value, in their order; `None` if there are fewer.
+    fn row_with(&self, axis: usize, value: usize, number: usize) -> Option<Vec<usize>> {
+        let mut row = vec![value; self.lengths.len()];
+        let mut rest = number;
+        for other in (0..row.len()).rev().filter(|other| *other != axis) {
+            row[other] = rest % self.lengths[other];
+            rest /= self.lengths[other];
+        }
+        (rest == 0).then_some(row)
     }
 
     /// Returns a row with the fixed values. Axis by axis, it takes the value that covers most uncovered pairs;
