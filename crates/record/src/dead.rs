@@ -14,6 +14,7 @@ use crate::parts::Parts;
 use crate::run::Run;
 use crate::verdict::Verdict;
 use etalon_frame::state_enum;
+use etalon_frame::threads::join;
 use etalon_glob::Glob;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -94,7 +95,12 @@ impl Expectations {
         let left = Cell::new(MOST_COMPARISONS);
         let mut dead = Vec::new();
         let all_sound = self.all().iter().all(|known| sound(known));
-        let excuses = Excuses::of(self, run);
+        let prepare = || {
+            if !all_sound && self.all().len() >= MANY {
+                ids.parts();
+            }
+        };
+        let (excuses, ()) = join(|| Excuses::of(self, run), prepare);
         let mut reaches = Vec::new();
         for (number, known) in self.all().iter().enumerate() {
             let mut parts = Vec::new();
@@ -458,6 +464,9 @@ struct Ids {
     parts: OnceCell<Parts>,
 }
 
+/// The number of expectations whose ids are certainly looked up.
+const MANY: usize = 1000;
+
 /// The number of ids that are compared rather than looked up.
 const FEW: usize = 64;
 
@@ -483,8 +492,8 @@ impl Ids {
         let near = if range.len() <= FEW {
             None
         } else {
-            let parts = self.parts.get_or_init(|| Parts::new(&self.sorted));
-            parts.rarest(glob.literals().iter().map(String::as_bytes))
+            self.parts()
+                .rarest(glob.literals().iter().map(String::as_bytes))
         };
         let candidates: Box<dyn Iterator<Item = usize>> = match near {
             Some(indices) => {
@@ -498,6 +507,10 @@ impl Ids {
                 .take_while(|_| spend(left))
                 .filter(move |index| glob.is_match(&self.sorted[*index])),
         )
+    }
+
+    fn parts(&self) -> &Parts {
+        self.parts.get_or_init(|| Parts::new(&self.sorted))
     }
 
     /// Returns the index of the first id that a glob matches.
