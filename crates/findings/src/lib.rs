@@ -1,6 +1,8 @@
 //! The findings of `ci/findings`, compiled in.
 
 use etalon_record::{Expectations, RecordError};
+use std::collections::HashSet;
+use std::sync::LazyLock;
 
 /// The files: paths and contents.
 const FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/findings.rs"));
@@ -15,7 +17,9 @@ pub fn findings() -> Result<Expectations, RecordError> {
 
 /// Returns true if a place is that of a built-in finding.
 pub fn is_built_in(place: &str) -> bool {
-    FILES.iter().any(|(path, _)| *path == place)
+    static PLACES: LazyLock<HashSet<&str>> =
+        LazyLock::new(|| FILES.iter().map(|(path, _)| *path).collect());
+    PLACES.contains(place)
 }
 
 #[cfg(test)]

@@ -31,6 +31,7 @@ use etalon_runner::{
 use indicatif::ProgressBar;
 use serde_json::json;
 use std::collections::BTreeMap;
+use std::mem::ManuallyDrop;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
@@ -189,7 +190,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     }
     let selected = RunCases::new(arguments)?;
     let to_bless = file_to_bless(arguments)?;
-    let expectations = expectations(arguments, to_bless.as_deref())?;
+    // Many take long to free, and the process ends after the run.
+    let expectations = ManuallyDrop::new(expectations(arguments, to_bless.as_deref())?);
     let blessed = blessed(arguments, to_bless.as_deref())?;
     // Claims the folder first, so that the records of a concurrent or an earlier run are not lost.
     let claim = Out {
