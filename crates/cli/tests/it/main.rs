@@ -31,6 +31,7 @@ mod house;
 mod known_failures;
 mod known_look;
 mod launchers;
+mod limit_table;
 mod methods;
 mod mutants;
 mod news;
