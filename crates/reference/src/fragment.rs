@@ -7,7 +7,9 @@ use crate::notes::Notes;
 use crate::possible::Possible;
 use crate::primitive::Shape;
 use crate::range::Range;
-use crate::rules::{AlphaToCoverage, DepthOrder, DepthRange, EarlyUpdates, MaskOfOne, SameDepth};
+use crate::rules::{
+    AlphaToCoverage, DepthOrder, DepthRange, EarlyUpdates, MaskOfOne, Permission, SameDepth,
+};
 use crate::stencil_face::Face;
 use crate::walk::{FragmentPlace, Walk};
 use crate::world::{Increment, SampleContents, World, Worlds};
@@ -100,7 +102,7 @@ impl Walk<'_> {
         let draw = place.draw;
         let output = self.shader(place, world, (front, mask), notes);
         let own_depth = if self.goes_on(place) {
-            place.primitive.depth_at(place.point)
+            self.own_depth(place)
         } else {
             Range::same(Interval {
                 low: 0.0,
@@ -197,8 +199,14 @@ impl Walk<'_> {
                             place, worlds, output, incoming, covered, result, notes,
                         );
                     } else {
+                        let mut untested = world.clone();
                         if !self.rules.skips_rejected.value() {
                             self.run(place, &mut outcome, false);
+                            self.run(place, &mut untested, false);
+                        }
+                        // The stencil value of a fragment that the shader removes first is not updated.
+                        if self.may_be_removed_first(shaded.covered) {
+                            result.push(untested);
                         }
                         result.push(outcome);
                     }
@@ -232,6 +240,16 @@ impl Walk<'_> {
             }
         }
         result.push(kept);
+    }
+
+    /// Returns true if the rules let the shader or coverage remove a sample before forced early tests.
+    fn may_be_removed_first(&self, covered: Covered) -> bool {
+        let rules = self.rules;
+        let may_precede =
+            |updates: &Permission<EarlyUpdates>| updates.value() != EarlyUpdates::Happen;
+        !covered.kept.must() && may_precede(&rules.early_updates)
+            || !covered.masked.must() && may_precede(&rules.early_mask)
+            || !covered.coverage.must() && may_precede(&rules.early_coverage)
     }
 
     /// Runs the fragment shader at the sample.
@@ -606,9 +624,11 @@ impl Walk<'_> {
         let encoded = attachment
             .map(|index| Judging::new(self.rules).encode(self.depth_encoding(index), depth));
         let keeps_depth = !written || place.draw.shader == Shader::FragCoordDepth;
+        let is_float = attachment.is_some_and(|index| self.depth_encoding(index).is_float());
         let same = match self.rules.same_depth.value() {
             SameDepth::All => keeps_depth,
             SameDepth::Written => written && keeps_depth,
+            SameDepth::WrittenAsFloat => written && keeps_depth && is_float,
         };
         Incoming {
             depth,
@@ -643,6 +663,14 @@ impl Walk<'_> {
             MaskOfOne::Ignored => Possible::Always,
             MaskOfOne::Either => Possible::Maybe,
         }
+    }
+
+    /// Returns the window depth of a covered sample. If its position is open, so is the depth.
+    pub(crate) fn own_depth(&self, place: &FragmentPlace<'_>) -> Range {
+        let anywhere = place.at.samples > 1 && !self.rules.covers_at_positions.value();
+        place
+            .primitive
+            .depth_at(place.point, anywhere.then_some(self.units))
     }
 
     /// Returns true if the fragment has a shader, or if the rules let it pass unchanged without a shader.
@@ -777,14 +805,17 @@ impl Walk<'_> {
         let of_codes = |codes: CodeInterval| Interval::of_codes(encoding, codes);
         let compared = || {
             let both = [of_codes(incoming.codes), of_codes(stored)];
-            match self.rules.depth_order.value() {
-                DepthOrder::Either => {
-                    let decoded = Judging::new(self.rules).decode(encoding, stored);
-                    let [left, right] = both;
-                    [left.hull(incoming.depth.hull()), right.hull(decoded.hull())]
-                }
-                DepthOrder::ConvertedFirst => both,
+            let is_converted = match self.rules.depth_order.value() {
+                DepthOrder::Either => false,
+                DepthOrder::WrittenConvertedFirst => place.draw.shader.writes_depth(),
+                DepthOrder::ConvertedFirst => true,
+            };
+            if is_converted {
+                return both;
             }
+            let decoded = Judging::new(self.rules).decode(encoding, stored);
+            let [left, right] = both;
+            [left.hull(incoming.depth.hull()), right.hull(decoded.hull())]
         };
         let outcomes = match function {
             CompareFunction::Never => [false, true],

@@ -358,9 +358,15 @@ impl SnappedPrimitive {
         })
     }
 
-    /// Returns the window depth at a sample that the primitive covers, with its bias.
-    pub(crate) fn depth_at(&self, at: Point) -> Values {
-        let depth = self.window_depth.at(at);
+    /// Returns the window depth at a sample that the primitive covers, with its bias; with the units of a texel, the
+    /// depth at any covered point of the sample's texel.
+    pub(crate) fn depth_at(&self, at: Point, anywhere: Option<i64>) -> Values {
+        let mut depth = self.window_depth.at(at);
+        if let Some(units) = anywhere {
+            let hull = self.window_depth.hull;
+            let texel = self.window_depth.over_texel(at, units);
+            depth = depth.hull(texel.clamp(hull.low, hull.high));
+        }
         Values::same(depth.plus(self.bias))
     }
 

@@ -9,7 +9,7 @@ use crate::walk::{FragmentPlace, Walk};
 use crate::world::World;
 use etalon_frame::{ChannelEncoding, CodeInterval};
 use etalon_pipeline::{Arithmetic, texel_position};
-use etalon_scene::{AddressMode, FilterMode, Sampler};
+use etalon_scene::{AddressMode, FilterMode, InterpolationSampling, Sampler};
 use smallvec::SmallVec;
 
 /// A texture as a sampler sees it.
@@ -62,7 +62,13 @@ impl Walk<'_> {
 
     fn coordinates(&self, place: &FragmentPlace<'_>) -> Option<[Interval; 2]> {
         let samples = self.samples_shaded(place);
-        let sampling = place.draw.shader.interpolation_sampling();
+        let mut sampling = place.draw.shader.interpolation_sampling();
+        let is_open =
+            !self.rules.covers_at_positions.value() && !self.rules.inputs_at_samples.value();
+        if sampling == InterpolationSampling::Sample && is_open {
+            // At a position of the sample that is not known, inside the primitive.
+            sampling = InterpolationSampling::Centroid;
+        }
         place
             .primitive
             .uv_seen(place.point, self.units, samples, sampling)

@@ -321,7 +321,7 @@ impl Walk<'_> {
     ) {
         let primitive = place.primitive;
         if inputs.depth && !primitive.window_depth.is_flat() {
-            let depth = primitive.depth_at(place.point);
+            let depth = self.own_depth(place);
             signature.words.extend(bits(depth.float));
         }
         if inputs.depth_seen && !primitive.window_depth.is_flat() {

@@ -207,12 +207,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                     "OpenGL 4.6: 17.3.9 Logical Operation: no effect on floating-point and sRGB buffers",
                 ]),
             ) },
-        depth_order: permit(
+        depth_order: narrowed(
+            DepthOrder::WrittenConvertedFirst,
             DepthOrder::Either,
+            Grade::Disputed,
             text.cite([
-                "OpenGL 3.3: 4.1.5 Depth Buffer Test: whether the incoming depth is converted first is not stated",
-                "OpenGL 4.5: 17.3.4 Depth Buffer Test: whether the incoming depth is converted first is not stated",
-                "OpenGL 4.6: 17.3.4 Depth Buffer Test: whether the incoming depth is converted first is not stated",
+                "OpenGL 3.3: 3.9.2 Shader Outputs: a written depth is converted as a window z value; 4.1.5 does not state the order for others (a driver can report fixed-point depth and keep floats)",
+                "OpenGL 4.5: 15.2.3 Shader Outputs: a written depth is converted as a window z value; 17.3.4 does not state the order for others (a driver can report fixed-point depth and keep floats)",
+                "OpenGL 4.6: 15.2.3 Shader Outputs: a written depth is converted as a window z value; 17.3.4 does not state the order for others (a driver can report fixed-point depth and keep floats)",
             ]),
         ),
         depth_bias_unit: narrowed(

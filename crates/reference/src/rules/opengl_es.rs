@@ -163,12 +163,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             SrgbLogic::PassesThrough,
             "OpenGL ES: has no logic operations",
         ),
-        depth_order: permit(
+        depth_order: narrowed(
+            DepthOrder::WrittenConvertedFirst,
             DepthOrder::Either,
+            Grade::Disputed,
             text.cite([
-                "OpenGL ES 3.0: 4.1.5 Depth Buffer Test: whether the incoming depth is converted first is not stated",
-                "OpenGL ES 3.1: 15.1.3 Depth Buffer Test: whether the incoming depth is converted first is not stated",
-                "OpenGL ES 3.2: 15.1.3 Depth Buffer Test: whether the incoming depth is converted first is not stated",
+                "OpenGL ES 3.0: 3.9.2.3 Shader Outputs: a written depth is converted as a window z value; 4.1.5 does not state the order for others (a driver can report fixed-point depth and keep floats)",
+                "OpenGL ES 3.1: 14.2.3 Shader Outputs: a written depth is converted as a window z value; 15.1.3 does not state the order for others (a driver can report fixed-point depth and keep floats)",
+                "OpenGL ES 3.2: 14.2.3 Shader Outputs: a written depth is converted as a window z value; 15.1.3 does not state the order for others (a driver can report fixed-point depth and keep floats)",
             ]),
         ),
         depth_bias_unit: narrowed(

@@ -144,6 +144,8 @@ pub enum BlendPrecision {
 pub enum DepthOrder {
     /// The incoming value is compared before or after its conversion to the attachment's encoding.
     Either,
+    /// A depth that the shader writes is converted first; others may be compared before or after.
+    WrittenConvertedFirst,
     /// The converted codes are compared.
     ConvertedFirst,
 }
@@ -364,6 +366,8 @@ pub enum SamplesCounted {
 pub enum SameDepth {
     /// Redraws whose shaders write the fragment's own depth.
     Written,
+    /// Like `Written` for float attachments; the codes of others may be compared with depths that are not converted.
+    WrittenAsFloat,
     /// All redraws that keep the fragment's own depth, whether their shaders write it or not.
     All,
 }
@@ -471,7 +475,7 @@ rules! {
     /// Coverage of samples on edges.
     shared_edge: SharedEdge,
     /// True if coverage is tested at the sample positions that the adapter reports; otherwise it may be
-    /// tested anywhere in the texel.
+    /// tested anywhere in the texel, and the depth is that of the same place.
     covers_at_positions: bool,
     /// Rounding of stores and of clear values.
     store: Rounding,
@@ -604,7 +608,8 @@ rules! {
     /// The fragment coordinates that a shader reads with several samples.
     frag_coord: FragCoord,
     /// True if, with a sample shading fraction of 1, each sample's inputs are evaluated at its position;
-    /// otherwise they may be evaluated at any point of the texel.
+    /// otherwise they may be evaluated at any point of the texel. If the positions of coverage are open too, so are
+    /// those of inputs that are interpolated at samples.
     inputs_at_samples: bool,
 }
 

@@ -329,9 +329,11 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             false,
             "Vulkan: Queries: clears, resolves, and load and store operations may count towards the results of queries",
         ),
-        same_depth: permit(
+        same_depth: narrowed(
             SameDepth::Written,
-            "Vulkan: Invariance, Rule 5: shaders that assign FragCoord.z to FragDepth are depth-invariant with respect to each other",
+            SameDepth::WrittenAsFloat,
+            Grade::Disputed,
+            "Vulkan: Invariance, Rule 5: shaders that assign FragCoord.z to FragDepth are depth-invariant with respect to each other (read as: such depths compare as equal; Depth Comparison does not say that an incoming depth is converted first)",
         ),
         filter_step: permit(
             step(limits.texel_bits.unwrap_or(4)),

@@ -243,8 +243,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             true,
             "WebGPU: Occlusion Query: the samples that pass the tests of a set of drawing commands; nothing else is within one",
         ),
-        same_depth: permit(
+        same_depth: narrowed(
             SameDepth::Written,
+            SameDepth::WrittenAsFloat,
+            Grade::Disputed,
             "WebGPU: silent on invariance; Vulkan and OpenGL: shaders that write the fragment's own depth agree",
         ),
         filter_step: permit(
