@@ -4,7 +4,6 @@ use crate::backend_name::BackendName;
 use crate::discovery::Adapters;
 use etalon_frame::{AdapterInfo, Api, Limits};
 use etalon_record::{AbsentAdapter, AdapterRecord};
-use std::collections::{BTreeMap, BTreeSet};
 
 /// Removes the adapters whose drivers do not start from the absent ones. Returns each with a mostly empty
 /// record, and the reason.
@@ -29,21 +28,7 @@ pub fn take_unstarted(adapters: &mut Adapters) -> Vec<(AdapterRecord, String)> {
                 ..AdapterInfo::default()
             },
             release: None,
-            limits: Limits {
-                api,
-                version: etalon_frame::ApiVersion::UNKNOWN,
-                properties: Default::default(),
-                exempt: Default::default(),
-                sub_pixel_bits: 0,
-                viewport_bits: None,
-                texel_bits: None,
-                max_size: 0,
-                max_color_attachments: 0,
-                formats: BTreeMap::new(),
-                features: BTreeSet::new(),
-                paths: Default::default(),
-                sample_positions: BTreeMap::new(),
-            },
+            limits: Limits::nothing(api),
         };
         (adapter, absent.reason)
     };

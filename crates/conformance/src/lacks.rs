@@ -3,10 +3,7 @@
 //! Drivers are described by what they lack, so that a capability that is new to the suite is expected of
 //! all of them.
 
-use etalon_frame::{
-    Api, ApiVersion, Feature, FormatSupport, Limits, ReadPath, Requirement, TextureFormat,
-};
-use std::collections::BTreeSet;
+use etalon_frame::{Api, Feature, FormatSupport, Limits, ReadPath, Requirement, TextureFormat};
 
 /// Names of features or formats, separated by spaces.
 pub type LackNames = &'static [&'static str];
@@ -35,19 +32,14 @@ impl Lacks {
         let features = features.filter(|f| !names(self.features, f.name()));
         let four = vec![[96, 32], [224, 96], [32, 160], [160, 224]];
         Limits {
-            api,
             sub_pixel_bits: 8,
             viewport_bits: Some(8),
-            texel_bits: None,
             max_size: 4096,
             max_color_attachments: 4,
             formats: formats.map(|f| (f, self.support(api, f))).collect(),
             features: features.collect(),
-            paths: BTreeSet::new(),
-            version: ApiVersion::UNKNOWN,
-            properties: BTreeSet::new(),
-            exempt: BTreeSet::new(),
             sample_positions: [(1, vec![[128, 128]]), (4, four)].into(),
+            ..Limits::nothing(api)
         }
     }
 

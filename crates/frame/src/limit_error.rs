@@ -110,7 +110,6 @@ mod tests {
     use crate::image::ReadPath;
     use crate::limits::FormatSupport;
     use crate::samples::standard_sample_positions;
-    use crate::version::ApiVersion;
 
     fn limits() -> Limits {
         let format = |format: TextureFormat| FormatSupport {
@@ -121,19 +120,12 @@ mod tests {
         };
         let formats = [TextureFormat::Rgba8Unorm, TextureFormat::Depth24Plus];
         Limits {
-            api: Api::Vulkan,
-            version: ApiVersion::UNKNOWN,
-            properties: Default::default(),
             sub_pixel_bits: 8,
-            viewport_bits: None,
-            texel_bits: None,
             max_size: u32::MAX,
             max_color_attachments: u32::MAX,
             formats: formats.into_iter().map(|f| (f, format(f))).collect(),
-            features: Default::default(),
-            paths: Default::default(),
-            exempt: Default::default(),
             sample_positions: [1, 4].map(|n| (n, standard_sample_positions(n))).into(),
+            ..Limits::nothing(Api::Vulkan)
         }
     }
 

@@ -107,6 +107,25 @@ pub struct Limits {
 }
 
 impl Limits {
+    /// Returns the limits of an adapter that can do nothing and says nothing.
+    pub fn nothing(api: Api) -> Self {
+        Self {
+            api,
+            version: ApiVersion::UNKNOWN,
+            properties: BTreeSet::new(),
+            sub_pixel_bits: 0,
+            viewport_bits: None,
+            texel_bits: None,
+            max_size: 0,
+            max_color_attachments: 0,
+            formats: BTreeMap::new(),
+            features: BTreeSet::new(),
+            paths: BTreeSet::new(),
+            exempt: BTreeSet::new(),
+            sample_positions: BTreeMap::new(),
+        }
+    }
+
     /// Returns the first requirement that is not met.
     pub fn missing(&self, requirements: &[Requirement]) -> Option<Requirement> {
         requirements.iter().copied().find(|r| !self.meets(*r))

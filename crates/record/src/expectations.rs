@@ -306,19 +306,10 @@ mod tests {
             },
             release: None,
             limits: Limits {
-                api: Api::OpenGl,
-                version: etalon_frame::ApiVersion::UNKNOWN,
-                properties: Default::default(),
-                exempt: Default::default(),
                 sub_pixel_bits: 4,
-                viewport_bits: None,
-                texel_bits: None,
                 max_size: 2048,
                 max_color_attachments: 8,
-                formats: Default::default(),
-                features: Default::default(),
-                paths: Default::default(),
-                sample_positions: Default::default(),
+                ..Limits::nothing(Api::OpenGl)
             },
         }
     }

@@ -14,8 +14,8 @@ use crate::states::{OPEN, StateNumber};
 use crate::texels::Texels;
 use crate::walk::Walk;
 use etalon_frame::{
-    Api, ApiVersion, CountRange, FormatSupport, Frame, LegalSet, LegalSetBuilder, Limits, ReadPath,
-    Ruling, Story, TexelSet,
+    Api, CountRange, FormatSupport, Frame, LegalSet, LegalSetBuilder, Limits, ReadPath, Ruling,
+    Story, TexelSet,
 };
 use etalon_scene::{Draw, Scene};
 use rustc_hash::FxHashMap;
@@ -128,21 +128,12 @@ fn basis(scene: &Scene, limits: &Limits) -> Limits {
     let counts = scene.attachments.iter().map(|a| a.samples);
     let positions = counts.filter_map(|n| Some((n, limits.sample_positions.get(&n)?.clone())));
     Limits {
-        // These three affect sets only through the rules.
-        api: Api::Vulkan,
-        version: ApiVersion::UNKNOWN,
-        properties: BTreeSet::new(),
         // Where the grid itself matters, the rules are asked.
         sub_pixel_bits: basis_bits(limits.sub_pixel_bits),
-        viewport_bits: None,
-        texel_bits: None,
-        max_size: 0,
-        max_color_attachments: 0,
         formats: formats.collect(),
-        features: BTreeSet::new(),
-        paths: BTreeSet::new(),
-        exempt: BTreeSet::new(),
         sample_positions: positions.collect(),
+        // The others affect sets only through the rules, or not at all.
+        ..Limits::nothing(Api::Vulkan)
     }
 }
 

@@ -109,19 +109,11 @@ pub(crate) fn run(made: &[Made]) -> Run {
         },
         release: None,
         limits: Limits {
-            api: Api::Vulkan,
             version: etalon_frame::ApiVersion::new(1, 3),
-            properties: Default::default(),
-            exempt: Default::default(),
             sub_pixel_bits: 8,
-            viewport_bits: None,
-            texel_bits: None,
             max_size: 1024,
             max_color_attachments: 4,
-            formats: [].into(),
-            features: [].into(),
-            paths: Default::default(),
-            sample_positions: [].into(),
+            ..Limits::nothing(Api::Vulkan)
         },
     };
     Run {

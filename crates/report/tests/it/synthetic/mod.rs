@@ -68,13 +68,7 @@ pub(crate) fn adapter(name: &str, api: Api) -> AdapterRecord {
         },
         release: None,
         limits: Limits {
-            api,
-            version: etalon_frame::ApiVersion::UNKNOWN,
-            properties: Default::default(),
-            exempt: Default::default(),
             sub_pixel_bits: 8,
-            viewport_bits: None,
-            texel_bits: None,
             max_size: 16384,
             max_color_attachments: 8,
             formats: [
@@ -86,8 +80,8 @@ pub(crate) fn adapter(name: &str, api: Api) -> AdapterRecord {
             ]
             .into(),
             features: [Feature::FrontAndBackCulling].into(),
-            paths: Default::default(),
             sample_positions: [(4, vec![[96, 32], [224, 96], [32, 160], [160, 224]])].into(),
+            ..Limits::nothing(api)
         },
     }
 }
