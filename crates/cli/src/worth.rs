@@ -41,9 +41,7 @@ pub(crate) fn sort_by_worth(cases: &mut [Case]) {
 
 /// Returns the file with the order that a hunt gives. The hunt must have drawn every case with every bug.
 pub(crate) fn order(cases: &[Case], hunted: &Hunted) -> String {
-    let bugs = (0..).zip(&hunted.records);
-    let bugs = bugs.filter(|(_, record)| record.mutant.legal.is_none());
-    let mut left: HashSet<usize> = bugs.map(|(number, _)| number).collect();
+    let mut left: HashSet<usize> = (0..hunted.records.len()).collect();
     let mut text =
         format!("{ORDER_HEAD}# Written by: etalon mutants --full --order cases/order.txt\n");
     loop {

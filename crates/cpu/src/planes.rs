@@ -5,7 +5,7 @@ use crate::linear::{LinearVarying, UNITS, position};
 use crate::steps::Steps;
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::shader::clip_distances;
-use etalon_pipeline::{DepthPlane, Point, signed_area, slope};
+use etalon_pipeline::{DepthPlane, Point, signed_area};
 use etalon_scene::{Draw, Interpolation};
 
 /// A vertex of a primitive.
@@ -220,6 +220,6 @@ pub(crate) fn plane_bias(
     }
     let unit = steps.bias_unit(encoding, largest);
     let plane = plane();
-    let (steepest, _) = slope(plane.dx * UNITS as f64, plane.dy * UNITS as f64);
-    steps.bias(state, unit, steepest)
+    let slope = steps.slope(plane.dx * UNITS as f64, plane.dy * UNITS as f64);
+    steps.bias(state, unit, slope)
 }

@@ -35,23 +35,30 @@ pub(crate) fn draw<S: Steps>(
     }
     let size = scene.pass_size(pass);
     let standard = standard_sample_positions(scene.pass_samples(pass));
-    let samples: Vec<Point> = steps
-        .sample_positions(standard)
-        .into_iter()
-        .map(|[x, y]| Point {
+    let points = |positions: Vec<[u16; 2]>| -> Vec<Point> {
+        let point = |[x, y]: [u16; 2]| Point {
             x: i64::from(x) * UNITS / 256,
             y: i64::from(y) * UNITS / 256,
-        })
+        };
+        positions.into_iter().map(point).collect()
+    };
+    let shading = steps.sample_positions(standard);
+    let covered = points(steps.coverage_positions(shading.clone()));
+    let samples = points(shading);
+    let vertices: Vec<PlaneVertex> = draw
+        .mesh
+        .vertices
+        .iter()
+        .map(|v| vertex(draw, v, steps))
         .collect();
-    let vertices: Vec<PlaneVertex> = draw.mesh.vertices.iter().map(|v| vertex(draw, v)).collect();
     let mut state = SpanState::new(scene, pass, draw, &samples, memory, steps);
     let raster = Raster {
         draw,
         steps,
-        samples: &samples,
+        samples: &covered,
         bounds: bounds(draw, size),
         encoding: state.depth_encoding(),
-        interpolation: steps.interpolation(draw.shader).0,
+        interpolation: steps.interpolation(draw.shader, &draw.multisample).0,
     };
     let provoking = draw.provoking_vertices();
     for (primitive, provoking) in draw.primitives().into_iter().zip(provoking) {
@@ -75,17 +82,17 @@ pub(crate) fn draw<S: Steps>(
 }
 
 /// Returns a vertex in window coordinates.
-fn vertex(draw: &Draw, v: &etalon_scene::Vertex) -> PlaneVertex {
+fn vertex(draw: &Draw, v: &etalon_scene::Vertex, steps: &impl Steps) -> PlaneVertex {
     let [[x], [y], [z]] = window_position(&mut Plain::<1>, v.position, &draw.viewport);
-    let snap = |v: f32| (v * UNITS as f32 + 0.5).floor() as i64;
+    let clip_z = v.position[2] / v.position[3];
     PlaneVertex {
         position: v.position,
         at: Point {
-            x: snap(x),
-            y: snap(y),
+            x: steps.snap(x),
+            y: steps.snap(y),
         },
-        z,
-        clip_z: v.position[2] / v.position[3],
+        z: steps.window_depth(z, clip_z, draw.viewport.depth),
+        clip_z,
         color: v.color,
         uv: v.uv,
         distances: clipping(draw, v),
@@ -156,12 +163,14 @@ impl<S: Steps> Raster<'_, S> {
         if is_culled(draw.cull, front) {
             return;
         }
-        let Some(snapped) = SnappedTriangle::new(points) else {
+        let owns = |from, to| self.steps.owns_edge(from, to);
+        let Some(snapped) = SnappedTriangle::owning(points, owns) else {
             return;
         };
         let bias = self.bias(points, &corners);
         let planes = Planes::new(draw, self.interpolation, points, corners, bias, outlined);
         if outlined {
+            let front = self.steps.outline_faces_front(front);
             for (i, j) in [(0, 1), (1, 2), (2, 0)] {
                 let ends = [corners[i], corners[j]];
                 line(ends, front, &planes, self.samples.len(), bounds, state);

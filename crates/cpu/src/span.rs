@@ -4,7 +4,7 @@ use crate::lanes::{LANES, LaneCodes, Mask, Real};
 use crate::linear::{CENTER, LinearVarying, UNITS};
 use crate::lists::TexelLists;
 use crate::memory::{CountedKind, Memory};
-use crate::steps::{ExportedReference, InputBit, Steps, TestOutcome, Tests};
+use crate::steps::{ComparedDepths, ExportedReference, InputBit, Steps, TestOutcome, Tests};
 use crate::surface::{CpuSurface, depth_encoding};
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind};
 use etalon_pipeline::shader::{
@@ -206,6 +206,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         // A shader that runs for several samples gets the depth of the first covered sample.
         let mut seen: Option<Real> = None;
         let mut ran = [false; LANES];
+        let mut passed = [false; LANES];
         let mut run = 0;
         for sample in 0..samples {
             if std::mem::replace(&mut run, sample * runs / samples) != sample * runs / samples {
@@ -215,7 +216,10 @@ impl<'a, S: Steps> SpanState<'a, S> {
             let mut mask = self
                 .steps
                 .covered(span.x, span.y, self.size, span.masks[sample]);
-            if !self.steps.sample_drawn(state, sample, samples) || !mask.contains(&true) {
+            let is_drawn = self.steps.sample_drawn(state, sample, samples);
+            let is_masked_late =
+                self.draw.early_tests == EarlyTests::Forced && self.steps.tests_before_mask();
+            if !(is_drawn || is_masked_late) || !mask.contains(&true) {
                 continue;
             }
             let own_depth = if self.asks_depth {
@@ -226,8 +230,9 @@ impl<'a, S: Steps> SpanState<'a, S> {
             let first_depth = *seen.get_or_insert(own_depth);
             if self.early {
                 mask = self.test_and_store(span, sample, own_depth, None, mask);
+                passed = or(passed, mask);
                 self.count_passed(mask);
-                if !mask.contains(&true) {
+                if !is_drawn || !mask.contains(&true) {
                     continue;
                 }
             }
@@ -260,6 +265,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
                     (written, reference.plus)
                 });
                 mask = self.test_and_store(span, sample, depth, references, mask);
+                passed = or(passed, mask);
                 self.count_passed(mask);
             }
             if mask.contains(&true) {
@@ -267,6 +273,9 @@ impl<'a, S: Steps> SpanState<'a, S> {
             }
         }
         self.count(|kind| !kind.is_occlusion(), ran);
+        if self.steps.counts_all_samples() {
+            (0..samples).for_each(|_| self.count(CounterKind::is_occlusion, passed));
+        }
     }
 
     /// Runs the fragment shader, except the loop of an expensive shader.
@@ -359,6 +368,9 @@ impl<'a, S: Steps> SpanState<'a, S> {
     }
 
     fn count_passed(&mut self, passed: Mask) {
+        if self.steps.counts_all_samples() {
+            return;
+        }
         self.count(CounterKind::is_occlusion, passed);
     }
 
@@ -382,7 +394,11 @@ impl<'a, S: Steps> SpanState<'a, S> {
         let Some(planes) = &span.uv else {
             return [[0.0; LANES]; 2];
         };
-        let points = match self.steps.interpolation(self.draw.shader).1 {
+        let points = match self
+            .steps
+            .interpolation(self.draw.shader, &self.draw.multisample)
+            .1
+        {
             InterpolationSampling::Center => [point; LANES],
             InterpolationSampling::Sample => [self.samples[sample]; LANES],
             // The first covered sample is inside the primitive.
@@ -530,12 +546,20 @@ impl<'a, S: Steps> SpanState<'a, S> {
         let (state, index, encoding) = (self.draw.depth?, self.pass.depth_stencil?, self.depth?);
         // Depths are clamped to the viewport's range after a shader wrote them or a bias was added.
         let range = self.draw.viewport.depth;
-        let depth = depth.map(|v| self.steps.held_to_range(v, range));
+        let depth = depth.map(|v| self.steps.held_to_range(v, range, self.draw.depth_clamp));
         let codes = self.steps.depth_codes(encoding, depth);
         let seen = self.steps.stored_sample(Aspect::Depth, sample);
         let stored = load(self.surfaces[index].plane(0, seen), self.at(index, span));
-        *passes =
-            std::array::from_fn(|i| self.steps.depth_passes(state.compare, codes[i], stored[i]));
+        *passes = std::array::from_fn(|i| {
+            let depths = ComparedDepths {
+                encoding,
+                depth: depth[i],
+                incoming: codes[i],
+                stored: stored[i],
+                written: self.draw.shader.writes_depth(),
+            };
+            self.steps.depth_passes(state.compare, &depths)
+        });
         state.write.then_some(codes)
     }
 

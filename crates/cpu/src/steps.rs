@@ -5,13 +5,14 @@
 
 pub use crate::lanes::{LANES, LaneCodes, Mask, Real};
 
+use crate::linear::UNITS;
 use crate::sampling::sample;
 use crate::surface::CpuSurface;
 use etalon_frame::{Aspect, ChannelEncoding, CounterKind};
 use etalon_pipeline::shader::{KeepCondition, SampleMask};
 use etalon_pipeline::{
-    Arithmetic, BlendInput, Plain, advanced_blend, blend, compare, exported_reference,
-    stencil_passes, stencil_write,
+    Arithmetic, BlendInput, Plain, Point, advanced_blend, blend, compare, exported_reference,
+    is_top_left, slope, stencil_passes, stencil_write,
 };
 use etalon_scene::{
     AdvancedBlend, BlendState, Clear, CompareFunction, DepthBias, Interpolation,
@@ -76,6 +77,21 @@ pub struct InputBit {
     pub drawn: bool,
     /// True if the run shades the bit's sample.
     pub shaded: bool,
+}
+
+/// The depths that a depth test compares.
+#[derive(Clone, Copy, Debug)]
+pub struct ComparedDepths {
+    /// The encoding of the attachment.
+    pub encoding: ChannelEncoding,
+    /// The incoming depth, before its conversion.
+    pub depth: f32,
+    /// The code of the incoming depth.
+    pub incoming: u32,
+    /// The stored code.
+    pub stored: u32,
+    /// True if the shader wrote the incoming depth.
+    pub written: bool,
 }
 
 /// The results of a span's tests. A disabled test passes.
@@ -234,10 +250,10 @@ pub trait Steps {
         Plain::<LANES>.encode(encoding, depth.map(|v| v.clamp(0.0, 1.0) + 0.0))
     }
 
-    /// Returns true if an incoming depth passes. Both depths are codes.
+    /// Returns true if an incoming depth passes.
     #[inline(always)]
-    fn depth_passes(&self, function: CompareFunction, incoming: u32, stored: u32) -> bool {
-        compare(function, incoming, stored)
+    fn depth_passes(&self, function: CompareFunction, depths: &ComparedDepths) -> bool {
+        compare(function, depths.incoming, depths.stored)
     }
 
     /// Returns the texels whose colour is written, and the texels whose depth is written.
@@ -337,6 +353,49 @@ pub trait Steps {
         }
     }
 
+    /// Returns the slope of a polygon whose depth grows by this much per texel.
+    #[inline(always)]
+    fn slope(&self, dx: f64, dy: f64) -> f64 {
+        slope(dx, dy).0
+    }
+
+    /// Returns a window coordinate, in texels, on the grid of vertices, in its units.
+    #[inline(always)]
+    fn snap(&self, coordinate: f32) -> i64 {
+        (coordinate * UNITS as f32 + 0.5).floor() as i64
+    }
+
+    /// Returns the depth of a vertex in the window, given that depth, the depth before the viewport, and the
+    /// viewport's range.
+    #[inline(always)]
+    fn window_depth(&self, depth: f32, _clip_depth: f32, _range: [f32; 2]) -> f32 {
+        depth
+    }
+
+    /// Returns true if samples on an edge belong to the triangle clockwise of it.
+    #[inline(always)]
+    fn owns_edge(&self, from: Point, to: Point) -> bool {
+        is_top_left(from, to)
+    }
+
+    /// Returns the facing of a polygon's edges, given the polygon's.
+    #[inline(always)]
+    fn outline_faces_front(&self, polygon: bool) -> bool {
+        polygon
+    }
+
+    /// Returns true if forced early tests precede the sample mask.
+    #[inline(always)]
+    fn tests_before_mask(&self) -> bool {
+        false
+    }
+
+    /// Returns true if a fragment of which a sample passes counts with all samples.
+    #[inline(always)]
+    fn counts_all_samples(&self) -> bool {
+        false
+    }
+
     /// Returns `constant * r + slope * m`, clamped (Vulkan, Depth Bias; Direct3D 11.3, 15.10).
     #[inline(always)]
     fn bias(&self, state: &DepthBias, unit: f64, slope: f64) -> f64 {
@@ -363,9 +422,9 @@ pub trait Steps {
         true
     }
 
-    /// Clamps a depth to the viewport's range.
+    /// Clamps a depth to the viewport's range, whether or not the draw clamps depths.
     #[inline(always)]
-    fn held_to_range(&self, depth: f32, [near, far]: [f32; 2]) -> f32 {
+    fn held_to_range(&self, depth: f32, [near, far]: [f32; 2], _clamps: bool) -> f32 {
         depth.clamp(near.min(far), near.max(far))
     }
 
@@ -379,6 +438,12 @@ pub trait Steps {
     #[inline(always)]
     fn bounds_fail_as_depth(&self) -> bool {
         false
+    }
+
+    /// Returns the positions at which the coverage of samples is tested, in 1/256 texel, given those of shading.
+    #[inline(always)]
+    fn coverage_positions(&self, shading: Vec<[u16; 2]>) -> Vec<[u16; 2]> {
+        shading
     }
 
     /// Returns the sample positions in 1/256 texel.
@@ -434,7 +499,11 @@ pub trait Steps {
 
     /// Returns how a shader's texture coordinates are interpolated, and at which points.
     #[inline(always)]
-    fn interpolation(&self, shader: Shader) -> (Interpolation, InterpolationSampling) {
+    fn interpolation(
+        &self,
+        shader: Shader,
+        _state: &Multisample,
+    ) -> (Interpolation, InterpolationSampling) {
         (shader.interpolation(), shader.interpolation_sampling())
     }
 

@@ -1,8 +1,10 @@
-//! The rasterizer with a planted bug.
+//! The rasterizer with planted changes.
 
-use super::mutant::Mutant;
-use super::plant::{Plant, all_draws};
-use crate::mutants;
+use crate::changes;
+use crate::hooks::CombinedHooks;
+use crate::innocent::innocents;
+use crate::mutant::Mutant;
+use crate::plant::{FrameBug, Plant, all_draws};
 use etalon_backend::{Backend, BackendError, FrameTime, Prepared};
 use etalon_cpu::steps::Faithful;
 use etalon_cpu::{CpuBackend, CpuScene};
@@ -10,22 +12,33 @@ use etalon_frame::{AdapterInfo, Frame, Limits};
 use etalon_scene::{RESTART, Scene};
 use std::cell::RefCell;
 
-/// The rasterizer with one planted bug.
+/// The rasterizer with a planted bug, or with legal changes.
 #[derive(Debug)]
 pub struct MutantBackend {
     inner: CpuBackend,
-    mutant: &'static Mutant,
+    limits: Limits,
+    changes: Vec<&'static Mutant>,
     /// The previous scene, for bugs in which its state persists.
     before: RefCell<Option<Scene>>,
 }
 
 impl MutantBackend {
-    /// Returns the rasterizer with the bug of this name; `None` if no bug has this name.
+    /// Returns the rasterizer with the bug or the innocent of this name; `None` if none has this name.
     pub fn new(name: &str) -> Option<Self> {
-        let mutant = mutants().iter().find(|m| m.name == name)?;
+        let single = changes().iter().find(|change| change.name == name);
+        let changes = single.map(|change| vec![change]).or_else(|| {
+            let innocent = innocents().iter().find(|i| i.name == name);
+            innocent.map(|innocent| innocent.changes.clone())
+        })?;
+        let inner = CpuBackend::spans(&format!("cpu:{name}"));
+        let mut limits = inner.limits().clone();
+        for change in &changes {
+            limits = change.reported(limits);
+        }
         Some(Self {
-            inner: CpuBackend::spans(&format!("cpu:{name}")),
-            mutant,
+            inner,
+            limits,
+            changes,
             before: RefCell::new(None),
         })
     }
@@ -34,10 +47,12 @@ impl MutantBackend {
     fn believed(&self, scene: &Scene) -> Scene {
         let before = self.before.replace(Some(scene.clone()));
         let mut believed = scene.clone();
-        match &self.mutant.plant {
-            Plant::Scene(bug) | Plant::Again(_, bug) => bug(before.as_ref(), &mut believed),
-            Plant::Draws(bug) => all_draws(&mut believed).for_each(bug),
-            Plant::Steps(_) | Plant::Memory(_) | Plant::Frame(_) => return believed,
+        for change in &self.changes {
+            match &change.plant {
+                Plant::Scene(bug) | Plant::Again(_, bug) => bug(before.as_ref(), &mut believed),
+                Plant::Draws(bug) => all_draws(&mut believed).for_each(bug),
+                Plant::Steps(_) | Plant::Memory(_) | Plant::Frame(_) => {}
+            }
         }
         keep_possible(scene, &mut believed);
         believed
@@ -70,7 +85,7 @@ impl Backend for MutantBackend {
     }
 
     fn limits(&self) -> &Limits {
-        self.inner.limits()
+        &self.limits
     }
 
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
@@ -78,22 +93,34 @@ impl Backend for MutantBackend {
             return Err(BackendError::NotSupported(missing));
         }
         let believed = self.believed(scene);
-        Ok(match &self.mutant.plant {
-            Plant::Steps(hooks) => Box::new(CpuScene::new(believed, hooks.as_ref())),
-            Plant::Memory(bug) => Box::new(CpuScene::new(believed, bug())),
-            Plant::Frame(bug) => Box::new(PreparedMutant {
-                inner: self.inner.prepare(&believed)?,
-                scene: believed,
-                bug,
-            }),
-            Plant::Again(from, _) => Box::new(PreparedAgain {
-                right: CpuScene::new(scene.clone(), Faithful),
-                wrong: CpuScene::new(believed, Faithful),
-                from: *from,
-                submissions: 0,
-            }),
-            Plant::Scene(_) | Plant::Draws(_) => Box::new(CpuScene::new(believed, Faithful)),
-        })
+        let mut hooks = CombinedHooks::default();
+        let mut frame_bugs: Vec<&FrameBug> = Vec::new();
+        for change in &self.changes {
+            match &change.plant {
+                Plant::Scene(_) | Plant::Draws(_) => {}
+                Plant::Steps(steps) => hooks.0.push(steps),
+                Plant::Frame(bug) => frame_bugs.push(bug.as_ref()),
+                Plant::Memory(bug) => return Ok(Box::new(CpuScene::new(believed, bug()))),
+                Plant::Again(from, _) => {
+                    return Ok(Box::new(PreparedAgain {
+                        right: CpuScene::new(scene.clone(), Faithful),
+                        wrong: CpuScene::new(believed, Faithful),
+                        from: *from,
+                        submissions: 0,
+                    }));
+                }
+            }
+        }
+        let inner: Box<dyn Prepared> = if hooks.0.is_empty() {
+            Box::new(CpuScene::new(believed.clone(), Faithful))
+        } else {
+            Box::new(CpuScene::new(believed.clone(), hooks))
+        };
+        Ok(Box::new(PreparedMutant {
+            inner,
+            scene: believed,
+            frame_bugs,
+        }))
     }
 }
 
@@ -128,20 +155,22 @@ impl<P: Prepared> Prepared for PreparedAgain<P> {
 }
 
 /// A scene whose frame is changed when it is read back.
-struct PreparedMutant<'a, F: ?Sized> {
+struct PreparedMutant<'a> {
     inner: Box<dyn Prepared + 'a>,
     scene: Scene,
-    bug: &'a F,
+    frame_bugs: Vec<&'a FrameBug>,
 }
 
-impl<F: Fn(&Scene, &mut Frame) + ?Sized> Prepared for PreparedMutant<'_, F> {
+impl Prepared for PreparedMutant<'_> {
     fn submit(&mut self) -> Result<FrameTime, BackendError> {
         self.inner.submit()
     }
 
     fn read_back(&mut self) -> Result<Frame, BackendError> {
         let mut frame = self.inner.read_back()?;
-        (self.bug)(&self.scene, &mut frame);
+        for bug in &self.frame_bugs {
+            bug(&self.scene, &mut frame);
+        }
         Ok(frame)
     }
 }

@@ -3,6 +3,7 @@
 use crate::fields::DEPTH_BIAS;
 use crate::hooks::{bias, bias_unit, biases_lines};
 use crate::list::{CONFUSION, bugs};
+use crate::permission::under;
 use crate::plant::{Plant, each, set};
 use etalon_cpu::steps::{Faithful, Steps};
 use etalon_frame::ChannelEncoding::{self, Float32, Unorm};
@@ -19,10 +20,6 @@ fn step(encoding: ChannelEncoding, bug: impl Fn(f64, f64) -> f64 + Send + Sync +
         }
     })
 }
-
-/// The clause that allows steps twice as large on fixed-point depth.
-const STEP: &str =
-    "Vulkan: Depth Bias: r is one for the attachment and at most 2 * 2^-n for fixed point";
 
 /// Changes the constant of biases without a clamp.
 fn constant(bug: fn(i32) -> f64) -> Plant {
@@ -74,10 +71,12 @@ bugs! {
         bias(|state, _, slope| Faithful.bias(state, 1.0, slope));
     "applied-to-lines: Points and lines are biased as polygons are." => biases_lines(|| true);
     source "v3d: D16 units";
-    for (bits, other) in [(16, 15), (24, 23)] {
-        "d{bits}-step-of-{other}-bits: On depth of {bits} bits, a step is that of {other}." =>
-            step(Unorm(bits), |r, _| r * 2.0), legal STEP;
-    }
+    "d16-step-of-15-bits: On depth of 16 bits, a step is that of 15." =>
+        step(Unorm(16), |r, _| r * 2.0),
+        permitted vec![under!(depth_bias_unit: unit if unit.unorm16.iter().any(|r| r.1 >= 2.0))];
+    "d24-step-of-23-bits: On depth of 24 bits, a step is that of 23." =>
+        step(Unorm(24), |r, _| r * 2.0),
+        permitted vec![under!(depth_bias_unit: unit if unit.unorm.iter().any(|r| r.1 >= 2.0))];
     for (bits, other) in [(16, 14), (16, 17), (16, 24), (24, 16), (24, 25)] {
         "d{bits}-step-of-{other}-bits: On depth of {bits} bits, a step is that of {other}." =>
             step(Unorm(bits), move |r, _| r * 2_f64.powi(i32::from(bits) - other));
@@ -89,11 +88,14 @@ bugs! {
         "float-step-of-{name}: On float depth, a step is {about}." => step(Float32, move |_, _| 2_f64.powi(exponent));
     }
     for (name, about, factor) in [
-        ("halved", "half as large", 0.5), ("doubled", "twice as large", 2.0), ("quartered", "a quarter as large", 0.25),
+        ("halved", "half as large", 0.5), ("quartered", "a quarter as large", 0.25),
         ("of-3-quarters", "three quarters as large", 0.75), ("1-percent-less", "a hundredth smaller", 0.99),
     ] {
         "float-step-{name}: On float depth, a step is {about}." => step(Float32, move |r, _| r * factor);
     }
+    "float-step-doubled: On float depth, a step is twice as large." =>
+        step(Float32, |r, _| r * 2.0), source "NVIDIA, zink, Intel, Mali: a mantissa of 0.M",
+        permitted vec![under!(depth_bias_unit: unit if unit.float.iter().any(|r| r.0 <= 2.0 && r.1 >= 2.0))];
     // The specification allows each of these steps, but not different ones in one attachment.
     source "a step of floats on fixed-point depth";
     for (name, about, factor as fn(f64) -> f64) in [

@@ -45,7 +45,12 @@ pub(super) fn factors(list: &mut MutantList, pairs: &[(BlendFactor, BlendFactor)
 }
 
 /// Returns one side of the equations: the other side's factors are zero, and the sides are added.
-fn side(state: &BlendState, encodings: Encodings, input: &Input, source: bool) -> [f32; 4] {
+pub(super) fn side(
+    state: &BlendState,
+    encodings: Encodings,
+    input: &Input,
+    source: bool,
+) -> [f32; 4] {
     let mut state = *state;
     for component in [&mut state.color, &mut state.alpha] {
         component.operation = BlendOperation::Add;
@@ -59,12 +64,12 @@ fn side(state: &BlendState, encodings: Encodings, input: &Input, source: bool) -
     faithful_blend(&state, encodings, input)
 }
 
-fn component(state: &BlendState, c: usize) -> &BlendComponent {
+pub(super) fn component(state: &BlendState, c: usize) -> &BlendComponent {
     if c == 3 { &state.alpha } else { &state.color }
 }
 
 /// Combines the two sides.
-fn joined(operation: BlendOperation, s: f32, d: f32) -> f32 {
+pub(super) fn joined(operation: BlendOperation, s: f32, d: f32) -> f32 {
     match operation {
         BlendOperation::Add => s + d,
         BlendOperation::Subtract => s - d,
@@ -74,7 +79,7 @@ fn joined(operation: BlendOperation, s: f32, d: f32) -> f32 {
     }
 }
 
-fn is_extreme(operation: BlendOperation) -> bool {
+pub(super) fn is_extreme(operation: BlendOperation) -> bool {
     [BlendOperation::Min, BlendOperation::Max].contains(&operation)
 }
 

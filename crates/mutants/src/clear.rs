@@ -1,7 +1,7 @@
 //! Bugs of clear values.
 
 use crate::hooks::{clear_code, code};
-use crate::list::{CONFUSION, ROUNDED, SMALL, STEPS, bugs};
+use crate::list::{CONFUSION, SMALL, STEPS, bugs, rounded};
 use crate::plant::{Plant, contents, in_bits, nudge};
 use etalon_frame::ChannelEncoding::{self, Float32, Unorm};
 use etalon_scene::AttachmentContents;
@@ -69,7 +69,7 @@ bugs! {
                     round(f64::from(v.clamp(0.0, 1.0)) * encoding.max_order() as f64) as u32
                 }
                 _ => code(encoding, v),
-            }), source "drivers differ in clear rounding: 0.3 becomes 76 or 77", legal ROUNDED;
+            }), source "drivers differ in clear rounding: 0.3 becomes 76 or 77", permitted rounded();
     }
     class "clear", "depth";
     "depth-ignored: Depth starts from 1." => depths_and_stencils(|depth, _| *depth = 1.0);
@@ -92,7 +92,7 @@ bugs! {
         clear_code(|encoding, v| match encoding {
             Unorm(16 | 24) => (f64::from(v) * encoding.max_order() as f64).floor() as u32,
             _ => code(encoding, v),
-        }), source "truncation instead of rounding", legal ROUNDED;
+        }), source "truncation instead of rounding", permitted rounded();
     class "clear", "stencil";
     "stencil-ignored: Stencil starts from 0." => stencils(|_| 0);
     "stencil-in-7-bits: Cleared stencil loses its highest bit." => stencils(|s| s & 0x7f);

@@ -2,6 +2,7 @@
 
 use crate::fields::FieldPlaces;
 use crate::list::bugs;
+use crate::permission::under;
 use crate::plant::{Plant, draws, each, from_draw, set};
 use PrimitiveTopology as T;
 use etalon_scene::{Draw, PrimitiveTopology, Shader, Vertex};
@@ -52,7 +53,7 @@ bugs! {
     "enables-as-a-count: The lowest distances clip, as many as are switched on." =>
         each(ENABLES, |bits| *bits = ((1_u32 << bits.count_ones()) - 1) as u8);
     "points-not-clipped: Points are not clipped." => draws(unclipped), when |draw| draw.topology == T::PointList;
-    "lines-not-clipped: Lines are not clipped." => draws(unclipped), when |draw| draw.topology == T::LineList;
+    "lines-not-clipped: Lines are not clipped." => draws(unclipped), when |draw| draw.topology == T::LineList, permitted vec![under!(clips_lines_by_distance: false)];
     "triangles-whole-or-not: A triangle is dropped whole if a vertex is clipped." =>
         triangles(|triangle| { if is_cut(triangle) { triangle.iter_mut().for_each(|v| v.uv = [-1.0; 2]); } });
     "only-whole-triangles: Only triangles that lie wholly behind a plane are clipped." =>

@@ -2,6 +2,7 @@
 
 use crate::fields::VERTICES;
 use crate::list::{CONFUSION, bugs};
+use crate::permission::under;
 use crate::plant::{Plant, draws, each};
 use etalon_scene::{Draw, PrimitiveTopology, Vertex};
 
@@ -115,9 +116,9 @@ bugs! {
     "slope-of-the-piece: The slope of a clipped triangle counts twice." =>
         draws(|draw| draw.depth_bias.slope *= 2.0), when |draw| draw.mesh.vertices.iter().any(is_outside);
     "lines-whole: Lines are drawn to ends that the near and far planes clip." =>
-        draws(|draw| draw.depth_clamp = true), when |draw| draw.topology == PrimitiveTopology::LineList;
+        draws(|draw| draw.depth_clamp = true), when |draw| draw.topology == PrimitiveTopology::LineList, permitted vec![under!(clips_lines_by_depth: false)];
     "points-before-near: Points before the near and beyond the far plane are drawn." =>
-        draws(|draw| draw.depth_clamp = true), when |draw| draw.topology == PrimitiveTopology::PointList;
+        draws(|draw| draw.depth_clamp = true), when |draw| draw.topology == PrimitiveTopology::PointList, permitted vec![under!(clips_points: false)];
     source "guard bands of 16-bit positions";
     "wraps: Places wrap around at 32,768 texels." =>
         places(|v| (v + 32768.0).rem_euclid(65536.0) - 32768.0);

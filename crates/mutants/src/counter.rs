@@ -1,6 +1,7 @@
 //! Bugs of counters.
 
 use crate::list::{SMALL, bugs};
+use crate::permission::under;
 use crate::plant::{Plant, frames, from_draw, passes};
 use etalon_frame::CounterKind;
 use std::collections::BTreeSet;
@@ -15,9 +16,6 @@ fn counts(kind: CounterKind, bug: fn(u64) -> u64) -> Plant {
         }
     })
 }
-
-const RUNS: &str = "Vulkan: Fragment Shading: a fragment may have several runs, whose stores and \
-                    atomics have the normal effect";
 
 bugs! {
     class "counter", "early-z";
@@ -41,8 +39,7 @@ bugs! {
     "runs-never-none: Where forced early tests reject all, the shader still runs once." =>
         counts(runs, |n| n.max(1)), source "softpipe: runs of fragments that forced early tests reject";
     "runs-doubled: Every run counts twice." =>
-        counts(runs, |n| n * 2),
-        legal RUNS;
+        counts(runs, |n| n * 2), permitted vec![under!(runs_once: false)];
     "counts-for-the-draw-before: A draw counts for the counters of the draw before it." =>
         from_draw(|before, draw| {
             if !before.counters.is_empty() && !draw.counters.is_empty() { draw.counters.clone_from(&before.counters); }

@@ -2,7 +2,7 @@
 
 use crate::fields::{DEPTH, DEPTH_COMPARE, DEPTH_WRITE, WRITE_MASK};
 use crate::hooks::{code, depth_code, depth_passes, written};
-use crate::list::{ROUNDED, SMALL, bugs};
+use crate::list::{SMALL, bugs, rounded};
 use crate::plant::{Plant, draws, each, in_bits, set};
 use crate::tables::compare_neighbours;
 use etalon_frame::ChannelEncoding::{self, Float32, Unorm};
@@ -14,19 +14,24 @@ fn stored(encoding: ChannelEncoding, bug: impl Fn(f32) -> u32 + Send + Sync + 's
     depth_code(move |e, v| if e == encoding { bug(v) } else { code(e, v) })
 }
 
+/// Replaces the comparison of codes, incoming first.
+fn codes_pass(bug: fn(CompareFunction, u32, u32) -> bool) -> Plant {
+    depth_passes(move |function, depths| bug(function, depths.incoming, depths.stored))
+}
+
 bugs! {
     class "depth", "depth";
     swaps "compare-", "The depth test ", DEPTH_COMPARE, compare_neighbours();
     "compare-operands-swapped: The stored depth stands on the left of the comparison." =>
-        depth_passes(|function, incoming, stored| compare(function, stored, incoming));
+        codes_pass(|function, incoming, stored| compare(function, stored, incoming));
     "equal-within-one-code: Depths that differ by one code count as equal." =>
-        depth_passes(|function, incoming, stored| match function {
+        codes_pass(|function, incoming, stored| match function {
             CompareFunction::Equal => incoming.abs_diff(stored) <= 1,
             CompareFunction::NotEqual => incoming.abs_diff(stored) > 1,
             _ => compare(function, incoming, stored),
         }), source SMALL;
     "compare-high-20-bits: Float depths are compared by their upper 20 bits." =>
-        depth_passes(|function, incoming, stored| compare(function, incoming >> 12, stored >> 12)), source SMALL;
+        codes_pass(|function, incoming, stored| compare(function, incoming >> 12, stored >> 12)), source SMALL;
     let state = |compare, write| Some(DepthState { compare, write });
     "write-ignored: Depth is never written." => set(DEPTH_WRITE, false);
     "write-always: Passing fragments write depth although writing is off." => set(DEPTH_WRITE, true);
@@ -55,9 +60,9 @@ bugs! {
         written(|[covered, stencil, depth]| [covered && stencil && depth, covered && depth]),
         source "v3d: early depth against stencil writes", area "stencil";
     "d16-truncated: 16-bit depths are rounded down." =>
-        stored(Unorm(16), |v| (f64::from(v) * 65535.0) as u32), source "truncation instead of rounding", legal ROUNDED;
+        stored(Unorm(16), |v| (f64::from(v) * 65535.0) as u32), source "truncation instead of rounding", permitted rounded();
     "d16-rounded-up: 16-bit depths are rounded up." =>
-        stored(Unorm(16), |v| (f64::from(v) * 65535.0).ceil() as u32), source "rounding up", legal ROUNDED;
+        stored(Unorm(16), |v| (f64::from(v) * 65535.0).ceil() as u32), source "rounding up", permitted rounded();
     for (bits, kept) in [(16, 15), (16, 12), (24, 22), (24, 16)] {
         "d{bits}-in-{kept}-bits: {bits}-bit depths keep {kept} bits." =>
             stored(Unorm(bits), move |v| code(Unorm(bits), in_bits(v, kept))),

@@ -6,17 +6,15 @@ use crate::blend::{Encodings, Input, after, before};
 use crate::hooks::{
     blending, clear_code, code, color_code, color_value, faithful_blend, missing_alpha,
 };
-use crate::list::{CONFUSION, PRECISION, ROUNDED, SMALL, STEPS, bugs};
+use crate::list::{CONFUSION, SMALL, STEPS, bugs, coarse, rounded};
+use crate::permission::under;
 use crate::plant::{Plant, nudge};
 use etalon_frame::ChannelEncoding::{self, Float16, Float32, Snorm, Srgb8, Ufloat, Unorm};
 use etalon_pipeline::{Arithmetic, BlendInput, Plain};
+use etalon_reference::rules::{ConstantClamp, FactorClamp, SignedClamp};
 use etalon_scene::BlendFactor;
 
 const CLAMPED: &str = "SwiftShader: negative float blends clamped";
-
-const SMALL_FLOATS: &str = "Vulkan: Fundamentals, 16-Bit and Unsigned 11-Bit and 10-Bit \
-                            Floating-Point Numbers: either neighbouring value, and the largest \
-                            finite one or infinity for values beyond it";
 
 /// The encodings, and the largest offset in codes that stays within their range.
 const ENCODINGS: [(&str, ChannelEncoding, i64); 12] = [
@@ -85,7 +83,7 @@ fn signed(round: fn(f32) -> f32) -> Plant {
 }
 
 /// Returns the correct value of a code.
-fn value(encoding: ChannelEncoding, code: u32) -> f32 {
+pub(super) fn value(encoding: ChannelEncoding, code: u32) -> f32 {
     let [value] = Plain::<1>.decode(encoding, [code]);
     value
 }
@@ -170,10 +168,10 @@ bugs! {
         ("truncated", "towards 0", f32::trunc), ("rounded-down", "down", f32::floor),
     ] {
         "snorm8-{name}: Signed values are rounded {about}." =>
-            signed(round), source "truncation instead of rounding", legal ROUNDED;
+            signed(round), source "truncation instead of rounding", permitted rounded();
     }
     "snorm8-negatives-lost: Signed formats store 0 for negative values." =>
-        store(Snorm(8), |v| code(Snorm(8), v.max(0.0)));
+        store(Snorm(8), |v| code(Snorm(8), v.max(0.0))), permitted vec![under!(signed_result: SignedClamp::Unit | SignedClamp::Either)];
     "snorm8-minus-one-as-lowest: -1 is stored as the lowest code." =>
         store(Snorm(8), |v| if v <= -1.0 { 0x80 } else { code(Snorm(8), v) });
     "snorm8-times-128: Signed formats are stored by the power of two." =>
@@ -187,9 +185,12 @@ bugs! {
         read(Snorm(8), |c| value(Snorm(8), c).max(0.0));
     "snorm8-inverse-factors-out-of-range: Factors 1 - x of signed formats exceed 1." =>
         before(|_, e, input| if is_signed(*e) { (*e, *input) = ([Float32; 4], clamp(input, -1.0)) }),
-        source "llvmpipe: snorm inverse factors out of range";
+        source "llvmpipe: snorm inverse factors out of range", permitted vec![under!(factor_clamp: FactorClamp::Either)];
     "snorm8-operands-held-above-0: On signed formats, operands are clamped to 0 to 1." =>
         before(|_, e, input| if is_signed(*e) { *input = Input { dst: input.dst, ..clamp(input, 0.0) } });
+    "snorm8-all-operands-held-above-0: On signed formats, all operands are clamped to 0 to 1." =>
+        before(|_, e, input| if is_signed(*e) { *input = clamp(input, 0.0) }), source "drivers of OpenGL 3.3",
+        permitted vec![under!(signed_clamp: SignedClamp::Unit | SignedClamp::Either)];
     "snorm8-cleared-above-0: Signed formats take negative clear values for 0." =>
         clear_code(|e, v| code(e, if e == Snorm(8) { v.max(0.0) } else { v }));
     for bits in [4, 5, 6] {
@@ -200,11 +201,11 @@ bugs! {
         if (bits > 4) {
             "unorm{bits}-destination-replicated: Destinations of {bits} bits are read as 8 that repeat them." =>
                 read(Unorm(bits), move |c| (c << (8 - bits) | c >> (2 * bits - 8)) as f32 / 255.0),
-                source "blending in 8 bits, as mobile GPUs do it", legal PRECISION;
+                source "blending in 8 bits, as mobile GPUs do it", permitted coarse();
         }
         "unorm{bits}-stored-through-8-bits: Formats of {bits} bits take the upper bits of 8." =>
             store(Unorm(bits), move |v| code(Unorm(8), v) >> (8 - bits)),
-            source "blending in 8 bits, as mobile GPUs do it", legal ROUNDED;
+            source "blending in 8 bits, as mobile GPUs do it", permitted rounded();
         let fewer = bits - 1;
         "unorm{bits}-stored-in-{fewer}-bits: Formats of {bits} bits lose their lowest." =>
             store(Unorm(bits), move |v| code(Unorm(bits), v) & !1), source SMALL;
@@ -219,7 +220,7 @@ bugs! {
     "unorm2-opaque: Alpha of 2 bits is stored as 1." => store(Unorm(2), |_| 3);
     "unorm1-opaque: Alpha of 1 bit is stored as 1." => store(Unorm(1), |_| 1);
     "unorm1-only-for-one: Alpha of 1 bit is set for 1 alone." =>
-        store(Unorm(1), |v| u32::from(v >= 1.0)), source "truncation instead of rounding", legal ROUNDED;
+        store(Unorm(1), |v| u32::from(v >= 1.0)), source "truncation instead of rounding", permitted rounded();
     for (name, encoding) in [("float16", Float16), ("float32", Float32)] {
         "{name}-clamped: Channels of {encoding} are clamped to 0 to 1 at the store." =>
             store(encoding, move |v| code(encoding, v.clamp(0.0, 1.0))), source CLAMPED;
@@ -229,10 +230,10 @@ bugs! {
             store(encoding, move |v| code(encoding, v.abs()));
     }
     "float16-truncated: 16-bit floats are rounded towards 0." =>
-        store(Float16, |v| truncated(Float16, v)), source "truncation instead of rounding", legal SMALL_FLOATS;
+        store(Float16, |v| truncated(Float16, v)), source "truncation instead of rounding", permitted vec![under!(store: _)];
     "float16-overflow-to-largest: 16-bit floats hold the largest value, not infinity." =>
         store(Float16, |v| code(Float16, v.clamp(-65504.0, 65504.0))),
-        source "a saturating conversion", legal SMALL_FLOATS;
+        source "a saturating conversion", permitted vec![under!(half_overflows: _)];
     "float16-in-8-bits: 16-bit floats lose the lowest two bits." =>
         store(Float16, |v| code(Float16, v) & !3), source SMALL;
     "float32-in-16-bits: 32-bit floats are rounded to 16-bit ones." =>
@@ -241,7 +242,7 @@ bugs! {
     for (name, encoding) in [("ufloat11", Ufloat(6)), ("ufloat10", Ufloat(5))] {
         "{name}-truncated: Channels of {encoding} are rounded down." =>
             store(encoding, move |v| truncated(encoding, v)),
-            source "truncation instead of rounding", legal SMALL_FLOATS;
+            source "truncation instead of rounding", permitted vec![under!(small_floats: _)];
         "{name}-sign-lost: Channels of {encoding} store negative values without their sign." =>
             store(encoding, move |v| code(encoding, v.abs()));
         "{name}-clamped: Channels of {encoding} are clamped to 0 to 1." =>
@@ -251,7 +252,7 @@ bugs! {
     }
     source CLAMPED;
     "float-constant-clamped: On float formats, the constant is clamped to 0 to 1." =>
-        float_inputs(|i| i.constant = clamp(i, 0.0).constant);
+        float_inputs(|i| i.constant = clamp(i, 0.0).constant), permitted vec![under!(constant_clamp: ConstantClamp::Always | ConstantClamp::Either)];
     "float-source-clamped: On float formats, sources are clamped to 0 to 1." =>
         float_inputs(|i| i.src = clamp(i, 0.0).src);
     "float-destination-clamped: On float formats, destinations are clamped to 0 to 1." =>

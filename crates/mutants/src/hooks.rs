@@ -2,15 +2,15 @@
 
 use etalon_cpu::CpuSurface;
 use etalon_cpu::steps::{
-    ExportedReference, Faithful, InputBit, LANES, LaneCodes, Mask, Real, Steps, TestOutcome, Tests,
-    WrittenTexels,
+    ComparedDepths, ExportedReference, Faithful, InputBit, LANES, LaneCodes, Mask, Real, Steps,
+    TestOutcome, Tests, WrittenTexels,
 };
 use etalon_frame::{Aspect, ChannelEncoding};
 use etalon_pipeline::shader::{KeepCondition, SampleMask};
-use etalon_pipeline::{Arithmetic, BlendInput, Plain, advanced_blend, blend};
+use etalon_pipeline::{Arithmetic, BlendInput, Plain, Point, advanced_blend, blend};
 use etalon_scene::{
     AdvancedBlend, BlendState, CompareFunction, DepthBias, Interpolation, InterpolationSampling,
-    LogicOperation, Multisample, Shader, StencilFace,
+    LogicOperation, Multisample, Sampler, Shader, StencilFace,
 };
 use std::array::from_fn;
 
@@ -35,15 +35,15 @@ macro_rules! hooks {
         $(hooks! { $(#[$doc])* $name($($type),*) -> $result })+
         $(hooks! { $(#[$texel_doc])* $texel($($texel_type),*) -> $texel_result })+
 
-        impl Steps for &Hooks {
+        impl Steps for CombinedHooks {
             $(fn $name(&self, $($argument: $type),*) -> $result {
-                match &self.$name {
+                match self.find(|hooks| hooks.$name.as_ref()) {
                     None => Faithful.$name($($argument),*),
                     Some(bug) => bug($($argument),*),
                 }
             })+
             $(fn $step(&self, $($step_argument: $step_type),*) -> $step_result {
-                match &self.$texel {
+                match self.find(|hooks| hooks.$texel.as_ref()) {
                     None => Faithful.$step($($step_argument),*),
                     Some($bug) => $replaced,
                 }
@@ -70,26 +70,42 @@ hooks! {
         stencil_passes(face: &StencilFace, stored: u8) -> bool;
         /// The stencil update, including the write mask.
         stencil_write(face: &StencilFace, outcome: TestOutcome, stored: u8) -> u8;
-        /// The depth comparison of codes, incoming first.
-        depth_passes(function: CompareFunction, incoming: u32, stored: u32) -> bool;
+        /// The depth comparison.
+        depth_passes(function: CompareFunction, depths: &ComparedDepths) -> bool;
         /// The conversion of clear values, colour and depth.
         clear_code(encoding: ChannelEncoding, value: f32) -> u32;
         /// The destination alpha of formats without alpha.
         missing_alpha(state: &BlendState) -> f32;
         /// The least step of a depth bias, given the largest depth of a primitive.
         bias_unit(encoding: ChannelEncoding, largest: f64) -> f64;
+        /// The depth of a vertex in the window, given that depth, the depth before the viewport, and its range.
+        window_depth(depth: f32, clip_depth: f32, range: [f32; 2]) -> f32;
+        /// True if samples on an edge belong to the triangle clockwise of it.
+        owns_edge(from: Point, to: Point) -> bool;
+        /// The facing of a polygon's edges, given the polygon's.
+        outline_faces_front(polygon: bool) -> bool;
+        /// True if forced early tests precede the sample mask.
+        tests_before_mask() -> bool;
+        /// True if a fragment of which a sample passes counts with all samples.
+        counts_all_samples() -> bool;
+        /// The slope of a polygon, given the growth of its depth per texel.
+        slope(dx: f64, dy: f64) -> f64;
+        /// A window coordinate, in texels, on the grid of vertices, in its units.
+        snap(coordinate: f32) -> i64;
         /// The depth bias, given the least step and the slope.
         bias(state: &DepthBias, unit: f64, slope: f64) -> f64;
         /// True if points and lines are biased.
         biases_lines() -> bool;
         /// True if points and lines face front.
         lines_face_front() -> bool;
-        /// The clamping of a depth to the viewport's range.
-        held_to_range(depth: f32, range: [f32; 2]) -> f32;
+        /// The clamping of a depth to the viewport's range, whether or not the draw clamps depths.
+        held_to_range(depth: f32, range: [f32; 2], clamps: bool) -> f32;
         /// The depth bounds test, given the bounds, the stored and the incoming depth.
         in_bounds(bounds: [f32; 2], stored: f32, incoming: f32) -> bool;
         /// True if fragments outside the depth bounds count as failing the depth test.
         bounds_fail_as_depth() -> bool;
+        /// The positions at which coverage is tested, in 1/256 texel, given those of shading.
+        coverage_positions(shading: Vec<[u16; 2]>) -> Vec<[u16; 2]>;
         /// The positions of samples, in 1/256 texel.
         sample_positions(standard: Vec<[u16; 2]>) -> Vec<[u16; 2]>;
         /// Returns true if a sample is drawn, given its index and the number of samples.
@@ -102,7 +118,7 @@ hooks! {
         /// The sample at whose position a sample's depth is taken, given the number of samples.
         depth_sample(sample: usize, samples: usize) -> usize;
         /// The interpolation of a shader's texture coordinates, and the points at which they are sampled.
-        interpolation(shader: Shader) -> (Interpolation, InterpolationSampling);
+        interpolation(shader: Shader, state: &Multisample) -> (Interpolation, InterpolationSampling);
         /// A channel of a resolved texel.
         resolve(encoding: ChannelEncoding, codes: &[u32]) -> u32;
     }
@@ -121,6 +137,13 @@ hooks! {
                 let (x, y) = (x.min(size[0] - 1) as usize, y.min(size[1] - 1) as usize);
                 Faithful.fetch(surface, x - x % LANES, y).map(|plane| plane[x % LANES])
             }))
+        };
+
+        /// Sampled textures, given the right sampling, the texture, the sampler and the coordinates.
+        sampled(&dyn Fn([f32; 2]) -> [f32; 4], &CpuSurface, Sampler, [f32; 2]) -> [f32; 4]:
+        sample(surface: &CpuSurface, sampler: Sampler, u: Real, v: Real) -> [Real; 4] = |bug| {
+            let right = |[u, v]: [f32; 2]| Faithful.sample(surface, sampler, [u; LANES], [v; LANES]).map(|plane| plane[0]);
+            planes(from_fn(|i| bug(&right, surface, sampler, [u[i], v[i]])))
         };
 
         /// The conversion of depths in 0..1.
@@ -190,6 +213,20 @@ hooks! {
         /// Returns true if a shader keeps a fragment, given the value and its limit.
         kept(f32, f32) -> bool:
         kept(kept: &KeepCondition<Real>) -> Mask = |bug| from_fn(|i| bug(kept.value[i], kept.limit[i]));
+    }
+}
+
+/// The replacements of several changes: the first one's of each step.
+#[derive(Default)]
+pub(super) struct CombinedHooks(pub(super) Vec<&'static Hooks>);
+
+impl CombinedHooks {
+    #[inline(always)]
+    fn find<T: ?Sized>(
+        &self,
+        step: impl Fn(&'static Hooks) -> Option<&'static T>,
+    ) -> Option<&'static T> {
+        self.0.iter().find_map(|hooks| step(hooks))
     }
 }
 

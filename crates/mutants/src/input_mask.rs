@@ -1,8 +1,10 @@
 //! Bugs of the sample mask that a shader reads.
 
-use crate::hooks::input_bit;
+use crate::hooks::{input_bit, shader_runs};
 use crate::list::bugs;
+use crate::permission::under;
 use etalon_cpu::steps::InputBit;
+use etalon_reference::rules::InputMaskRule;
 
 fn is_set(bit: &InputBit) -> bool {
     bit.covered && bit.drawn && bit.shaded
@@ -19,10 +21,13 @@ bugs! {
     "eight-bits: Bits past the eighth are lost." => input_bit(|bit| is_set(bit) && bit.bit < 8);
     source "SPIRV-Cross on Metal: gl_SampleMaskIn as the rasterizer has it";
     "of-all-runs: With sample shading the mask has the bits of other runs." =>
-        input_bit(|bit| bit.covered && bit.drawn);
+        input_bit(|bit| bit.covered && bit.drawn), permitted vec![under!(input_mask: InputMaskRule::AllOrOwn)];
     "masked-samples-stay: The mask has samples that the draw's own mask removes." =>
-        input_bit(|bit| bit.covered && bit.shaded);
+        input_bit(|bit| bit.covered && bit.shaded), permitted vec![under!(input_mask_lacks_masked: false, or samples_as_told: false)];
     source "AMDVLK: a shader that reads the mask runs once per sample";
     "own-bit-alone: The mask has one bit also without sample shading." =>
         input_bit(|bit| is_set(bit) && bit.bit == bit.sample);
+    "readers-run-per-sample: A shader that reads the mask runs for each sample." =>
+        shader_runs(|shader, state, n| if shader.reads_mask() || shader.runs_per_sample() { n } else { state.least_runs(n as u32) as usize }),
+        permitted vec![under!(input_mask: InputMaskRule::OfAnyRun | InputMaskRule::OfRunIfAsked | InputMaskRule::AllOrOwn)];
 }

@@ -17,7 +17,7 @@ const READ: FieldPlaces<Vertex> = |d| {
 /// Moves per-sample interpolation to other points.
 fn sampled(elsewhere: InterpolationSampling) -> Plant {
     interpolation(
-        move |shader: Shader| match shader.interpolation_sampling() {
+        move |shader: Shader, _| match shader.interpolation_sampling() {
             Sample => (shader.interpolation(), elsewhere),
             sampling => (shader.interpolation(), sampling),
         },
@@ -27,9 +27,9 @@ fn sampled(elsewhere: InterpolationSampling) -> Plant {
 bugs! {
     class "interpolation", "texture";
     "always-linear: Attributes are linear in the window, whatever w is." =>
-        interpolation(|shader: Shader| (Linear, shader.interpolation_sampling()));
+        interpolation(|shader: Shader, _| (Linear, shader.interpolation_sampling()));
     "always-perspective: Attributes are linear in space, where the shader wants them in the window too." =>
-        interpolation(|shader: Shader| (Perspective, shader.interpolation_sampling())),
+        interpolation(|shader: Shader, _| (Perspective, shader.interpolation_sampling())),
         source "a driver without `noperspective`";
     "samples-at-centre: What is interpolated at samples is that of the texel's centre." => sampled(Center);
     "samples-at-centroid: What is interpolated at samples is that of the first covered one." => sampled(Centroid);

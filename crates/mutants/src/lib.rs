@@ -1,4 +1,4 @@
-//! Planted bugs: the proof that the suite can fail.
+//! Planted bugs: the proof that the suite can fail. Innocents: the proof that it accuses nobody who is not guilty.
 //!
 //! A [`Mutant`] is a small, named mutation of the rasterizer: of the scene that it draws, of one step of
 //! its arithmetic, or of the frame that it returns. Mutating only data or single steps keeps the rasterizer
@@ -30,10 +30,12 @@ mod early;
 mod fetch;
 mod fields;
 mod formats;
+mod freedoms;
 mod geometry;
 mod held;
 mod hierarchy;
 mod hooks;
+mod innocent;
 mod input_mask;
 mod interpolation;
 mod invariance;
@@ -42,6 +44,7 @@ mod logic;
 mod mask;
 mod memory;
 mod mutant;
+mod permission;
 mod plant;
 mod provoking;
 mod read_only;
@@ -68,7 +71,9 @@ mod viewport;
 
 pub use backend::MutantBackend;
 pub use hierarchy::with_faithful_hierarchy;
+pub use innocent::{Innocent, innocents, specifications};
 pub use mutant::Mutant;
+pub use permission::UsedPermission;
 
 use list::MutantList;
 use std::sync::LazyLock;
@@ -86,11 +91,20 @@ const CLASSES: &[Class] = &[
     clear::add, geometry::add, upload::add, fetch::add, early::add,
     discard::add, counter::add, texture::add, invariance::add, readback::add, stale::sticky, tiled::add,
     hierarchy::add, sequence::add, size::add, shader_mask::add, input_mask::add, stencil_export::add, held::add,
-    combinations::add,
+    combinations::add, freedoms::add,
 ];
 
-/// Returns all mutants, class by class.
-pub fn mutants() -> &'static [Mutant] {
+/// Returns all bugs, class by class: every change that the rasterizer's own specification forbids.
+pub fn mutants() -> &'static [&'static Mutant] {
+    static BUGS: LazyLock<Vec<&Mutant>> = LazyLock::new(|| {
+        let bugs = changes().iter().filter(|change| !change.is_legal());
+        bugs.collect()
+    });
+    &BUGS
+}
+
+/// Returns all changes, class by class.
+fn changes() -> &'static [Mutant] {
     static ALL: LazyLock<Vec<Mutant>> = LazyLock::new(|| {
         let mut list = MutantList::default();
         CLASSES.iter().for_each(|add| add(&mut list));

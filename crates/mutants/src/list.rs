@@ -2,7 +2,10 @@
 
 use crate::fields::FieldPlaces;
 use crate::mutant::Mutant;
+use crate::permission::{UsedPermission, under};
 use crate::plant::{Plant, swapped};
+use etalon_frame::Limits;
+use etalon_reference::rules::{BlendPrecision, Rounding};
 use etalon_scene::Draw;
 use std::fmt::Display;
 
@@ -19,12 +22,15 @@ pub(super) const STEPS: [(&str, i64); 4] = [
     ("minus-3", -3),
 ];
 
-/// The clause that lets conversions round in either direction.
-pub(super) const ROUNDED: &str = "Vulkan: Fundamentals, Conversion from Floating-Point to Normalized \
-                                  Fixed-Point: one of the two closest values, the nearest only recommended";
-/// The clause that lets blending be as coarse as the destination.
-pub(super) const PRECISION: &str = "Vulkan: Blending: precision no lower than that used to represent \
-                                    destination components, read as codes of the destination";
+/// Stores that round in either direction.
+pub(super) fn rounded() -> Vec<UsedPermission> {
+    vec![under!(store: Rounding::EitherNeighbour)]
+}
+
+/// Blends that are as coarse as the destination.
+pub(super) fn coarse() -> Vec<UsedPermission> {
+    vec![under!(blend: BlendPrecision::DestinationCodes | BlendPrecision::AnySteps)]
+}
 
 /// The mutants so far, and the class, area and source of the next ones.
 #[derive(Debug, Default)]
@@ -54,7 +60,8 @@ impl MutantList {
             about: about.to_owned(),
             source: facts.source.unwrap_or(self.source),
             area: facts.area.unwrap_or(self.area),
-            legal: facts.legal,
+            permissions: facts.permitted.unwrap_or_default(),
+            reports: facts.reports,
             plant: match facts.when {
                 Some(strikes) => plant.when(strikes),
                 None => plant,
@@ -83,8 +90,10 @@ impl MutantList {
 pub(super) struct Facts {
     pub(super) source: Option<&'static str>,
     pub(super) area: Option<&'static str>,
-    /// The clause that allows the bug.
-    pub(super) legal: Option<&'static str>,
+    /// The permissions that it uses.
+    pub(super) permitted: Option<Vec<UsedPermission>>,
+    /// Sets the limits that a driver that behaves so reports.
+    pub(super) reports: Option<fn(&mut Limits)>,
     /// Returns true for the draws that it affects.
     pub(super) when: Option<fn(&Draw) -> bool>,
 }

@@ -3,10 +3,12 @@
 use crate::fields::{FieldPlaces, LOGIC};
 use crate::hooks::{code, logic};
 use crate::list::bugs;
+use crate::permission::under;
 use crate::plant::{draws, set};
 use crate::tables::logic_neighbours;
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::logic_operation;
+use etalon_reference::rules::SrgbLogic;
 use etalon_scene::LogicOperation;
 
 /// Returns the correct result of an operation.
@@ -38,6 +40,12 @@ bugs! {
             ChannelEncoding::Srgb8 => bits(8, operation, s, d),
             _ => right(obeys, encoding, operation, s, d),
         });
+    "applied-to-srgb-and-alpha: Logic operations work on all bits of sRGB formats." =>
+        logic(|obeys, encoding, operation, s, d| match encoding {
+            ChannelEncoding::Srgb8 | ChannelEncoding::Unorm(8) => bits(8, operation, s, d),
+            _ => right(obeys, encoding, operation, s, d),
+        }), source "drivers of OpenGL 3.3",
+        permitted vec![under!(srgb_logic: SrgbLogic::Applies | SrgbLogic::Either)];
     "applied-to-srgb-alpha: Logic operations work on the alpha of sRGB formats." =>
         logic(|obeys, encoding, operation, s, d| match encoding {
             ChannelEncoding::Unorm(8) => bits(8, operation, s, d),

@@ -1,6 +1,11 @@
-//! A planted bug.
+//! A planted change of the rasterizer: a bug, or what some specification permits.
 
+use crate::permission::UsedPermission;
 use crate::plant::Plant;
+use etalon_backend::Backend;
+use etalon_cpu::CpuBackend;
+use etalon_frame::{Grade, Limits};
+use etalon_reference::Rules;
 
 /// A planted bug.
 #[derive(Debug)]
@@ -13,7 +18,35 @@ pub struct Mutant {
     pub source: &'static str,
     /// The area whose cases alone must catch the bug.
     pub area: &'static str,
-    /// The clause that allows the bug; `None` if the suite must catch it.
-    pub legal: Option<&'static str>,
+    /// The permissions that it uses; none if no specification permits it.
+    pub permissions: Vec<UsedPermission>,
+    /// Sets the limits that a driver that behaves so reports.
+    pub(super) reports: Option<fn(&mut Limits)>,
     pub(super) plant: Plant,
+}
+
+impl Mutant {
+    /// Returns the limits of an adapter that behaves so.
+    pub(super) fn reported(&self, mut limits: Limits) -> Limits {
+        if let Some(reports) = self.reports {
+            reports(&mut limits);
+        }
+        limits
+    }
+
+    /// Returns the strongest evidence of a specification that forbids the change; `None` if it is permitted.
+    pub(super) fn forbidden_by(&self, rules: &Rules) -> Option<Grade> {
+        if self.permissions.is_empty() {
+            return Some(Grade::Proven);
+        }
+        let each = self.permissions.iter();
+        each.filter_map(|used| used.forbidden_by(rules)).max()
+    }
+
+    /// Returns true if the specification that binds the rasterizer permits the change.
+    pub(super) fn is_legal(&self) -> bool {
+        let limits = || CpuBackend::spans("cpu").limits().clone();
+        let is_permitted = |limits| self.forbidden_by(&Rules::of(&limits)).is_none();
+        !self.permissions.is_empty() && is_permitted(self.reported(limits()))
+    }
 }

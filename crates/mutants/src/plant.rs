@@ -11,7 +11,7 @@ use std::fmt;
 type SceneBug = dyn Fn(Option<&Scene>, &mut Scene) + Send + Sync;
 type DrawBug = dyn Fn(&mut Draw) + Send + Sync;
 type MemoryBug = dyn Fn() -> StoredDataBug + Send + Sync;
-type FrameBug = dyn Fn(&Scene, &mut Frame) + Send + Sync;
+pub(super) type FrameBug = dyn Fn(&Scene, &mut Frame) + Send + Sync;
 
 /// A planted bug.
 pub(super) enum Plant {

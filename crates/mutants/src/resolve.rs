@@ -2,13 +2,12 @@
 
 use crate::hooks::{code, resolve};
 use crate::list::{CONFUSION, SMALL, bugs};
+use crate::permission::under;
 use crate::plant::{Plant, nudge, passes, scene};
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{Arithmetic, Plain};
+use etalon_reference::rules::Resolve;
 use etalon_scene::Pass;
-
-const CODES_AVERAGED: &str = "Vulkan: VkResolveModeFlagBits: sRGB samples should be made linear before \
-                              they are averaged, and need not be";
 
 /// Replaces a resolved value, given the samples' values in ascending order, and their average.
 fn from_values(bug: fn(&[f32], f32) -> f32) -> Plant {
@@ -40,12 +39,12 @@ bugs! {
         resolve(|e, c| match e {
             ChannelEncoding::Srgb8 => c.iter().sum::<u32>() / c.len() as u32,
             _ => average(e, c),
-        }), legal CODES_AVERAGED;
-    "first-sample: A resolve takes the first sample." => resolve(|_, c| c[0]);
-    "last-sample: A resolve takes the last sample." => resolve(|_, c| c[c.len() - 1]);
+        }), permitted vec![under!(resolve: _)];
+    "first-sample: A resolve takes the first sample." => resolve(|_, c| c[0]), permitted vec![under!(resolve: Resolve::Between | Resolve::BetweenOrFirst)];
+    "last-sample: A resolve takes the last sample." => resolve(|_, c| c[c.len() - 1]), permitted vec![under!(resolve: Resolve::Between | Resolve::BetweenOrFirst)];
     "largest: A resolve takes the largest sample." => from_values(|samples, _| samples[samples.len() - 1]);
     "smallest: A resolve takes the smallest sample." => from_values(|samples, _| samples[0]);
-    "median: A resolve takes the middle one of the samples." => from_values(|samples, _| samples[samples.len() / 2]);
+    "median: A resolve takes the middle one of the samples." => from_values(|samples, _| samples[samples.len() / 2]), permitted vec![under!(resolve: Resolve::Between | Resolve::BetweenOrFirst)];
     "first-half: A resolve averages the first half of the samples." => resolve(|e, c| average(e, &c[..c.len() / 2]));
     "all-but-one: A resolve leaves out the last sample." => resolve(|e, c| average(e, &c[..c.len() - 1]));
     "weighted: The first sample weighs twice." => resolve(|e, c| average(e, &[c, &c[..1]].concat()));

@@ -3,6 +3,7 @@
 use crate::fields::SAMPLE_COVERAGE;
 use crate::hooks::sample_drawn;
 use crate::list::{CONFUSION, bugs};
+use crate::permission::under;
 use crate::plant::{Plant, draws, each};
 use etalon_scene::{Multisample, SampleCoverage};
 
@@ -58,9 +59,6 @@ fn of_one(bug: fn(SampleCoverage) -> bool) -> Plant {
     )
 }
 
-const OPEN: &str = "OpenGL 4.6: 14.9.3: between 0 and 1 no algorithm is required; only a number \
-                    in proportion is intended";
-
 bugs! {
     class "sample-coverage", "multisample";
     source "Gallium lowers sample coverage to a mask, inversion included";
@@ -81,10 +79,10 @@ bugs! {
     "whole-lacks-one: A share of 1 leaves the last sample out." => shares(|v, s, n| s < count(v, n).min(n - 1));
     "never: No share covers anything." => shares(|_, _, _| false);
     "one-less: A share covers one too few." => shares(|v, s, n| s + 1 < count(v, n));
-    "half-as-whole: A share of a half covers all." => shares(|v, _, _| v >= 0.5), legal OPEN;
+    "half-as-whole: A share of a half covers all." => shares(|v, _, _| v >= 0.5), permitted vec![under!(sample_coverage: _)];
     "truncated: The number of samples is truncated." =>
-        shares(|v, s, n| s < (v.clamp(0.0, 1.0) * n as f32) as usize), legal OPEN;
-    "from-the-last: A share covers the last samples." => shares(|v, s, n| n - 1 - s < count(v, n)), legal OPEN;
+        shares(|v, s, n| s < (v.clamp(0.0, 1.0) * n as f32) as usize), permitted vec![under!(sample_coverage: _)];
+    "from-the-last: A share covers the last samples." => shares(|v, s, n| n - 1 - s < count(v, n)), permitted vec![under!(sample_coverage: _)];
     source "freedreno: sample mask and coverage in one register";
     "or-mask: A sample is drawn that either the share or the mask lets through." =>
         combined(|covered, invert, mask| (covered != invert) || mask);

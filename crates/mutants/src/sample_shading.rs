@@ -3,7 +3,9 @@
 use crate::fields::FieldPlaces;
 use crate::hooks::{shaded_at, shader_runs};
 use crate::list::{CONFUSION, bugs};
+use crate::permission::under;
 use crate::plant::{Plant, each, set};
+use etalon_reference::rules::FragCoord;
 
 const SHARE: FieldPlaces<Option<f32>> = |d| vec![&mut d.multisample.min_sample_shading];
 
@@ -20,8 +22,6 @@ fn exact(share: f32, samples: usize) -> usize {
     (share * samples as f32).ceil() as usize
 }
 
-const MORE: &str = "Vulkan: Sample Shading; OpenGL 4.6: 14.3.1.1: at least as many";
-
 /// Replaces the sample at whose position a run of sample shading takes its inputs.
 fn placed(bug: fn(usize, usize) -> Option<usize>) -> Plant {
     shaded_at(move |state, first, samples| {
@@ -32,7 +32,7 @@ fn placed(bug: fn(usize, usize) -> Option<usize>) -> Plant {
 bugs! {
     class "sample-shading", "multisample";
     source "llvmpipe, zink: min_samples not part of the shader's key";
-    "ignored: Sample shading is never enabled." => set(SHARE, None);
+    "ignored: Sample shading is never enabled." => set(SHARE, None), permitted vec![under!(runs_by_share: false), under!(frag_coord: FragCoord::Inputs), under!(inputs_at_samples: false)];
     "always: Sample shading is always enabled." => each(SHARE, |share| *share = share.or(Some(1.0)));
     "whole-share-alone: A share below 1 does not enable it." =>
         each(SHARE, |share| *share = share.filter(|share| *share >= 1.0));
@@ -44,14 +44,14 @@ bugs! {
     "rounded-to-nearest: The number of runs is rounded to the nearest." =>
         runs(|share, n| (share * n as f32).round() as usize);
     "one-run-less: One run is missing." => runs(|share, n| exact(share, n) - usize::from(exact(share, n) > 1));
-    "one-run: The shader runs once all the same." => runs(|_, _| 1);
+    "one-run: The shader runs once all the same." => runs(|_, _| 1), permitted vec![under!(runs_by_share: false), under!(frag_coord: FragCoord::Inputs), under!(inputs_at_samples: false)];
     "two-runs-at-most: More than two runs are lost." => runs(|share, n| exact(share, n).min(2));
     "four-runs-at-most: More than four runs are lost." => runs(|share, n| exact(share, n).min(4));
     "of-four-samples: The share is always taken of four samples." => runs(|share, _| exact(share, 4));
     source "Intel: all samples or one";
     "rounded-up-to-a-power-of-two: The number of runs is a power of two." =>
-        runs(|share, n| exact(share, n).next_power_of_two()), legal MORE;
-    "all-samples: Any share is taken for 1." => runs(|_, n| n), legal MORE;
+        runs(|share, n| exact(share, n).next_power_of_two()), permitted vec![under!(runs_by_share: _)];
+    "all-samples: Any share is taken for 1." => runs(|_, n| n), permitted vec![under!(runs_by_share: _)];
     source "lavapipe: FragCoord of the fragment, not of the sample";
     "at-the-centre: All runs lie at the centre." => placed(|_, _| None);
     "at-the-first: All runs lie at the first sample." => placed(|_, _| Some(0));

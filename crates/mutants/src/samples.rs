@@ -1,11 +1,14 @@
 //! Bugs of several samples per texel.
 
 use crate::hooks::{
-    alpha_covers, depth_sample, sample_positions, second_source, shader_runs, stored_sample,
+    alpha_covers, coverage_positions, depth_sample, sample_positions, second_source, shader_runs,
+    stored_sample,
 };
 use crate::list::{CONFUSION, bugs};
+use crate::permission::under;
 use crate::plant::{Plant, passes};
 use etalon_frame::{Aspect, standard_sample_positions};
+use etalon_reference::rules::AlphaToCoverage;
 use etalon_scene::Multisample;
 
 /// Changes the multisample state of draws with several samples, given their number.
@@ -42,9 +45,6 @@ fn share(alpha: f32, samples: usize) -> usize {
     (alpha.clamp(0.0, 1.0) * samples as f32).round() as usize
 }
 
-const OPEN: &str = "Vulkan: Multisample Coverage: between 0 and 1 the algorithm is \
-                    implementation-dependent; only fewer samples for less alpha is intended";
-
 bugs! {
     class "samples", "multisample";
     source "wgpu, llvmpipe: sample mask hard-coded or ignored";
@@ -74,6 +74,15 @@ bugs! {
     "upside-down: The positions are upside down." => each_placed(|[x, y]| [x, 256 - y]);
     "transposed: Columns and rows of the positions are exchanged." =>
         each_placed(|[x, y]| [y, x]);
+    "nearer-the-centre: The positions are halfway to the centre." =>
+        each_placed(|[x, y]| [x.midpoint(128), y.midpoint(128)]), source "sample patterns of vendors", permitted vec![under!(covers_at_positions: false), under!(inputs_at_samples: false)];
+    "covered-elsewhere: Coverage is tested halfway to the centre." =>
+        coverage_positions(|mut positions: Vec<[u16; 2]>| {
+            let several = positions.len() > 1;
+            for place in positions.iter_mut().filter(|_| several) { *place = place.map(|v| v.midpoint(128)); }
+            positions
+        }), source "sample patterns of vendors",
+        permitted vec![under!(covers_at_positions: false)];
     "in-reverse-order: The last sample lies where the first should." => placed(|positions| positions.reverse());
     "first-two-exchanged: The first two samples exchange their places." => placed(|positions| positions.swap(0, 1));
     "one-sixteenth-right: All samples lie a sixteenth too far right." =>
@@ -84,16 +93,16 @@ bugs! {
             positions.iter_mut().zip(two).for_each(|(place, of_two)| *place = of_two);
         });
     source "dEQP sees alpha to coverage ignored in 2 of 32 cases";
-    "alpha-to-coverage-ignored: Alpha removes no samples." => alpha_covers(|_, _, _| true);
-    "alpha-to-coverage-inverted: Alpha 1 covers nothing." => alpha_covers(|a, s, n| s < share(1.0 - a, n));
+    "alpha-to-coverage-ignored: Alpha removes no samples." => alpha_covers(|_, _, _| true), permitted vec![under!(alpha_to_coverage: AlphaToCoverage::Any)];
+    "alpha-to-coverage-inverted: Alpha 1 covers nothing." => alpha_covers(|a, s, n| s < share(1.0 - a, n)), permitted vec![under!(alpha_to_coverage: AlphaToCoverage::Any)];
     "alpha-to-coverage-one-less: Alpha covers one sample too few." => alpha_covers(|a, s, n| s + 1 < share(a, n));
     "alpha-to-coverage-one-more: Alpha covers one sample too many." => alpha_covers(|a, s, n| s < share(a, n) + 1);
-    "alpha-to-coverage-never: Alpha to coverage draws nothing." => alpha_covers(|_, _, _| false);
+    "alpha-to-coverage-never: Alpha to coverage draws nothing." => alpha_covers(|_, _, _| false), permitted vec![under!(alpha_to_coverage: AlphaToCoverage::Any)];
     source CONFUSION;
     "alpha-to-coverage-for-zero-alone: Only alpha 0 removes samples." =>
-        alpha_covers(|a, _, _| a > 0.0), source "an alpha test for alpha to coverage", legal OPEN;
+        alpha_covers(|a, _, _| a > 0.0), source "an alpha test for alpha to coverage", permitted vec![under!(alpha_to_coverage: _)];
     "alpha-to-coverage-from-the-last: Alpha covers the last samples and not the first." =>
-        alpha_covers(|a, s, n| n - 1 - s < share(a, n)), legal OPEN;
+        alpha_covers(|a, s, n| n - 1 - s < share(a, n)), permitted vec![under!(alpha_to_coverage: _)];
     source "ANGLE, turnip: alpha to coverage";
     "alpha-to-coverage-always: Alpha removes samples although alpha to coverage is off." =>
         states(|d, _| d.alpha_to_coverage = true);

@@ -5,7 +5,9 @@ use crate::fields::{
 };
 use crate::hooks::mask_keeps;
 use crate::list::{CONFUSION, bugs};
+use crate::permission::under;
 use crate::plant::{draws, set};
+use etalon_reference::rules::MaskOfOne;
 use etalon_scene::{CompareFunction, DepthBias, Draw, EarlyTests};
 
 fn bit(mask: u32, sample: usize) -> bool {
@@ -46,14 +48,14 @@ bugs! {
         set(EARLY_TESTS, EarlyTests::Implicit), when |draw| draw.shader.writes_mask();
     "ignored-for-one-sample: The mask does nothing where a texel has one sample." =>
         mask_keeps(|mask, sample, samples| samples == 1 || bit(mask, sample)),
-        source "Gallium: the mask is lowered away without several samples, as OpenGL wants and Vulkan does not";
+        source "Gallium: the mask is lowered away without several samples, as OpenGL wants and Vulkan does not", permitted vec![under!(mask_of_one: MaskOfOne::Ignored | MaskOfOne::Either)];
     let no_fragment_shader = |draw: &Draw| !draw.shader.has_fragment();
     class "shaderless", "early-z";
     source COLORLESS_SKIPPED;
     "dropped: Draws without a fragment shader are dropped." =>
-        draws(|draw| draw.rasterizer_discard = true), when no_fragment_shader;
+        draws(|draw| draw.rasterizer_discard = true), when no_fragment_shader, permitted vec![under!(goes_on_unshaded: false)];
     "depth-write-lost: Draws without a fragment shader write no depth." =>
-        set(DEPTH_WRITE, false), when no_fragment_shader;
+        set(DEPTH_WRITE, false), when no_fragment_shader, permitted vec![under!(goes_on_unshaded: false)];
     "depth-not-tested: Without a fragment shader the depth test always passes." =>
         set(DEPTH_COMPARE, CompareFunction::Always), when no_fragment_shader;
     "not-counted: Draws without a fragment shader count no samples." =>

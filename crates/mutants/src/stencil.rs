@@ -6,6 +6,7 @@ use crate::fields::{
 };
 use crate::hooks::{stencil_passes, stencil_write, written};
 use crate::list::{CONFUSION, bugs};
+use crate::permission::under;
 use crate::plant::{Plant, draws, each, passes, set};
 use crate::tables::{compare_neighbours, round};
 use StencilOperation as Op;
@@ -70,7 +71,7 @@ bugs! {
     "read-mask-on-reference-alone: The read mask is not applied to the stored value." =>
         stencil_passes(|f, stored| compare(f.compare, f.reference & f.read_mask, stored));
     "read-mask-on-stored-alone: The read mask is not applied to the reference." =>
-        stencil_passes(|f, stored| compare(f.compare, f.reference, stored & f.read_mask));
+        stencil_passes(|f, stored| compare(f.compare, f.reference, stored & f.read_mask)), permitted vec![under!(masks_reference: false)];
     "read-mask-from-write-mask: The write mask is used for reading." =>
         each(FACES, |face| face.read_mask = face.write_mask);
     "write-mask-from-read-mask: The read mask is used for writing." =>

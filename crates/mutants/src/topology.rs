@@ -3,6 +3,7 @@
 use crate::fields::{CULL, TOPOLOGY};
 use crate::hooks::lines_face_front;
 use crate::list::bugs;
+use crate::permission::under;
 use crate::plant::{draws, set};
 use PrimitiveTopology as T;
 use etalon_scene::{CullMode, PolygonMode, PrimitiveTopology, RESTART};
@@ -63,7 +64,7 @@ bugs! {
     "discard-ignored: Rasterizer discard is ignored." => draws(|draw| draw.rasterizer_discard = false);
     "all-discarded-with-both-culled: Culling both faces acts as rasterizer discard." =>
         draws(|draw| draw.rasterizer_discard |= draw.cull == CullMode::FrontAndBack);
-    "lines-and-points-face-back: Points and lines face back." => lines_face_front(|| false);
+    "lines-and-points-face-back: Points and lines face back." => lines_face_front(|| false), permitted vec![under!(points_face_front: false)];
     "discarded-still-writes-depth-and-stencil: Rasterizer discard holds back colour alone." =>
         draws(|draw| { draw.rasterizer_discard = false; draw.targets.iter_mut().for_each(|t| t.write_mask = 0); }),
         when |draw| draw.rasterizer_discard;

@@ -1,6 +1,7 @@
 //! Bugs of viewports.
 
 use crate::list::{CONFUSION, SMALL, bugs};
+use crate::permission::under;
 use crate::plant::{Plant, draws, sized};
 use crate::tables::ONE_TEXEL;
 use etalon_scene::{Draw, PrimitiveTopology};
@@ -23,6 +24,10 @@ type ViewportBug = fn([f32; 4], [f32; 2]) -> [f32; 4];
 
 fn rects(bug: ViewportBug) -> Plant {
     sized(move |draw, size| draw.viewport.rect = bug(draw.viewport.rect, size.map(|s| s as f32)))
+}
+
+fn is_before_the_eye(draw: &Draw) -> bool {
+    draw.mesh.vertices.iter().all(|v| v.position[3] > 0.0)
 }
 
 bugs! {
@@ -52,7 +57,10 @@ bugs! {
         sized(unclipped), source "a guard band without clipping";
     "points-not-clipped: Points beside the viewport are drawn." =>
         sized(|draw, size| if draw.topology == PrimitiveTopology::PointList { unclipped(draw, size) }),
-        source "a guard band without clipping";
+        source "a guard band without clipping", permitted vec![under!(clips_points_at_sides: false)];
+    "lines-not-clipped: Lines beside the viewport are drawn." =>
+        sized(|draw, size| if draw.topology == PrimitiveTopology::LineList && is_before_the_eye(draw) { unclipped(draw, size) }),
+        source "a guard band without clipping", permitted vec![under!(clips_lines_at_sides: false)];
     "as-scissor: The scissor rectangle is the viewport's." =>
         draws(|draw| {
             let [x, y, w, h] = draw.viewport.rect.map(|v| v.max(0.0) as u32);

@@ -41,6 +41,12 @@ pub struct SnappedTriangle {
 impl SnappedTriangle {
     /// Returns the triangle, or `None` if its area is zero.
     pub fn new(vertices: [Point; 3]) -> Option<Self> {
+        Self::owning(vertices, is_top_left)
+    }
+
+    /// Returns the triangle, or `None` if its area is zero. Samples on an edge belong to the triangle clockwise of
+    /// it if `owns` is true of the edge's ends.
+    pub fn owning(vertices: [Point; 3], owns: impl Fn(Point, Point) -> bool) -> Option<Self> {
         let [a, b, c] = vertices;
         let vertices = match signed_area(vertices) {
             0 => return None,
@@ -49,7 +55,7 @@ impl SnappedTriangle {
         };
         let bias = std::array::from_fn(|i| {
             let (p, q) = (vertices[i], vertices[(i + 1) % 3]);
-            if is_top_left(p, q) { 0 } else { -1 }
+            if owns(p, q) { 0 } else { -1 }
         });
         Some(Self { vertices, bias })
     }
@@ -60,7 +66,7 @@ impl SnappedTriangle {
     }
 
     /// Returns each edge function at a point and its growth per unit to the right. A point is inside if all
-    /// three are at least zero: the functions already include the top-left rule.
+    /// three are at least zero: the functions already include the samples on edges.
     #[inline(always)]
     pub fn edges_at(&self, s: Point) -> [(i64, i64); 3] {
         std::array::from_fn(|i| {

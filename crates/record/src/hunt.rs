@@ -2,6 +2,7 @@
 
 use crate::error::RecordError;
 use crate::folder::HUNT_FILE;
+use crate::innocent::InnocentRecord;
 use crate::json::json_line;
 use crate::json_lines::JsonLines;
 use crate::line_writer::put;
@@ -16,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// The format of `mutants.json` that this crate writes.
-pub const HUNT_FORMAT: u32 = 1;
+pub const HUNT_FORMAT: u32 = 2;
 
 /// The maximum number of bytes of a hunt that are read.
 const MAX_BYTES: u64 = 64 << 20;
@@ -33,9 +34,6 @@ pub struct MutantInfo {
     pub source: String,
     /// The area whose cases alone must catch it.
     pub area: String,
-    /// The reason why the bug is legal, with the clause; `None` if the suite must catch it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub legal: Option<String>,
 }
 
 state_enum! {
@@ -135,15 +133,13 @@ impl MutantRecord {
         }
     }
 
-    /// Returns what is wrong with the outcome: a bug was not caught and nothing proves it legal, or a legal
-    /// one failed.
+    /// Returns what is wrong with the outcome: a bug was not caught.
     pub fn complaint(&self) -> Option<&'static str> {
-        match (self.outcome, &self.mutant.legal) {
-            (Catch::Broken, _) => Some("it could not be drawn"),
-            (Catch::Survived, None) => Some("nothing noticed it, and nothing proves it legal"),
-            (Catch::Noticed, None) => Some("no case failed, and nothing proves it legal"),
-            (Catch::Caught, Some(_)) => Some("a case failed although it is marked as legal"),
-            (Catch::Caught, None) | (Catch::Noticed | Catch::Survived, Some(_)) => None,
+        match self.outcome {
+            Catch::Broken => Some("it could not be drawn"),
+            Catch::Survived => Some("nothing noticed it"),
+            Catch::Noticed => Some("no case failed"),
+            Catch::Caught => None,
         }
     }
 }
@@ -164,8 +160,14 @@ pub struct Hunt {
     /// True if every case was drawn with every bug; otherwise drawing stopped in each area at the first
     /// `Fail`.
     pub full: bool,
+    /// True if every built-in case was drawn: then each innocent must show what it does.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub every_case: bool,
     /// The result of each bug, in the registry's order.
     pub mutants: Vec<MutantRecord>,
+    /// The result of each innocent, in the registry's order.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub innocents: Vec<InnocentRecord>,
 }
 
 impl Hunt {
@@ -180,6 +182,17 @@ impl Hunt {
         self.mutants
             .iter()
             .filter_map(move |m| each(m).map(|why| (m, why)))
+    }
+
+    /// Returns the innocents whose verdicts are wrong, with the specification and why. Some cases need not show what
+    /// an innocent does.
+    pub fn innocent_complaints(
+        &self,
+    ) -> impl Iterator<Item = (&InnocentRecord, &str, &'static str)> {
+        self.innocents.iter().flat_map(|innocent| {
+            let complaints = innocent.complaints(self.every_case);
+            complaints.map(move |(specification, why)| (innocent, specification, why))
+        })
     }
 
     /// Reads `mutants.json` in a folder.
@@ -220,15 +233,15 @@ mod tests {
 
     #[test]
     fn the_worse_outcome_of_further_cases_stays() {
-        let mut sum = record(Catch::Noticed, false);
-        sum.add(record(Catch::Caught, false));
-        sum.add(record(Catch::Survived, false));
+        let mut sum = record(Catch::Noticed);
+        sum.add(record(Catch::Caught));
+        sum.add(record(Catch::Survived));
         assert_eq!(sum.outcome, Catch::Caught);
         let tally = &sum.areas[0];
         assert_eq!((tally.pass, tally.imprecise, tally.fail), (3, 1, 1));
     }
 
-    fn record(outcome: Catch, legal: bool) -> MutantRecord {
+    fn record(outcome: Catch) -> MutantRecord {
         let tally = AreaTally {
             area: "blend".to_owned(),
             pass: 1,
@@ -242,7 +255,6 @@ mod tests {
                 about: "It.".to_owned(),
                 source: "a test".to_owned(),
                 area: "blend".to_owned(),
-                legal: legal.then(|| "Vulkan: a clause".to_owned()),
             },
             outcome,
             areas: vec![tally],
@@ -251,20 +263,16 @@ mod tests {
     }
 
     #[test]
-    fn a_bug_must_be_caught_and_a_legal_change_must_not() {
-        for (outcome, legal, fine) in [
-            (Catch::Caught, false, true),
-            (Catch::Noticed, false, false),
-            (Catch::Survived, false, false),
-            (Catch::Caught, true, false),
-            (Catch::Noticed, true, true),
-            (Catch::Survived, true, true),
-            (Catch::Broken, false, false),
-            (Catch::Broken, true, false),
+    fn a_bug_must_be_caught() {
+        for (outcome, fine) in [
+            (Catch::Caught, true),
+            (Catch::Noticed, false),
+            (Catch::Survived, false),
+            (Catch::Broken, false),
         ] {
-            let record = record(outcome, legal);
+            let record = record(outcome);
             let complaint = record.complaint();
-            assert_eq!(complaint.is_none(), fine, "{outcome:?} {legal}");
+            assert_eq!(complaint.is_none(), fine, "{outcome:?}");
             let seen = matches!(outcome, Catch::Caught | Catch::Noticed);
             assert_eq!(record.by_own_area(), seen);
         }

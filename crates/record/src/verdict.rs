@@ -1,6 +1,6 @@
 //! The outcome of a case on an adapter.
 
-use etalon_frame::{ErrorKind, state_enum};
+use etalon_frame::{ErrorKind, Grade, state_enum};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -49,6 +49,15 @@ impl Verdict {
             ErrorKind::DeviceLost => Self::DeviceLost,
             ErrorKind::Resource { .. } => Self::ResourceError,
             ErrorKind::Shader(_) | ErrorKind::Internal { .. } => Self::InternalError,
+        }
+    }
+
+    /// Returns the verdict on a texel that only evidence of this grade or a weaker one forbids.
+    pub fn of_grade(grade: Grade) -> Self {
+        match grade {
+            Grade::Disputed => Self::Disputed,
+            Grade::RequiredByCts => Self::RequiredByCts,
+            Grade::Proven => Self::Fail,
         }
     }
 

@@ -2,6 +2,7 @@
 
 use crate::error::ReportError;
 use crate::files::Destination;
+use crate::innocents;
 use crate::numbers::{count, duration};
 use crate::page::origin::origin;
 use crate::page::{self, Page};
@@ -43,26 +44,30 @@ pub(crate) fn write_hunt_page(to: &dyn Destination, hunt: &Hunt) -> Result<PathB
 /// Returns a table with a row per area, the totals, and the bugs that were only noticed, survived, or were
 /// caught only by other areas. The text always ends in a newline.
 pub fn hunt_table(hunt: &Hunt, options: TableOptions) -> String {
-    let (table, _) = area_table().terminal(areas(hunt), options, &[]);
-    let mut text = format!("{table}\n\n{}\n", totals(hunt));
-    for (title, mutants, reason) in noted(hunt) {
+    let mut text = String::new();
+    if !hunt.mutants.is_empty() {
+        let (table, _) = area_table().terminal(areas(hunt), options, &[]);
+        text += &format!("{table}\n\n{}\n", totals(hunt));
+    }
+    text.extend(innocents::totals(hunt).map(|line| format!("{line}\n")));
+    for (title, mutants) in noted(hunt) {
         if !mutants.is_empty() {
             text += &format!("\n{title}\n");
         }
         for m in mutants {
             text += &format!("  {}\n", plain(&m.mutant.name, 100));
-            if let Some(reason) = reason(m).filter(|reason| !reason.is_empty()) {
-                text += &format!("      {}\n", plain(reason, options.room(5)));
+            if let Some(first) = m.first.as_ref() {
+                text += &format!("      {}\n", plain(&first.case, options.room(5)));
             }
         }
     }
-    let complaints: Vec<_> = hunt.complaints().collect();
-    if !complaints.is_empty() {
-        text += &format!("\n{}\n", options.paint("Wrong", "31"));
-        for (mutant, why) in complaints {
-            let name = plain(&mutant.mutant.name, 100);
-            text += &format!("  {name}: {why}\n");
-        }
+    let complaints = hunt.complaints().map(|(mutant, why)| {
+        let name = plain(&mutant.mutant.name, 100);
+        format!("  {name}: {why}\n")
+    });
+    let wrong = complaints.collect::<String>() + &innocents::complaints(hunt, options.room(5));
+    if !wrong.is_empty() {
+        text += &format!("\n{}\n{wrong}", options.paint("Wrong", "31"));
     }
     text
 }
@@ -71,9 +76,12 @@ pub fn hunt_table(hunt: &Hunt, options: TableOptions) -> String {
 fn html(hunt: &Hunt) -> String {
     let main = html! {
         (head(hunt))
-        (by_area(hunt))
-        (lists(hunt))
-        (all(hunt))
+        @if !hunt.mutants.is_empty() {
+            (by_area(hunt))
+            (lists(hunt))
+        }
+        @if !hunt.innocents.is_empty() { (innocents::section(hunt)) }
+        @if !hunt.mutants.is_empty() { (all(hunt)) }
     };
     Page::new(
         &format!("etalon mutants {}", hunt.provenance.started),
@@ -89,7 +97,7 @@ fn head(hunt: &Hunt) -> Markup {
         (Catch::Caught, "Some case failed."),
         (
             Catch::Noticed,
-            "Legal: some texels lie outside the yardstick, none is wrong.",
+            "Some texels lie outside the yardstick, none is wrong.",
         ),
         (Catch::Survived, "Every case passed."),
         (Catch::Broken, "It could not be drawn: a bug of the mutant."),
@@ -104,8 +112,9 @@ fn head(hunt: &Hunt) -> Markup {
         header {
             h1 { "etalon mutants" }
             p.lead { "Bugs planted in a rasterizer that passes the suite, and the cases that catch them." }
-            @if complaints.is_empty() {
-                p.state.good { b { "✓ Every planted bug is caught, or proven to be legal." } }
+            @if hunt.mutants.is_empty() {
+            } @else if complaints.is_empty() {
+                p.state.good { b { "✓ Every planted bug is caught." } }
             } @else {
                 p.state.bad {
                     b { "✗ " (count(complaints.len() as u64, "planted bug")) " with a wrong outcome." }
@@ -114,16 +123,18 @@ fn head(hunt: &Hunt) -> Markup {
                     li { a href={ "#" (mutant.mutant.name) } { (mutant.mutant.name) } ": " (why) }
                 } }
             }
+            @if !hunt.innocents.is_empty() { (innocents::state(hunt)) }
             dl.facts {
                 (origin(&hunt.provenance))
                 dt { "Scope" } dd {
                     (count(hunt.mutants.len() as u64, "planted bug")) ", "
+                    @if !hunt.innocents.is_empty() { (count(hunt.innocents.len() as u64, "innocent")) ", " }
                     (count(hunt.cases, "case")) ", " (duration(hunt.seconds))
                     @if !hunt.full { "; an area ends at a bug's first Fail" }
                 }
             }
         }
-        (page::totals(totals))
+        @if !hunt.mutants.is_empty() { (page::totals(totals)) }
     }
 }
 
@@ -152,13 +163,11 @@ fn by_area(hunt: &Hunt) -> Markup {
 
 fn lists(hunt: &Hunt) -> Markup {
     html! {
-        @for (title, mutants, _) in noted(hunt) { @if !mutants.is_empty() {
+        @for (title, mutants) in noted(hunt) { @if !mutants.is_empty() {
             section {
                 h2 { (title) }
                 ul { @for m in mutants { li {
                     a href={ "#" (m.mutant.name) } { (m.mutant.name) } ": " (m.mutant.about) " "
-                    @if let Some(why) = &m.mutant.legal { cite { (why) } }
-                    @else if m.complaint().is_some() { b { "No proof." } }
                 } } }
             }
         } }
@@ -176,8 +185,7 @@ fn all(hunt: &Hunt) -> Markup {
 
 fn all_table<'a>() -> Table<'a, &'a MutantRecord> {
     let outcome = |m: &&MutantRecord| {
-        let legal = m.mutant.legal.is_some();
-        let shown = html! { span.chip { (m.outcome.name()) } @if legal { small { " legal" } } };
+        let shown = html! { span.chip { (m.outcome.name()) } };
         Cell::from(shown).class(class(m.outcome))
     };
     Table::new("figures")
@@ -208,7 +216,7 @@ fn tally(area: &AreaTally, is_own: bool) -> Markup {
     }
 }
 
-fn sighting(first: &Sighting) -> Markup {
+pub(super) fn sighting(first: &Sighting) -> Markup {
     html! {
         code { (first.case) }
         @if let Some(texel) = &first.texel {
@@ -277,11 +285,8 @@ fn area_table<'a>() -> Table<'a, AreaRow<'a>> {
         })
 }
 
-/// The text that a terminal shows below a bug.
-type BugNote = fn(&MutantRecord) -> Option<&String>;
-
 /// Returns the bugs to look at: those only noticed, survived, or caught only by cases of other areas.
-fn noted(hunt: &Hunt) -> [(&'static str, Vec<&MutantRecord>, BugNote); 3] {
+fn noted(hunt: &Hunt) -> [(&'static str, Vec<&MutantRecord>); 3] {
     let found = |outcome| hunt.mutants.iter().filter(move |m| m.outcome == outcome);
     let seen = |m: &&MutantRecord| matches!(m.outcome, Catch::Caught | Catch::Noticed);
     let elsewhere = hunt
@@ -289,12 +294,10 @@ fn noted(hunt: &Hunt) -> [(&'static str, Vec<&MutantRecord>, BugNote); 3] {
         .iter()
         .filter(seen)
         .filter(|m| !m.by_own_area());
-    let legal: BugNote = |m| m.mutant.legal.as_ref();
-    let first: BugNote = |m| m.first.as_ref().map(|first| &first.case);
     [
-        ("Noticed", found(Catch::Noticed).collect(), legal),
-        ("Survived", found(Catch::Survived).collect(), legal),
-        ("Caught by other areas only", elsewhere.collect(), first),
+        ("Noticed", found(Catch::Noticed).collect()),
+        ("Survived", found(Catch::Survived).collect()),
+        ("Caught by other areas only", elsewhere.collect()),
     ]
 }
 

@@ -21,6 +21,7 @@ mod files;
 #[cfg(feature = "history")]
 mod history;
 mod hunt;
+mod innocents;
 mod lists;
 mod mark;
 mod matrix;

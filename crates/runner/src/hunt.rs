@@ -160,7 +160,7 @@ fn is_large(case: &Case) -> bool {
         || submissions > 20
 }
 
-fn sighting(case: &Case, verdict: Verdict, texel: Option<WrongTexel>) -> Sighting {
+pub(crate) fn sighting(case: &Case, verdict: Verdict, texel: Option<WrongTexel>) -> Sighting {
     Sighting {
         case: case.id.clone(),
         verdict,
@@ -169,7 +169,7 @@ fn sighting(case: &Case, verdict: Verdict, texel: Option<WrongTexel>) -> Sightin
     }
 }
 
-fn broken(case: &Case, message: String) -> Sighting {
+pub(crate) fn broken(case: &Case, message: String) -> Sighting {
     Sighting {
         message,
         ..sighting(case, Verdict::InternalError, None)
@@ -177,7 +177,7 @@ fn broken(case: &Case, message: String) -> Sighting {
 }
 
 /// Draws a case's scenes once each. If the mutant panics, it is reported as broken, and the hunt continues.
-fn draw(backend: &dyn Backend, case: &Case) -> Result<Vec<Frame>, String> {
+pub(crate) fn draw(backend: &dyn Backend, case: &Case) -> Result<Vec<Frame>, String> {
     match catch_unwind(AssertUnwindSafe(|| draw_frames(backend, case))) {
         Ok(outcome) => outcome.map_err(|e| e.to_string()),
         Err(_) => Err("it panicked".to_owned()),

@@ -14,6 +14,7 @@ mod event;
 mod failure_report;
 mod greeting;
 mod hunt;
+mod innocents;
 mod launch;
 mod loss;
 mod measure;
@@ -39,6 +40,7 @@ pub use bench::{
 pub use drawing::draw_frames;
 pub use event::RunEvent;
 pub use hunt::{Catches, HuntPlan, Hunted, hunt};
+pub use innocents::{InnocentPlan, PlannedInnocent, try_innocents};
 pub use launch::{Launch, Launcher, START_TIMEOUT, Setup, StartError};
 pub use protocol::Hello;
 pub use reduction::{

@@ -18,11 +18,13 @@ use etalon_explore::{Fuzzer, Space};
 use etalon_frame::Limits;
 use etalon_frame::threads::each;
 use etalon_judge::Judge;
-use etalon_mutants::{MutantBackend, mutants};
+use etalon_mutants::{Innocent, Mutant, MutantBackend, innocents, mutants, specifications};
 use etalon_record::{
-    Catch, FolderKind, HUNT_FORMAT, Hunt, MutantInfo, MutantRecord, OutputFolder, Provenance,
+    Catch, FolderKind, HUNT_FORMAT, Hunt, InnocentInfo, InnocentRecord, InnocentTally, MutantInfo,
+    MutantRecord, OutputFolder, Provenance,
 };
-use etalon_runner::HuntPlan;
+use etalon_reference::Rules;
+use etalon_runner::{HuntPlan, InnocentPlan, PlannedInnocent};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -34,12 +36,15 @@ const RECALL: &str = "recall.txt";
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Globs over the names of planted bugs, such as `blend/*`. Default: all
+    /// Globs over the names of planted bugs and innocents, such as `blend/*`. Default: all
     #[arg(value_name = "GLOB")]
     pub(crate) globs: Vec<String>,
     /// Only print names and descriptions
     #[arg(long)]
     pub(crate) list: bool,
+    /// Leave the bugs out: draw with the innocents alone, which behave as some specification permits
+    #[arg(long, conflicts_with_all = ["full", "order", "fuzz"])]
+    pub(crate) innocents: bool,
     /// Hunt only with the cases that match this glob; may be repeated
     #[arg(long = "case", value_name = "GLOB")]
     pub(crate) case_globs: Vec<String>,
@@ -73,11 +78,11 @@ pub(crate) struct Arguments {
     pub(crate) format: OutputFormat,
 }
 
-/// Hunts the selected bugs, or lists them.
+/// Hunts the selected bugs and draws with the selected innocents, or lists them.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let chosen = chosen(&arguments.globs)?;
+    let chosen = Chosen::new(arguments)?;
     if arguments.list {
-        return list(&chosen, arguments.format);
+        return chosen.list(arguments.format);
     }
     if let Some(path) = &arguments.order {
         Renewed::Order.check(path)?;
@@ -92,7 +97,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     }
     .claim()?;
     if let Some(scenes) = arguments.fuzz {
-        return fuzz(arguments, scenes, &chosen, claim);
+        return fuzz(arguments, scenes, &chosen.bugs, claim);
     }
     let library = library(arguments.cases.as_ref())?;
     let named = !arguments.case_globs.is_empty();
@@ -117,78 +122,152 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         summarize(&etalon_report::hunt_table(&hunt, options));
         summarize(&format!("\nReport: {}\n", written.html.display()));
     }
-    Ok(if hunt.complaints().next().is_some() {
-        UNEXPECTED
-    } else {
-        0
-    })
+    let is_wrong =
+        hunt.complaints().next().is_some() || hunt.innocent_complaints().next().is_some();
+    Ok(if is_wrong { UNEXPECTED } else { 0 })
 }
 
-/// Returns the bugs of the registry whose names match.
-fn chosen(globs: &[String]) -> Result<Vec<MutantInfo>, Failure> {
-    let set = Globs::new(globs).map_err(Failure::usage)?;
-    let chosen: Vec<MutantInfo> = mutants()
-        .iter()
-        .filter(|m| set.matches(&m.name))
-        .map(|m| MutantInfo {
-            name: m.name.clone(),
-            about: m.about.clone(),
-            source: m.source.to_owned(),
-            area: m.area.to_owned(),
-            legal: m.legal.map(str::to_owned),
-        })
-        .collect();
-    if chosen.is_empty() {
-        return Err(Failure::nothing(format!(
-            "no planted bug matches {}; `etalon mutants --list` lists all",
-            globs.join(" ")
-        )));
-    }
-    Ok(chosen)
+/// The bugs and innocents whose names match.
+struct Chosen {
+    bugs: Vec<MutantInfo>,
+    innocents: Vec<&'static Innocent>,
 }
 
-fn list(chosen: &[MutantInfo], format: OutputFormat) -> Result<u8, Failure> {
-    if format == OutputFormat::Json {
-        print_json(&chosen)?;
-        return Ok(0);
+impl Chosen {
+    fn new(arguments: &Arguments) -> Result<Self, Failure> {
+        let set = Globs::new(&arguments.globs).map_err(Failure::usage)?;
+        let bugs = mutants().iter().filter(|m| set.matches(&m.name));
+        let chosen = Self {
+            bugs: bugs
+                .filter(|_| !arguments.innocents)
+                .map(|m| bug(m))
+                .collect(),
+            innocents: innocents()
+                .iter()
+                .filter(|i| set.matches(&i.name))
+                .collect(),
+        };
+        if chosen.bugs.is_empty() && chosen.innocents.is_empty() {
+            let (kind, flag) = if arguments.innocents {
+                ("innocent", " --innocents")
+            } else {
+                ("planted bug", "")
+            };
+            return Err(Failure::nothing(format!(
+                "no {kind} matches {}; `etalon mutants{flag} --list` lists all",
+                arguments.globs.join(" ")
+            )));
+        }
+        Ok(chosen)
     }
-    let width = chosen.iter().map(|m| m.name.len()).max().unwrap_or(0);
-    let mut text = String::new();
-    for mutant in chosen {
-        text.push_str(&format!("{:width$}  {}\n", mutant.name, mutant.about));
+
+    /// Prints the bugs, or the innocents if there are no bugs.
+    fn list(&self, format: OutputFormat) -> Result<u8, Failure> {
+        let innocents: Vec<InnocentInfo> = self.innocents.iter().map(|i| innocent(i)).collect();
+        if format == OutputFormat::Json {
+            match self.bugs.is_empty() {
+                true => print_json(&innocents)?,
+                false => print_json(&self.bugs)?,
+            }
+            return Ok(0);
+        }
+        let lines: Vec<(&str, &str)> = if self.bugs.is_empty() {
+            innocents.iter().map(|i| (&*i.name, &*i.about)).collect()
+        } else {
+            self.bugs.iter().map(|m| (&*m.name, &*m.about)).collect()
+        };
+        let width = lines.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+        let mut text = String::new();
+        for (name, about) in lines {
+            text.push_str(&format!("{name:width$}  {about}\n"));
+        }
+        print(&text)?;
+        Ok(0)
     }
-    print(&text)?;
-    Ok(0)
+
+    /// Returns the innocents with the specifications that judge them.
+    fn planned(&self) -> Vec<PlannedInnocent> {
+        let specifications = specifications();
+        let plan = |chosen: &&Innocent| {
+            let limits: Vec<Limits> = specifications.iter().map(|s| chosen.limits(s)).collect();
+            let tally = |specification: &Limits| InnocentTally {
+                specification: Rules::of(specification).text.to_owned(),
+                forbidden: chosen.forbidden_by(specification),
+                imprecise: 0,
+                violations: 0,
+                shared: 0,
+                worst: None,
+            };
+            PlannedInnocent {
+                record: InnocentRecord {
+                    innocent: innocent(chosen),
+                    changed: 0,
+                    specifications: specifications.iter().map(tally).collect(),
+                },
+                limits,
+            }
+        };
+        self.innocents.iter().map(plan).collect()
+    }
+}
+
+fn bug(mutant: &Mutant) -> MutantInfo {
+    MutantInfo {
+        name: mutant.name.clone(),
+        about: mutant.about.clone(),
+        source: mutant.source.to_owned(),
+        area: mutant.area.to_owned(),
+    }
+}
+
+fn innocent(innocent: &Innocent) -> InnocentInfo {
+    InnocentInfo {
+        name: innocent.name.clone(),
+        about: innocent.about.clone(),
+        source: innocent.source.to_owned(),
+        permissions: innocent
+            .permissions()
+            .into_iter()
+            .map(str::to_owned)
+            .collect(),
+        is_itself: innocent.is_itself(),
+    }
 }
 
 fn open(name: &str) -> Option<Box<dyn Backend>> {
     MutantBackend::new(name).map(|backend| Box::new(backend) as Box<dyn Backend>)
 }
 
-fn hunt(arguments: &Arguments, cases: &[Case], chosen: &[MutantInfo]) -> Result<Hunt, Failure> {
+fn hunt(arguments: &Arguments, cases: &[Case], chosen: &Chosen) -> Result<Hunt, Failure> {
     let jobs = processors();
-    let bar = progress(cases.len() as u64 * jobs.min(chosen.len()) as u64);
+    let rounds = jobs.min(chosen.bugs.len()) + usize::from(!chosen.innocents.is_empty());
+    let bar = progress(cases.len() as u64 * rounds as u64);
     let started = provenance::now();
     let start = Instant::now();
     let plan = HuntPlan {
         cases,
-        mutants: chosen,
+        mutants: &chosen.bugs,
         full: arguments.full,
         jobs,
     };
     let found = etalon_runner::hunt(plan, &open, &|| bar.inc(1));
-    bar.finish_and_clear();
     if let Some(path) = &arguments.order {
         replace(path, order(cases, &found).as_bytes())?;
     }
-    let records = found.records;
-    Ok(hunted(
-        arguments,
-        cases.len() as u64,
-        started,
-        start,
-        records,
-    ))
+    let faithful = || Box::new(CpuBackend::spans("cpu")) as Box<dyn Backend>;
+    let plan = InnocentPlan {
+        cases,
+        innocents: &chosen.planned(),
+        jobs,
+    };
+    let innocents = etalon_runner::try_innocents(plan, &faithful, &open, &|| bar.inc(1));
+    bar.finish_and_clear();
+    let is_whole = arguments.case_globs.is_empty() && arguments.cases.is_none();
+    Ok(Hunt {
+        every_case: is_whole && arguments.profile == CaseProfile::Full,
+        innocents,
+        ..hunted(arguments, cases.len() as u64, started, start, found.records)
+    })
 }
 
 fn hunted(
@@ -207,15 +286,17 @@ fn hunted(
         seconds: start.elapsed().as_secs_f64(),
         cases,
         full: arguments.full,
+        every_case: false,
         mutants,
+        innocents: Vec::new(),
     }
 }
 
 /// The number of scenes that are in memory at the same time.
 const CHUNK: u64 = 500;
 
-/// Hunts with random scenes, to measure how many bugs they catch. Exits with 1 if a bug that is marked legal
-/// fails, or the rasterizer fails without a bug.
+/// Hunts with random scenes, to measure how many bugs they catch. Exits with 1 if the rasterizer
+/// fails without a bug.
 fn fuzz(
     arguments: &Arguments,
     scenes: u64,
@@ -240,12 +321,7 @@ fn fuzz(
         OutputFormat::Json => print_json(&hunt)?,
         OutputFormat::Text => summarize(&format!("{table}\nReport: {}\n", written.html.display())),
     }
-    let wrong = |m: &MutantRecord| m.outcome == Catch::Caught && m.mutant.legal.is_some();
-    Ok(if hunt.mutants.iter().any(wrong) || !failing.is_empty() {
-        UNEXPECTED
-    } else {
-        0
-    })
+    Ok(if !failing.is_empty() { UNEXPECTED } else { 0 })
 }
 
 /// Draws random scenes with the bugs that are not yet caught, chunk by chunk. Returns the record of each bug,
@@ -322,7 +398,7 @@ fn recall(hunt: &Hunt) -> String {
     };
     let mut classes: BTreeMap<String, [usize; 2]> = BTreeMap::new();
     let mut missed = String::new();
-    for mutant in hunt.mutants.iter().filter(|m| m.mutant.legal.is_none()) {
+    for mutant in &hunt.mutants {
         let [caught, total] = classes.entry(class(mutant)).or_default();
         *total += 1;
         match mutant.outcome {
@@ -344,13 +420,5 @@ fn recall(hunt: &Hunt) -> String {
         "\nWithout {LARGE}: {caught} of {total}, {share:.1} %, in {:.0} s\n\nNot caught\n{missed}",
         hunt.seconds
     ));
-    for mutant in hunt.mutants.iter().filter(|m| m.mutant.legal.is_some()) {
-        if mutant.outcome == Catch::Caught {
-            let name = &mutant.mutant.name;
-            text.push_str(&format!(
-                "\nWrong: {name} is marked legal, but a scene failed\n"
-            ));
-        }
-    }
     text
 }

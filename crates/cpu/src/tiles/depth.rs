@@ -12,7 +12,7 @@ use etalon_scene::Draw;
 #[inline(always)]
 pub(crate) fn held(draw: &Draw, depth: f32, bias: f64) -> f32 {
     let depth = (f64::from(depth) + bias) as f32;
-    Faithful.held_to_range(depth, draw.viewport.depth)
+    Faithful.held_to_range(depth, draw.viewport.depth, draw.depth_clamp)
 }
 
 /// The number of doubles in a vector. The compiler does not vectorize larger loops well.

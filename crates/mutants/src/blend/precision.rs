@@ -4,7 +4,7 @@ use super::{Input, after, before, component, is_extreme, joined};
 use crate::fields::FieldPlaces;
 use crate::formats::store;
 use crate::hooks::{blending, code, color_code, faithful_blend};
-use crate::list::{CONFUSION, PRECISION, ROUNDED, SMALL, bugs};
+use crate::list::{CONFUSION, SMALL, bugs, coarse, rounded};
 use crate::plant::{Plant, each, in_bits, set};
 use crate::tables::place;
 use etalon_frame::ChannelEncoding::{Float32, Unorm};
@@ -94,10 +94,10 @@ bugs! {
         });
     source "integer blending, as mobile GPUs do it";
     "in-8-bits-nearest: Operands and products are rounded to the nearest of 8-bit codes." =>
-        integer(|a, b| (a * b + 127) / 255), legal PRECISION;
-    "in-8-bits-truncated: Products are rounded down to 8-bit codes." => integer(|a, b| a * b / 255), legal PRECISION;
+        integer(|a, b| (a * b + 127) / 255), permitted coarse();
+    "in-8-bits-truncated: Products are rounded down to 8-bit codes." => integer(|a, b| a * b / 255), permitted coarse();
     "in-8-bits-times-plus-one: Products are a × (b + 1) / 256, rounded down." =>
-        integer(|a, b| (a * (b + 1)) >> 8), legal PRECISION;
+        integer(|a, b| (a * (b + 1)) >> 8), permitted coarse();
     "in-8-bits-by-256: Products are divided by 256, so that 1 times 1 is less than 1." =>
         integer(|a, b| (a * b) >> 8), source "SwiftShader: blending on truncated bits";
     source "SwiftShader: 565/5551 blended on truncated bits";
@@ -133,12 +133,12 @@ bugs! {
             result
         }), source "SwiftShader: sRGB treated as linear";
     "store-rounded-down: Colours are rounded down at the store." =>
-        store(Unorm(8), |v| (exact(v) + 1e-4) as u32), source "truncation instead of rounding", legal ROUNDED;
+        store(Unorm(8), |v| (exact(v) + 1e-4) as u32), source "truncation instead of rounding", permitted rounded();
     "store-rounded-up: Colours are rounded up at the store." =>
-        store(Unorm(8), |v| (exact(v) - 1e-4).ceil() as u32), source "rounding up", legal ROUNDED;
+        store(Unorm(8), |v| (exact(v) - 1e-4).ceil() as u32), source "rounding up", permitted rounded();
     "store-by-256: Colours are stored as v × 256, rounded down and clamped to 255." =>
         store(Unorm(8), |v| ((exact(v) * 256.0 / 255.0) as u32).min(255)),
-        source "multiplying by 256 instead of 255", legal ROUNDED;
+        source "multiplying by 256 instead of 255", permitted rounded();
     "store-wraps: Colours outside 0 to 1 wrap around." =>
         store(Unorm(8), |v| ((v * 255.0 + 0.5).floor() as i64 & 0xff) as u32), source CONFUSION;
     "store-in-7-bits: Stored colours lose their lowest bit." => store(Unorm(8), |v| code(Unorm(8), v) & 0xfe);

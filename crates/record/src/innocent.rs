@@ -1,0 +1,179 @@
+//! The result of drawing with an innocent: the rasterizer with what some specification permits.
+
+use crate::hunt::Sighting;
+use crate::verdict::Verdict;
+use etalon_frame::Grade;
+use serde::{Deserialize, Serialize};
+
+/// The description of an innocent.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct InnocentInfo {
+    /// The stable name.
+    pub name: String,
+    /// The behaviour, in one sentence.
+    pub about: String,
+    /// The hardware or driver that behaves so.
+    pub source: String,
+    /// The names of the permissions that it uses.
+    pub permissions: Vec<String>,
+    /// True if it is the rasterizer itself.
+    pub is_itself: bool,
+}
+
+/// The verdicts on an innocent under one specification.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct InnocentTally {
+    /// The specification: `OpenGL 3.3`.
+    pub specification: String,
+    /// The strongest evidence that forbids the behaviour; absent if the specification permits it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub forbidden: Option<Grade>,
+    /// The number of imprecise cases.
+    pub imprecise: u64,
+    /// The number of cases with a violation.
+    pub violations: u64,
+    /// The number of cases in which the specification forbids as much of the rasterizer itself.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub shared: u64,
+    /// The worst violation.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub worst: Option<Sighting>,
+}
+
+impl InnocentTally {
+    /// Adds a verdict.
+    pub fn add(&mut self, sighting: Sighting) {
+        let severity = |s: &Option<Sighting>| s.as_ref().map(|s| s.verdict.severity());
+        match sighting.verdict {
+            Verdict::Pass => {}
+            Verdict::Imprecise => self.imprecise += 1,
+            _ => {
+                self.violations += 1;
+                if Some(sighting.verdict.severity()) > severity(&self.worst) {
+                    self.worst = Some(sighting);
+                }
+            }
+        }
+    }
+
+    /// Returns the verdict that the specification's evidence supports; `None` if it permits the behaviour.
+    pub fn due(&self) -> Option<Verdict> {
+        self.forbidden.map(Verdict::of_grade)
+    }
+
+    /// Returns true if a verdict is more severe than the specification's evidence supports.
+    pub fn is_accused(&self) -> bool {
+        let worst = self.worst.as_ref().map(|worst| worst.verdict.severity());
+        worst > self.due().map(Verdict::severity)
+    }
+
+    /// Returns true if the specification forbids the behaviour and no case shows it with the evidence's grade.
+    pub fn is_missed(&self) -> bool {
+        let worst = self.worst.as_ref().map(|worst| worst.verdict.severity());
+        self.shared == 0 && worst < self.due().map(Verdict::severity)
+    }
+}
+
+/// The result of one innocent.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct InnocentRecord {
+    /// The innocent.
+    pub innocent: InnocentInfo,
+    /// The number of cases whose frames differ from those of the rasterizer itself.
+    pub changed: u64,
+    /// The verdicts, specification by specification.
+    pub specifications: Vec<InnocentTally>,
+}
+
+impl InnocentRecord {
+    /// Adds the result of the same innocent with further cases.
+    pub fn add(&mut self, other: Self) {
+        self.changed += other.changed;
+        for (tally, other) in self.specifications.iter_mut().zip(other.specifications) {
+            let severity =
+                |tally: &InnocentTally| tally.worst.as_ref().map(|w| w.verdict.severity());
+            if severity(&other) > severity(tally) {
+                tally.worst.clone_from(&other.worst);
+            }
+            tally.imprecise += other.imprecise;
+            tally.violations += other.violations;
+            tally.shared += other.shared;
+        }
+    }
+
+    /// Returns what is wrong with the verdicts, and under which specification. Only if every case was drawn must some
+    /// case show the behaviour.
+    pub fn complaints(&self, every_case: bool) -> impl Iterator<Item = (&str, &'static str)> {
+        let each = self.specifications.iter().filter_map(move |tally| {
+            let why = if tally.is_accused() {
+                Some("it is accused of more than the evidence supports")
+            } else if every_case && tally.is_missed() {
+                Some("it is forbidden, and no case shows it")
+            } else {
+                None
+            };
+            why.map(|why| (tally.specification.as_str(), why))
+        });
+        let is_unused = every_case && self.changed == 0 && !self.innocent.is_itself;
+        each.chain(is_unused.then_some(("every specification", "it changes no frame")))
+    }
+}
+
+fn is_zero(count: &u64) -> bool {
+    *count == 0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tally(forbidden: Option<Grade>, verdicts: &[Verdict]) -> InnocentTally {
+        let mut tally = InnocentTally {
+            specification: "OpenGL 3.3".to_owned(),
+            forbidden,
+            imprecise: 0,
+            violations: 0,
+            shared: 0,
+            worst: None,
+        };
+        for verdict in verdicts {
+            tally.add(Sighting {
+                case: "blend/x".to_owned(),
+                verdict: *verdict,
+                texel: None,
+                message: String::new(),
+            });
+        }
+        tally
+    }
+
+    #[test]
+    fn a_permitted_behaviour_may_be_imprecise_and_nothing_worse() {
+        let fine = tally(None, &[Verdict::Pass, Verdict::Imprecise]);
+        assert!(!fine.is_accused() && !fine.is_missed());
+        assert_eq!((fine.imprecise, fine.violations), (1, 0));
+        for verdict in [
+            Verdict::Disputed,
+            Verdict::RequiredByCts,
+            Verdict::Fail,
+            Verdict::InternalError,
+        ] {
+            assert!(
+                tally(None, &[verdict, Verdict::Pass]).is_accused(),
+                "{verdict:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_forbidden_behaviour_gets_the_verdict_of_its_evidence() {
+        let disputed = |verdicts| tally(Some(Grade::Disputed), verdicts);
+        let right = disputed(&[Verdict::Imprecise, Verdict::Disputed]);
+        assert!(!right.is_accused() && !right.is_missed());
+        assert!(disputed(&[Verdict::Fail]).is_accused());
+        assert!(disputed(&[Verdict::Imprecise]).is_missed());
+    }
+}
