@@ -5,7 +5,7 @@ use crate::mutant::Mutant;
 use crate::permission::{UsedPermission, under};
 use etalon_backend::Backend;
 use etalon_cpu::CpuBackend;
-use etalon_frame::{Api, ApiVersion, Grade, Limits, Property};
+use etalon_frame::{Api, ApiVersion, Feature, Grade, Limits, Property};
 use etalon_reference::Rules;
 use etalon_reference::rules::MaskOfOne;
 use std::collections::BTreeSet;
@@ -167,11 +167,19 @@ pub fn specifications() -> Vec<Limits> {
         (Api::WebGpu, (0, 0), none),
     ]
     .into_iter()
-    .map(|(api, (major, minor), properties)| Limits {
-        api,
-        version: ApiVersion::new(major, minor),
-        properties: properties.iter().copied().collect(),
-        ..own.clone()
+    .map(|(api, (major, minor), properties)| {
+        let mut features = own.features.clone();
+        if api == Api::WebGpu {
+            // WebGPU has none, so that no text says what they do.
+            features.remove(&Feature::ForcedEarlyTests);
+        }
+        Limits {
+            api,
+            version: ApiVersion::new(major, minor),
+            properties: properties.iter().copied().collect(),
+            features,
+            ..own.clone()
+        }
     })
     .collect()
 }

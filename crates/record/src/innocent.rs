@@ -19,6 +19,8 @@ pub struct InnocentInfo {
     pub permissions: Vec<String>,
     /// True if it is the rasterizer itself.
     pub is_itself: bool,
+    /// True if it combines several behaviours.
+    pub is_profile: bool,
 }
 
 /// The verdicts on an innocent under one specification.

@@ -245,8 +245,9 @@ impl Walk<'_> {
     /// Returns true if the rules let the shader or coverage remove a sample before forced early tests.
     fn may_be_removed_first(&self, covered: Covered) -> bool {
         let rules = self.rules;
+        // `Each` concerns fragments that passed the tests before they were removed.
         let may_precede =
-            |updates: &Permission<EarlyUpdates>| updates.value() != EarlyUpdates::Happen;
+            |updates: &Permission<EarlyUpdates>| updates.value() == EarlyUpdates::Either;
         !covered.kept.must() && may_precede(&rules.early_updates)
             || !covered.masked.must() && may_precede(&rules.early_mask)
             || !covered.coverage.must() && may_precede(&rules.early_coverage)

@@ -8,6 +8,7 @@ use etalon_frame::threads::each;
 use etalon_frame::{Frame, Limits};
 use etalon_judge::Judge;
 use etalon_record::{InnocentRecord, Sighting};
+use std::collections::HashMap;
 
 /// One innocent and what judges it.
 #[derive(Clone, Debug)]
@@ -32,7 +33,8 @@ pub struct InnocentPlan<'a> {
 /// Draws and judges the cases with every innocent. `open` returns the backend of a name, `faithful` the rasterizer
 /// itself, and each thread calls `drawn` after each case.
 ///
-/// Frames that equal the rasterizer's are judged for the rasterizer itself alone.
+/// Frames that equal the rasterizer's are judged for the rasterizer itself alone. A single change is drawn with some
+/// cases of each file, and with all that follow once a frame differs; the rasterizer itself and profiles with all.
 pub fn try_innocents(
     plan: InnocentPlan<'_>,
     faithful: &(dyn Fn() -> Box<dyn Backend> + Sync),
@@ -41,6 +43,10 @@ pub fn try_innocents(
 ) -> Vec<InnocentRecord> {
     let judge = Judge::default();
     let jobs = plan.jobs.clamp(1, plan.cases.len().max(1));
+    let mut file_sizes: HashMap<&str, usize> = HashMap::new();
+    for case in plan.cases {
+        *file_sizes.entry(case.parts().file()).or_default() += 1;
+    }
     let numbers: Vec<usize> = (0..jobs).collect();
     let parts = each(jobs, &numbers, |job| {
         let faithful = faithful();
@@ -51,12 +57,27 @@ pub fn try_innocents(
                 planned,
                 backend: open(&planned.record.innocent.name),
                 record: planned.record.clone(),
+                changed_in_file: 0,
             })
             .collect();
+        let mut file = "";
+        let mut number_in_file = 0;
         let share = plan.cases.iter().enumerate().skip(*job).step_by(jobs);
         for (number, case) in share {
+            if std::mem::replace(&mut file, case.parts().file()) != file {
+                number_in_file = 0;
+                tried
+                    .iter_mut()
+                    .for_each(|innocent| innocent.changed_in_file = 0);
+            }
+            let step = file_sizes[file].div_ceil(jobs * LEAST).max(1);
+            let is_sample = number_in_file % step == 0;
+            number_in_file += 1;
             if case.judged_as.is_none() {
-                try_case(&judge, (number, case), faithful.as_ref(), &mut tried);
+                let chosen = tried
+                    .iter_mut()
+                    .filter(|innocent| is_sample || innocent.draws_all());
+                try_case(&judge, (number, case), faithful.as_ref(), chosen);
             }
             drawn();
         }
@@ -74,21 +95,34 @@ pub fn try_innocents(
     sum.unwrap_or_default()
 }
 
+/// The least number of cases of a file that a thread draws with a single change, if there are as many.
+const LEAST: usize = 8;
+
 /// An innocent on one thread.
 struct TriedInnocent<'a> {
     planned: &'a PlannedInnocent,
     backend: Option<Box<dyn Backend>>,
     record: InnocentRecord,
+    /// The number of cases of the current file whose frames differ from the rasterizer's.
+    changed_in_file: usize,
+}
+
+impl TriedInnocent<'_> {
+    /// Returns true if it is drawn with every case of the current file.
+    fn draws_all(&self) -> bool {
+        let innocent = &self.record.innocent;
+        innocent.is_itself || innocent.is_profile || self.changed_in_file > 0
+    }
 }
 
 /// A verdict on frames under some limits.
 type KnownSighting<'a> = (&'a Limits, Vec<Frame>, Sighting);
 
-fn try_case(
+fn try_case<'t, 'p: 't>(
     judge: &Judge,
     (number, case): (usize, &Case),
     faithful: &dyn Backend,
-    tried: &mut [TriedInnocent<'_>],
+    tried: impl Iterator<Item = &'t mut TriedInnocent<'p>>,
 ) {
     let Ok(right) = draw_frames(faithful, case) else {
         return;
@@ -107,6 +141,7 @@ fn try_case(
             Ok(frames) if frames == right && !is_itself => {}
             Ok(frames) => {
                 innocent.record.changed += u64::from(frames != right);
+                innocent.changed_in_file += usize::from(frames != right);
                 for (tally, limits) in judged {
                     if limits.missing(&case.requirements()).is_some() {
                         continue;

@@ -231,6 +231,7 @@ fn innocent(innocent: &Innocent) -> InnocentInfo {
             .map(str::to_owned)
             .collect(),
         is_itself: innocent.is_itself(),
+        is_profile: !innocent.parts.is_empty(),
     }
 }
 
