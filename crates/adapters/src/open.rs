@@ -40,7 +40,7 @@ pub struct Open {
     /// True if the calls of the first scene are recorded.
     #[serde(default, skip_serializing_if = "is_false")]
     pub record: bool,
-    /// The fault at the end of the name.
+    /// The planted fault, which the end of the name states: `cpu:fault=abort`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fault: Option<Fault>,
 }

@@ -3,7 +3,6 @@
 use crate::attachment::{MAX_SIZE, find};
 use crate::error::At;
 use crate::fetch::fetch;
-use crate::place::PathStep;
 use crate::wire::{DrawWire, StencilFaceWire, StencilWire};
 use etalon_frame::{CounterKind, TextureFormat};
 use etalon_scene::{
@@ -26,7 +25,7 @@ pub(crate) struct DrawTarget<'a> {
     pub(crate) pool: Option<Pool>,
 }
 
-/// Returns the draw that a case file describes. One key of a draw after the other.
+/// Returns the draw that a case file describes. It checks one key after the other, so the first wrong key is reported.
 pub(crate) fn draw(wire: &DrawWire, target: &DrawTarget<'_>) -> Result<Draw, At> {
     let DrawTarget {
         size,
@@ -102,16 +101,16 @@ pub(crate) fn draw(wire: &DrawWire, target: &DrawTarget<'_>) -> Result<Draw, At>
         ))
         .key("textures"));
     }
-    sampler(wire, target, &textures).map_err(|e| e.key("sampler"))?;
-    tessellation(wire, &mesh).map_err(|e| e.key("tessellation"))?;
-    clip_distances(wire)?;
+    check_sampler(wire, target, &textures).map_err(|e| e.key("sampler"))?;
+    check_tessellation(wire, &mesh).map_err(|e| e.key("tessellation"))?;
+    check_clip_distances(wire)?;
     check_pool(wire, target)?;
     let counters = counters(wire, target.counters).map_err(|e| e.key("counters"))?;
     if wire.early_tests.is_conservative() && !wire.shader.writes_depth() {
         let message = "a conservative depth needs a shader that writes depth";
         return Err(At::new(message).key("early_tests"));
     }
-    multisample(&wire.multisample, samples).map_err(|e| e.key("multisample"))?;
+    check_multisample(&wire.multisample, samples).map_err(|e| e.key("multisample"))?;
     let color_targets = color_targets(wire, target.color.len())?;
     check_shader(wire, &color_targets)?;
     check_advanced(wire, target).map_err(|e| e.key("advanced_blend"))?;
@@ -121,14 +120,14 @@ pub(crate) fn draw(wire: &DrawWire, target: &DrawTarget<'_>) -> Result<Draw, At>
     {
         return Err(At::new("bounds must be between 0 and 1, the lower first").key("depth_bounds"));
     }
-    let numbers = [
-        wire.params.color,
-        wire.params.back_color,
-        wire.blend_constant,
-    ];
-    if numbers.iter().any(|s| s.0.iter().any(|v| !v.is_finite())) {
-        return Err(At::new("a parameter does not fit into a 32-bit float")
-            .below(PathStep::Key("params".to_owned())));
+    for (key, color) in [
+        ("params", wire.params.color),
+        ("params", wire.params.back_color),
+        ("blend_constant", wire.blend_constant),
+    ] {
+        if color.0.iter().any(|v| !v.is_finite()) {
+            return Err(At::new("a number does not fit into a 32-bit float").key(key));
+        }
     }
     Ok(Draw {
         fetch,
@@ -170,7 +169,7 @@ const FARTHEST: f32 = 4_294_967_296.0;
 const FARTHEST_UV: f32 = 64.0;
 
 /// Checks the state that decides which samples are drawn.
-fn multisample(state: &Multisample, samples: u32) -> Result<(), At> {
+fn check_multisample(state: &Multisample, samples: u32) -> Result<(), At> {
     // With one sample, these two states change nothing in any API.
     let rest = Multisample {
         min_sample_shading: None,
@@ -194,7 +193,7 @@ fn multisample(state: &Multisample, samples: u32) -> Result<(), At> {
 }
 
 /// Checks that patches are whole triangles, and that no attribute would have to pass through the tessellator.
-fn tessellation(wire: &DrawWire, mesh: &Mesh) -> Result<(), At> {
+fn check_tessellation(wire: &DrawWire, mesh: &Mesh) -> Result<(), At> {
     if wire.tessellation.is_none() {
         return Ok(());
     }
@@ -218,7 +217,7 @@ fn tessellation(wire: &DrawWire, mesh: &Mesh) -> Result<(), At> {
 
 /// Checks that enabled clip distances exist, and that no outline is clipped: no specification says which
 /// edges of a clipped polygon are drawn.
-fn clip_distances(wire: &DrawWire) -> Result<(), At> {
+fn check_clip_distances(wire: &DrawWire) -> Result<(), At> {
     let count = wire.shader.clip_distances();
     if wire.clip_distances != u8::MAX && u32::from(wire.clip_distances) >> count != 0 {
         let message = format!("shader {} has {count} clip distances", wire.shader.name());
@@ -248,7 +247,7 @@ fn check_outlines(mode: PolygonMode, mesh: &Mesh) -> Result<(), At> {
 }
 
 /// Checks how a texture is sampled.
-fn sampler(wire: &DrawWire, target: &DrawTarget<'_>, textures: &[usize]) -> Result<(), At> {
+fn check_sampler(wire: &DrawWire, target: &DrawTarget<'_>, textures: &[usize]) -> Result<(), At> {
     match (wire.sampler, wire.shader.samples_texture()) {
         (None, false) => return Ok(()),
         (Some(_), false) => {
@@ -683,7 +682,6 @@ mod tests {
             ("write_mask", json!("a")),
             ("logic", json!("xor")),
             ("early_tests", json!("forced")),
-            ("counters", json!(["c"])),
         ] {
             assert!(with(key, value).is_some(), "{key}");
         }
@@ -779,19 +777,19 @@ mod tests {
             ..Multisample::default()
         };
         for samples in [1, 4] {
-            assert!(multisample(&shading(1.0), samples).is_ok());
-            assert!(multisample(&shading(1.5), samples).is_err());
-            assert!(multisample(&shading(f32::NAN), samples).is_err());
+            assert!(check_multisample(&shading(1.0), samples).is_ok());
+            assert!(check_multisample(&shading(1.5), samples).is_err());
+            assert!(check_multisample(&shading(f32::NAN), samples).is_err());
             // OpenGL clamps the value.
-            assert!(multisample(&coverage(-1.0), samples).is_ok());
-            assert!(multisample(&coverage(f32::INFINITY), samples).is_err());
+            assert!(check_multisample(&coverage(-1.0), samples).is_ok());
+            assert!(check_multisample(&coverage(f32::INFINITY), samples).is_err());
         }
         let masked = Multisample {
             mask: 1,
             ..coverage(0.5)
         };
-        assert!(multisample(&masked, 4).is_ok());
-        assert!(multisample(&masked, 1).is_err());
+        assert!(check_multisample(&masked, 4).is_ok());
+        assert!(check_multisample(&masked, 1).is_err());
     }
 
     /// Builds a scene whose draw has these keys and draws to these attachments.

@@ -24,18 +24,18 @@ pub enum CheckResult {
 
 /// A backend, with a record of what its checks have drawn.
 pub struct CheckedBackend<'a> {
-    /// The backend.
+    /// The backend under test, with its own limits: scenes use [`Self::limits`].
     pub backend: &'a dyn Backend,
     /// Parts of messages that are not the backend's fault.
     pub tolerated: &'a [&'a str],
-    /// The backend's limits, without features that are known to be wrong.
+    /// The backend's limits, without what the driver offers but gets wrong.
     limits: Limits,
     drawn: Cell<bool>,
     missing: RefCell<BTreeSet<Requirement>>,
 }
 
 impl<'a> CheckedBackend<'a> {
-    /// Creates a subject that has drawn nothing yet.
+    /// Creates a record in which nothing is drawn yet.
     pub fn new(backend: &'a dyn Backend, tolerated: &'a [&'a str]) -> Self {
         Self {
             backend,

@@ -170,7 +170,6 @@ impl<S: Steps> Raster<'_, S> {
         let bias = self.bias(points, &corners);
         let planes = Planes::new(draw, self.interpolation, points, corners, bias, outlined);
         if outlined {
-            let front = self.steps.outline_faces_front(front);
             for (i, j) in [(0, 1), (1, 2), (2, 0)] {
                 let ends = [corners[i], corners[j]];
                 line(ends, front, &planes, self.samples.len(), bounds, state);

@@ -378,12 +378,6 @@ pub trait Steps {
         is_top_left(from, to)
     }
 
-    /// Returns the facing of a polygon's edges, given the polygon's.
-    #[inline(always)]
-    fn outline_faces_front(&self, polygon: bool) -> bool {
-        polygon
-    }
-
     /// Returns true if forced early tests precede the sample mask.
     #[inline(always)]
     fn tests_before_mask(&self) -> bool {

@@ -2,7 +2,6 @@
 
 use crate::changes;
 use crate::hooks::CombinedHooks;
-use crate::innocent::innocents;
 use crate::mutant::Mutant;
 use crate::plant::{FrameBug, Plant, all_draws};
 use etalon_backend::{Backend, BackendError, FrameTime, Prepared};
@@ -23,13 +22,12 @@ pub struct MutantBackend {
 }
 
 impl MutantBackend {
-    /// Returns the rasterizer with the bug or the innocent of this name; `None` if none has this name.
+    /// Returns the rasterizer with the changes of these names, joined by `+`, or without any for an empty name; `None`
+    /// if a name is unknown.
     pub fn new(name: &str) -> Option<Self> {
-        let single = changes().iter().find(|change| change.name == name);
-        let changes = single.map(|change| vec![change]).or_else(|| {
-            let innocent = innocents().iter().find(|i| i.name == name);
-            innocent.map(|innocent| innocent.changes.clone())
-        })?;
+        let names = name.split('+').filter(|name| !name.is_empty());
+        let find = |name| changes().iter().find(|change| change.name == name);
+        let changes: Vec<&Mutant> = names.map(find).collect::<Option<_>>()?;
         let inner = CpuBackend::spans(&format!("cpu:{name}"));
         let mut limits = inner.limits().clone();
         for change in &changes {

@@ -73,10 +73,10 @@ bugs! {
     source "v3d: D16 units";
     "d16-step-of-15-bits: On depth of 16 bits, a step is that of 15." =>
         step(Unorm(16), |r, _| r * 2.0),
-        permitted vec![under!(depth_bias_unit: unit if unit.unorm16.iter().any(|r| r.1 >= 2.0))];
+        permitted vec![under!(depth_bias_unit: unit if unit.unorm16.iter().any(|r| r.0 <= 2.0 && r.1 >= 2.0))];
     "d24-step-of-23-bits: On depth of 24 bits, a step is that of 23." =>
         step(Unorm(24), |r, _| r * 2.0),
-        permitted vec![under!(depth_bias_unit: unit if unit.unorm.iter().any(|r| r.1 >= 2.0))];
+        permitted vec![under!(depth_bias_unit: unit if unit.unorm.iter().any(|r| r.0 <= 2.0 && r.1 >= 2.0))];
     for (bits, other) in [(16, 14), (16, 17), (16, 24), (24, 16), (24, 25)] {
         "d{bits}-step-of-{other}-bits: On depth of {bits} bits, a step is that of {other}." =>
             step(Unorm(bits), move |r, _| r * 2_f64.powi(i32::from(bits) - other));

@@ -1,12 +1,12 @@
-//! What some specification permits and another may forbid, of the kind that hardware does.
+//! Behaviours that some specification permits and that no bug is known for. Some of them another specification forbids.
 
 use crate::blend::{Input, component, is_extreme, joined, side};
 use crate::fields::FieldPlaces;
 use crate::formats::{store, value};
 use crate::hooks::{
     advanced_blending, blending, code, color_code, color_value, counts_all_samples, depth_passes,
-    faithful_advanced, faithful_blend, interpolation, outline_faces_front, owns_edge, resolve,
-    sampled, second_source, slope, snap, tests_before_mask, window_depth,
+    faithful_advanced, faithful_blend, interpolation, owns_edge, resolve, sampled, second_source,
+    slope, snap, tests_before_mask, window_depth,
 };
 use crate::list::bugs;
 use crate::permission::under;
@@ -18,7 +18,7 @@ use etalon_frame::{Aspect, CounterKind};
 use etalon_pipeline::{BlendInput, compare, is_top_left};
 use etalon_reference::rules::{
     BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthTerms, FlushedFloats, NegativeAlpha,
-    Rounding, SameDepth, SamplesCounted, SharedEdge, SmallFloats, Snap,
+    Resolve, Rounding, SameDepth, SamplesCounted, SharedEdge, SmallFloats, Snap,
 };
 use etalon_scene::{
     BlendComponent, BlendFactor, BlendOperation, CompareFunction, Draw, FilterMode,
@@ -215,16 +215,20 @@ bugs! {
     "subnormal-halves-flushed: Subnormal 16-bit floats are stored as 0." =>
         store(Float16, |v| if v.abs() < 2_f32.powi(-14) { code(Float16, 0.0_f32.copysign(v)) } else { code(Float16, v) }),
         permitted vec![under!(flushes_small_floats: FlushedFloats::Half | FlushedFloats::All)];
-    "subnormal-small-floats-flushed: Subnormal floats of 11 bits are stored as 0." =>
-        store(Ufloat(6), |v| code(Ufloat(6), if v < 2_f32.powi(-14) { 0.0 } else { v })),
+    "subnormal-small-floats-flushed: Subnormal floats of 11 and 10 bits are stored as 0." =>
+        color_code(|e, v| match e {
+            Ufloat(_) if v < 2_f32.powi(-14) => code(e, 0.0),
+            _ => code(e, v),
+        }),
         permitted vec![under!(flushes_small_floats: FlushedFloats::All)];
     source "conversions that saturate, and others that do not";
-    "small-floats-overflow-to-infinity: 11-bit floats beyond the largest become infinity." =>
-        store(Ufloat(6), |v| code(Ufloat(6), if v > 65024.0 { f32::INFINITY } else { v })),
+    "small-floats-overflow-to-infinity: Floats of 11 and 10 bits beyond the largest become infinity." =>
+        color_code(|e, v| match e {
+            Ufloat(6) if v > 65024.0 => code(e, f32::INFINITY),
+            Ufloat(5) if v > 64512.0 => code(e, f32::INFINITY),
+            _ => code(e, v),
+        }),
         permitted vec![under!(small_floats: SmallFloats::EitherNeighbour)];
-    "halves-overflow-to-zero: 16-bit floats beyond the largest become 0." =>
-        store(Float16, |v| code(Float16, if v.abs() > 65504.0 { 0.0 } else { v })),
-        permitted vec![under!(half_overflows: false)];
     "second-alpha-stays: Alpha to one leaves the second source's alpha." =>
         second_source(|_, second| second), area "multisample", source "Vulkan names the first output alone",
         permitted vec![under!(one_is_first_output: true)];
@@ -240,12 +244,12 @@ bugs! {
             if encodings[0].is_float() && is_negative { [0.0; 4] } else { faithful_advanced(mode, encodings, colors) }
         }), source "a square root of a negative number",
         permitted vec![under!(negative_alpha: NegativeAlpha::Undefined | NegativeAlpha::IfNormalized)];
-    "minus-one-as-lowest: A copy returns the lowest code for -1." =>
+    "lowest-as-minus-one: A copy returns the code of -1 for the lowest code." =>
         images(Aspect::Color, |image| {
             let channels = image.channels.clone();
             for texel in image.codes.chunks_exact_mut(channels.len()) {
                 for (code, encoding) in texel.iter_mut().zip(&channels) {
-                    if *encoding == Snorm(8) && *code == 0x81 { *code = 0x80; }
+                    if *encoding == Snorm(8) && *code == 0x80 { *code = 0x81; }
                 }
             }
         }), source "copies that convert",
@@ -269,8 +273,12 @@ bugs! {
         window_depth(|_, clip, [near, far]| (2.0 * clip - 1.0) * ((far - near) / 2.0) + f32::midpoint(near, far)),
         permitted vec![under!(depth_terms: DepthTerms::Middle)];
     "whole-viewports: Bounds of viewports are rounded down to whole texels." =>
-        each(RECT, |rect| *rect = rect.map(f32::floor)), area "viewport",
-        source "lavapipe, Direct3D 9 parts: viewportSubPixelBits of 0",
+        each(RECT, |rect| {
+            let [left, top, width, height] = *rect;
+            let [x, y] = [left, top].map(f32::floor);
+            *rect = [x, y, (left + width).floor() - x, (top + height).floor() - y];
+        }), area "scissor",
+        source "devices that report 0 viewportSubPixelBits",
         reports |limits| limits.viewport_bits = Some(0),
         permitted vec![under!(viewport_step: step if step >= 1.0)];
 
@@ -280,16 +288,18 @@ bugs! {
         floored(8), reports |limits| limits.sub_pixel_bits = 8,
         permitted vec![under!(snap: Snap::EitherSide)];
     "vertices-in-4-bits: Vertices are moved down to a grid of 4 bits." =>
-        floored(4), reports |limits| limits.sub_pixel_bits = 4, permitted vec![under!(sub_pixel_bits: 0..=4)];
+        floored(4), reports |limits| limits.sub_pixel_bits = 4,
+        permitted vec![under!(sub_pixel_bits: 0..=4), under!(snap: Snap::EitherSide)];
     "vertices-in-6-bits: Vertices are moved down to a grid of 6 bits." =>
-        floored(6), reports |limits| limits.sub_pixel_bits = 6, permitted vec![under!(sub_pixel_bits: 0..=6)];
+        floored(6), reports |limits| limits.sub_pixel_bits = 6,
+        permitted vec![under!(sub_pixel_bits: 0..=6), under!(snap: Snap::EitherSide)];
     "bottom-right-rule: Samples on an edge belong to the triangle above or left of it." =>
         owns_edge(|from, to| !is_top_left(from, to)), source "GPUs with another fill rule",
         permitted vec![under!(shared_edge: SharedEdge::ExactlyOne | SharedEdge::Independent)];
     "edges-of-both: Samples on an edge belong to the triangles on both sides." =>
         owns_edge(|_, _| true), source "conservative edges",
         permitted vec![under!(shared_edge: SharedEdge::Independent)];
-    source "Bresenham's lines";
+    source "the letter of Bresenham's rule";
     "axial-lines-with-a-gap: A line along an axis lacks the texel in its middle." =>
         axial_lines(|[a, b], [axis], texel| {
             let (from, to) = (a.position[axis], b.position[axis]);
@@ -311,18 +321,15 @@ bugs! {
         }), when |draw| draw.topology == PrimitiveTopology::LineList && draw.mesh.indices.is_none(),
         source "lines that are not clipped",
         permitted vec![under!(keeps_lines_that_end_behind: false, or lines_cover_texels: false)];
-    "outlines-face-front: The edges of polygons face front." =>
-        outline_faces_front(|_| true), source "edges that are drawn as lines",
-        permitted vec![under!(outlines_face_as_polygons: false)];
 
     class "freedom", "multisample";
-    "resolve-halves-truncated: Resolves average two and two codes, rounded down." =>
+    "resolve-halves-truncated: Resolves average pairs of codes, rounding each down." =>
         resolve(|e, codes| match e {
             Unorm(_) => halved(codes),
             ChannelEncoding::Uint(_) => codes[0],
             _ => Faithful.resolve(e, codes),
         }), source "resolves in the destination's codes",
-        permitted vec![under!(resolve: _)];
+        permitted vec![under!(resolve: Resolve::Between | Resolve::BetweenOrFirst | Resolve::CoarseAverage)];
     "inputs-at-a-covered-sample: Without sample shading, inputs are interpolated at a covered sample." =>
         interpolation(|shader: Shader, state| {
             let sampling = match shader.interpolation_sampling() {
@@ -336,8 +343,8 @@ bugs! {
     class "freedom", "early-z";
     "mask-after-early-tests: Forced early tests precede the sample mask." =>
         tests_before_mask(|| true), source "GPUs that mask samples at the output",
-        permitted vec![under!(mask_acts_first: false), under!(early_counts: _)];
-    "all-samples-counted: A fragment of which a sample passes counts with all samples." =>
+        permitted vec![under!(mask_acts_first: false)];
+    "all-samples-counted: A fragment counts all its samples if one passes." =>
         counts_all_samples(|| true), source "counters of fragments",
         permitted vec![under!(samples_counted: SamplesCounted::PassingOrAll)];
     "runs-doubled-with-samples: With several samples, a shader runs twice as often." =>

@@ -82,8 +82,6 @@ hooks! {
         window_depth(depth: f32, clip_depth: f32, range: [f32; 2]) -> f32;
         /// True if samples on an edge belong to the triangle clockwise of it.
         owns_edge(from: Point, to: Point) -> bool;
-        /// The facing of a polygon's edges, given the polygon's.
-        outline_faces_front(polygon: bool) -> bool;
         /// True if forced early tests precede the sample mask.
         tests_before_mask() -> bool;
         /// True if a fragment of which a sample passes counts with all samples.

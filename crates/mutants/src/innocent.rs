@@ -7,7 +7,7 @@ use etalon_backend::Backend;
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Api, ApiVersion, Feature, Grade, Limits, Property};
 use etalon_reference::Rules;
-use etalon_reference::rules::MaskOfOne;
+use etalon_reference::rules::{ConstantClamp, MaskOfOne, SignedClamp, SrgbLogic};
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
@@ -22,7 +22,7 @@ pub struct Innocent {
     pub source: &'static str,
     /// The names of the changes that a profile combines.
     pub parts: &'static [&'static str],
-    /// What it uses without a change.
+    /// The permissions that the rasterizer uses unchanged.
     own: Vec<UsedPermission>,
     pub(super) changes: Vec<&'static Mutant>,
 }
@@ -39,32 +39,48 @@ impl Innocent {
         self.own.iter().chain(used).map(|used| used.name).collect()
     }
 
+    /// Returns the changes that count under a specification: of a profile, those that it permits.
+    fn changes_under(&self, specification: &Limits) -> Vec<&'static Mutant> {
+        let is_permitted = |change: &&Mutant| {
+            let limits = change.reported(specification.clone());
+            change.forbidden_by(&Rules::of(&limits)).is_none()
+        };
+        let changes = self.changes.iter().copied();
+        changes
+            .filter(|change| self.parts.is_empty() || is_permitted(change))
+            .collect()
+    }
+
+    /// Returns the name of its backend under a specification, for [`MutantBackend::new`](crate::MutantBackend::new).
+    pub fn backend(&self, specification: &Limits) -> String {
+        let changes = self.changes_under(specification);
+        let names: Vec<&str> = changes.iter().map(|change| change.name.as_str()).collect();
+        names.join("+")
+    }
+
     /// Returns the limits that an adapter that behaves so reports under a specification.
     pub fn limits(&self, specification: &Limits) -> Limits {
-        let mut limits = specification.clone();
-        for change in &self.changes {
-            limits = change.reported(limits);
-        }
-        limits
+        let changes = self.changes_under(specification).into_iter();
+        changes.fold(specification.clone(), |limits, change| {
+            change.reported(limits)
+        })
     }
 
     /// Returns the strongest evidence by which a specification forbids the behaviour; `None` if it permits it.
     pub fn forbidden_by(&self, specification: &Limits) -> Option<Grade> {
         let rules = Rules::of(&self.limits(specification));
         let own = self.own.iter().filter_map(|used| used.forbidden_by(&rules));
-        let each = self
-            .changes
-            .iter()
-            .filter_map(|change| change.forbidden_by(&rules));
+        let changes = self.changes_under(specification).into_iter();
+        let each = changes.filter_map(|change| change.forbidden_by(&rules));
         own.chain(each).max()
     }
 }
 
-/// Hardware families: what one combines, as names of changes.
+/// Hardware families: what one combines, as names of changes. Where a specification forbids a part, it is left out.
 const PROFILES: &[(&str, &str, &[&str])] = &[
     (
         "tiler",
-        "A tile-based renderer of phones: blends and resolves in the destination's codes, floors positions.",
+        "A tile-based GPU of phones: blends and resolves in codes, coarse positions and filters.",
         &[
             "blend/in-8-bits-times-plus-one",
             "freedom/resolve-halves-truncated",
@@ -77,7 +93,7 @@ const PROFILES: &[(&str, &str, &[&str])] = &[
     ),
     (
         "direct3d-12",
-        "A part of Direct3D 12: float blends are fused, signed factors are not clamped, bounds of viewports are fine.",
+        "A GPU behind Direct3D 12: fused float blends, unclamped signed factors, late conversion of depth, fine filters.",
         &[
             "freedom/float-blends-fused",
             "format/snorm8-inverse-factors-out-of-range",
@@ -87,7 +103,7 @@ const PROFILES: &[(&str, &str, &[&str])] = &[
     ),
     (
         "half-exports",
-        "An immediate renderer that exports colours as 16-bit floats and keeps float mantissas of 0.M.",
+        "A GPU that exports colours as 16-bit floats, doubles the bias of float depth and averages codes of sRGB.",
         &[
             "freedom/exported-as-halves",
             "bias/float-step-doubled",
@@ -99,7 +115,7 @@ const PROFILES: &[(&str, &str, &[&str])] = &[
     ),
     (
         "apple",
-        "An integrated tile-based renderer: whole viewports, inputs at a covered sample, blends in 16-bit floats.",
+        "An integrated GPU: whole viewports, inputs at covered samples, blends in 16-bit floats, another fill rule.",
         &[
             "freedom/whole-viewports",
             "freedom/inputs-at-a-covered-sample",
@@ -119,8 +135,13 @@ pub fn innocents() -> &'static [Innocent] {
             about: "The rasterizer, unchanged.".to_owned(),
             source: "the rasterizer",
             parts: &[],
-            // OpenGL's shader masks do nothing to a single sample.
-            own: vec![under!(mask_of_one: MaskOfOne::Acts | MaskOfOne::Either)],
+            // OpenGL's shader masks do nothing to a single sample, and 3.3 clamps and applies more than later versions.
+            own: vec![
+                under!(mask_of_one: MaskOfOne::Acts | MaskOfOne::Either),
+                under!(signed_clamp: SignedClamp::Signed | SignedClamp::Either),
+                under!(constant_clamp: ConstantClamp::Never | ConstantClamp::Either),
+                under!(srgb_logic: SrgbLogic::PassesThrough | SrgbLogic::Either),
+            ],
             changes: Vec::new(),
         };
         let permitted = changes()
@@ -172,6 +193,7 @@ pub fn specifications() -> Vec<Limits> {
         if api == Api::WebGpu {
             // WebGPU has none, so that no text says what they do.
             features.remove(&Feature::ForcedEarlyTests);
+            features.remove(&Feature::ForcedEarlyTestsWithDepth);
         }
         Limits {
             api,

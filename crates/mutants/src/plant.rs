@@ -38,9 +38,12 @@ impl fmt::Debug for Plant {
 
 impl Plant {
     /// Restricts a bug of draws to draws for which `strikes` is true.
+    ///
+    /// # Panics
+    /// If the bug does not change draws.
     pub(super) fn when(self, strikes: fn(&Draw) -> bool) -> Self {
         let Self::Draws(bug) = self else {
-            return self;
+            panic!("only bugs of draws have a condition");
         };
         draws(move |draw| {
             if strikes(draw) {

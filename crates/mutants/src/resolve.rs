@@ -4,6 +4,7 @@ use crate::hooks::{code, resolve};
 use crate::list::{CONFUSION, SMALL, bugs};
 use crate::permission::under;
 use crate::plant::{Plant, nudge, passes, scene};
+use etalon_cpu::steps::{Faithful, Steps};
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::{Arithmetic, Plain};
 use etalon_reference::rules::Resolve;
@@ -38,13 +39,20 @@ bugs! {
     "srgb-encoded: Samples of sRGB formats are averaged as codes." =>
         resolve(|e, c| match e {
             ChannelEncoding::Srgb8 => c.iter().sum::<u32>() / c.len() as u32,
-            _ => average(e, c),
-        }), permitted vec![under!(resolve: _)];
+            _ => Faithful.resolve(e, c),
+        }), permitted vec![under!(resolve: Resolve::Between | Resolve::BetweenOrFirst | Resolve::CoarseAverage)];
     "first-sample: A resolve takes the first sample." => resolve(|_, c| c[0]), permitted vec![under!(resolve: Resolve::Between | Resolve::BetweenOrFirst)];
-    "last-sample: A resolve takes the last sample." => resolve(|_, c| c[c.len() - 1]), permitted vec![under!(resolve: Resolve::Between | Resolve::BetweenOrFirst)];
+    "last-sample: A resolve takes the last sample." => resolve(|e, c| c[if matches!(e, ChannelEncoding::Uint(_)) { 0 } else { c.len() - 1 }]), permitted vec![under!(resolve: Resolve::Between | Resolve::BetweenOrFirst)];
     "largest: A resolve takes the largest sample." => from_values(|samples, _| samples[samples.len() - 1]);
     "smallest: A resolve takes the smallest sample." => from_values(|samples, _| samples[0]);
-    "median: A resolve takes the middle one of the samples." => from_values(|samples, _| samples[samples.len() / 2]), permitted vec![under!(resolve: Resolve::Between | Resolve::BetweenOrFirst)];
+    "median: A resolve takes the middle one of the samples." => resolve(|e, c| match e {
+            ChannelEncoding::Uint(_) => c[0],
+            _ => {
+                let mut samples = values(e, c);
+                samples.sort_by(f32::total_cmp);
+                code(e, samples[samples.len() / 2])
+            }
+        }), permitted vec![under!(resolve: Resolve::Between | Resolve::BetweenOrFirst)];
     "first-half: A resolve averages the first half of the samples." => resolve(|e, c| average(e, &c[..c.len() / 2]));
     "all-but-one: A resolve leaves out the last sample." => resolve(|e, c| average(e, &c[..c.len() - 1]));
     "weighted: The first sample weighs twice." => resolve(|e, c| average(e, &[c, &c[..1]].concat()));

@@ -32,7 +32,7 @@ fn placed(bug: fn(usize, usize) -> Option<usize>) -> Plant {
 bugs! {
     class "sample-shading", "multisample";
     source "llvmpipe, zink: min_samples not part of the shader's key";
-    "ignored: Sample shading is never enabled." => set(SHARE, None), permitted vec![under!(runs_by_share: false), under!(frag_coord: FragCoord::Inputs), under!(inputs_at_samples: false)];
+    "ignored: Sample shading is never enabled." => set(SHARE, None);
     "always: Sample shading is always enabled." => each(SHARE, |share| *share = share.or(Some(1.0)));
     "whole-share-alone: A share below 1 does not enable it." =>
         each(SHARE, |share| *share = share.filter(|share| *share >= 1.0));
@@ -44,7 +44,7 @@ bugs! {
     "rounded-to-nearest: The number of runs is rounded to the nearest." =>
         runs(|share, n| (share * n as f32).round() as usize);
     "one-run-less: One run is missing." => runs(|share, n| exact(share, n) - usize::from(exact(share, n) > 1));
-    "one-run: The shader runs once all the same." => runs(|_, _| 1), permitted vec![under!(runs_by_share: false), under!(frag_coord: FragCoord::Inputs), under!(inputs_at_samples: false)];
+    "one-run: The shader runs once all the same." => runs(|_, _| 1);
     "two-runs-at-most: More than two runs are lost." => runs(|share, n| exact(share, n).min(2));
     "four-runs-at-most: More than four runs are lost." => runs(|share, n| exact(share, n).min(4));
     "of-four-samples: The share is always taken of four samples." => runs(|share, _| exact(share, 4));
@@ -53,7 +53,7 @@ bugs! {
         runs(|share, n| exact(share, n).next_power_of_two()), permitted vec![under!(runs_by_share: _)];
     "all-samples: Any share is taken for 1." => runs(|_, n| n), permitted vec![under!(runs_by_share: _)];
     source "lavapipe: FragCoord of the fragment, not of the sample";
-    "at-the-centre: All runs lie at the centre." => placed(|_, _| None);
+    "at-the-centre: All runs lie at the centre." => placed(|_, _| None), permitted vec![under!(frag_coord: FragCoord::Inputs), under!(inputs_at_samples: false)];
     "at-the-first: All runs lie at the first sample." => placed(|_, _| Some(0));
     "at-the-last: All runs lie at the last sample." => placed(|_, n| Some(n - 1));
     "at-the-next: Each run lies at the next sample." => placed(|s, n| Some((s + 1) % n));

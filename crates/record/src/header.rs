@@ -16,7 +16,7 @@ pub const FORMAT: u32 = 6;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Header {
-    /// The format of the run folder: [`FORMAT`].
+    /// The format of the run folder; lower than [`FORMAT`] if an earlier version wrote it.
     pub format: u32,
     /// The suite, machine, time and command.
     #[serde(flatten)]

@@ -36,9 +36,9 @@ pub struct InnocentTally {
     pub imprecise: u64,
     /// The number of cases with a violation.
     pub violations: u64,
-    /// The number of cases in which the specification forbids as much of the rasterizer itself.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub shared: u64,
+    /// The worst verdict that the rasterizer itself gets as well; such cases count for nothing else.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shared: Option<Verdict>,
     /// The worst violation.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub worst: Option<Sighting>,
@@ -60,6 +60,15 @@ impl InnocentTally {
         }
     }
 
+    /// Notes a verdict that the rasterizer itself gets as well.
+    pub fn share(&mut self, verdict: Option<Verdict>) {
+        self.shared = self
+            .shared
+            .into_iter()
+            .chain(verdict)
+            .max_by_key(|v| v.severity());
+    }
+
     /// Returns the verdict that the specification's evidence supports; `None` if it permits the behaviour.
     pub fn due(&self) -> Option<Verdict> {
         self.forbidden.map(Verdict::of_grade)
@@ -73,8 +82,9 @@ impl InnocentTally {
 
     /// Returns true if the specification forbids the behaviour and no case shows it with the evidence's grade.
     pub fn is_missed(&self) -> bool {
-        let worst = self.worst.as_ref().map(|worst| worst.verdict.severity());
-        self.shared == 0 && worst < self.due().map(Verdict::severity)
+        let worst = self.worst.as_ref().map(|worst| worst.verdict);
+        let shown = worst.into_iter().chain(self.shared).map(Verdict::severity);
+        shown.max() < self.due().map(Verdict::severity)
     }
 }
 
@@ -102,7 +112,7 @@ impl InnocentRecord {
             }
             tally.imprecise += other.imprecise;
             tally.violations += other.violations;
-            tally.shared += other.shared;
+            tally.share(other.shared);
         }
     }
 
@@ -124,10 +134,6 @@ impl InnocentRecord {
     }
 }
 
-fn is_zero(count: &u64) -> bool {
-    *count == 0
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -138,7 +144,7 @@ mod tests {
             forbidden,
             imprecise: 0,
             violations: 0,
-            shared: 0,
+            shared: None,
             worst: None,
         };
         for verdict in verdicts {

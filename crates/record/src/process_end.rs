@@ -73,7 +73,6 @@ impl ProcessEnd {
             signal: self.signal,
             exit: self.exit,
         };
-        let limit = self.limit.map_or_else(String::new, |l| l.to_string());
         match (self.kind, self.launcher) {
             (LossKind::Died, Some(launcher)) => {
                 format!("the worker was lost, and its launcher {launcher}")
@@ -85,15 +84,15 @@ impl ProcessEnd {
                 } => "the worker closed its pipe".to_owned(),
                 own => format!("the worker {own}"),
             },
-            (LossKind::Timeout, _) if limit.is_empty() => {
-                "the worker did not answer in time".to_owned()
-            }
-            (LossKind::Timeout, _) => format!("no answer within {limit} s"),
-            (LossKind::Memory, _) => match self.held {
-                Some(held) => {
+            (LossKind::Timeout, _) => match self.limit {
+                Some(limit) => format!("no answer within {limit} s"),
+                None => "the worker did not answer in time".to_owned(),
+            },
+            (LossKind::Memory, _) => match (self.held, self.limit) {
+                (Some(held), Some(limit)) => {
                     format!("the worker held {held} MiB of memory, more than {limit} MiB")
                 }
-                None => "the worker exceeded its memory limit".to_owned(),
+                _ => "the worker exceeded its memory limit".to_owned(),
             },
             (LossKind::Garbage, _) => match self.error.as_str() {
                 "" => "the worker wrote an invalid message".to_owned(),
@@ -200,6 +199,21 @@ mod tests {
         let text = "the worker ended with exit status 0xC0000005 (access violation)";
         assert_eq!(cause(violation), text);
         assert_eq!(cause(died(None, None)), "the worker closed its pipe");
+        for (kind, error, text) in [
+            (LossKind::Garbage, "", "the worker wrote an invalid message"),
+            (LossKind::Garbage, "x", "the worker wrote garbage: x"),
+            (LossKind::NotStarted, "", "the worker could not be started"),
+            (LossKind::NotStarted, "no such file", "no such file"),
+            (LossKind::Timeout, "", "the worker did not answer in time"),
+            (LossKind::Memory, "", "the worker exceeded its memory limit"),
+        ] {
+            let end = ProcessEnd {
+                kind,
+                error: error.to_owned(),
+                ..ProcessEnd::default()
+            };
+            assert_eq!(cause(end), text);
+        }
         let launched = ProcessEnd {
             launcher: Some(ExitStatus {
                 signal: None,

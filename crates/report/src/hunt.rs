@@ -111,7 +111,7 @@ fn head(hunt: &Hunt) -> Markup {
     html! {
         header {
             h1 { "etalon mutants" }
-            p.lead { "Bugs planted in a rasterizer that passes the suite, and the cases that catch them." }
+            p.lead { (lead(hunt)) }
             @if hunt.mutants.is_empty() {
             } @else if complaints.is_empty() {
                 p.state.good { b { "✓ Every planted bug is caught." } }
@@ -127,14 +127,27 @@ fn head(hunt: &Hunt) -> Markup {
             dl.facts {
                 (origin(&hunt.provenance))
                 dt { "Scope" } dd {
-                    (count(hunt.mutants.len() as u64, "planted bug")) ", "
+                    @if !hunt.mutants.is_empty() { (count(hunt.mutants.len() as u64, "planted bug")) ", " }
                     @if !hunt.innocents.is_empty() { (count(hunt.innocents.len() as u64, "innocent")) ", " }
                     (count(hunt.cases, "case")) ", " (duration(hunt.seconds))
-                    @if !hunt.full { "; an area ends at a bug's first Fail" }
+                    @if !hunt.full && !hunt.mutants.is_empty() { "; an area ends at a bug's first Fail" }
                 }
             }
         }
         @if !hunt.mutants.is_empty() { (page::totals(totals)) }
+    }
+}
+
+/// Returns the sentence below the title.
+fn lead(hunt: &Hunt) -> &'static str {
+    match (hunt.mutants.is_empty(), hunt.innocents.is_empty()) {
+        (true, _) => "Behaviours that specifications permit, and the verdicts on them.",
+        (_, true) => {
+            "Bugs planted in a rasterizer that passes the suite, and the cases that catch them."
+        }
+        _ => {
+            "Bugs planted in a rasterizer that passes the suite, and the cases that catch them; and behaviours that specifications permit, and the verdicts on them."
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-//! Innocents on the page of a hunt and in its summary: legal behaviours, and whether a case accuses them.
+//! Innocents on the page of a hunt and in its summary: behaviours that a specification permits, and the verdicts on them.
 
 use crate::hunt::sighting;
 use crate::numbers::count;
@@ -63,7 +63,7 @@ pub(super) fn state(hunt: &Hunt) -> Markup {
     let wrong: Vec<_> = hunt.innocent_complaints().collect();
     html! {
         @if wrong.is_empty() {
-            p.state.good { b { "✓ No innocent is accused: none of " (count(hunt.innocents.len() as u64, "legal behaviour")) "." } }
+            p.state.good { b { "✓ " (count(hunt.innocents.len() as u64, "innocent")) ": no accusation." } }
         } @else {
             p.state.bad { b { "✗ " (count(wrong.len() as u64, "wrong verdict")) " on innocents." } }
             ul { @for (innocent, specification, why) in &wrong {
@@ -79,9 +79,11 @@ pub(super) fn section(hunt: &Hunt) -> Markup {
         section {
             h2 { "Innocents" }
             p {
-                "Behaviours that some specification permits, of the kind that hardware has. Each is drawn in every case "
-                "and judged under each specification. If it is permitted, no case may fail; if it is forbidden, a case must "
-                "show it, with no more than the verdict that the evidence supports."
+                "Behaviours that some specification permits, of the kind that hardware has, judged under each "
+                "specification. Where a behaviour is permitted, no case may fail. Where it is forbidden, a case may "
+                "have the verdict of the evidence, and no worse one. Profiles combine what a kind of hardware does, as "
+                "far as a specification permits it; they and the rasterizer itself are drawn with all cases, single "
+                "behaviours with some of each file and with all files that show them."
             }
             (table().page(&hunt.innocents))
         }
@@ -94,29 +96,62 @@ fn table<'a>() -> Table<'a, &'a InnocentRecord> {
             let name = &i.innocent.name;
             Cell::from(name).with("id", format!("innocent/{name}"))
         })
+        .text(
+            "Verdicts",
+            |i| html! { @for (names, tally) in grouped(i) { (verdicts(&names, tally)) } },
+        )
         .text("Behaviour", |i| &*i.innocent.about)
         .text("Source", |i| &*i.innocent.source)
         .text("Permissions", |i| i.innocent.permissions.join(", "))
         .number("Cases that differ", |i| i.changed)
-        .text(
-            "Verdicts",
-            |i| html! { @for tally in &i.specifications { (verdicts(tally)) } },
-        )
 }
 
-fn verdicts(tally: &InnocentTally) -> Markup {
-    let due = match tally.due() {
-        None => "permitted".to_owned(),
-        Some(verdict) => format!("due {verdict}"),
+/// Returns the tallies that differ, each with the short names of its specifications.
+fn grouped(innocent: &InnocentRecord) -> Vec<(String, &InnocentTally)> {
+    let mut groups: Vec<(Vec<&str>, &InnocentTally)> = Vec::new();
+    let shown = |t: &InnocentTally| {
+        let worst = t.worst.as_ref().map(|w| w.verdict);
+        (t.forbidden, t.imprecise, t.violations, t.shared, worst)
     };
+    for tally in &innocent.specifications {
+        let name = tally.specification.split(" (").next().unwrap_or_default();
+        match groups
+            .iter_mut()
+            .find(|(_, known)| shown(known) == shown(tally))
+        {
+            Some((names, _)) => names.push(name),
+            None => groups.push((vec![name], tally)),
+        }
+    }
+    let all = innocent.specifications.len();
+    let named = groups.into_iter().map(|(names, tally)| {
+        let is_all = names.len() == all;
+        (
+            if is_all {
+                "All".to_owned()
+            } else {
+                names.join(", ")
+            },
+            tally,
+        )
+    });
+    named.collect()
+}
+
+fn verdicts(names: &str, tally: &InnocentTally) -> Markup {
     html! {
         div {
-            b { (tally.specification) } " " (due)
+            b { (names) } ": "
+            @match tally.due() {
+                None => "permitted",
+                Some(verdict) => { "forbidden (" (verdict) ")" }
+            }
             @if tally.imprecise > 0 { ", " (tally.imprecise) " imprecise" }
             @if let Some(worst) = &tally.worst {
-                ", " (tally.violations) " at most " (worst.verdict)
-                @if tally.is_accused() { " " (sighting(worst)) }
+                ", " (count(tally.violations, "violation")) " up to " (worst.verdict)
+                @if tally.is_accused() { " ✗ " (sighting(worst)) }
             }
+            @if let Some(shared) = tally.shared { ", " (shared) " like the rasterizer itself" }
         }
     }
 }

@@ -20,11 +20,14 @@ fn main() {
         println!("{}", round());
         return;
     }
-    let rounds: usize = argument.parse().unwrap_or(60);
+    let rounds: usize = argument
+        .parse()
+        .expect("the argument is a number of rounds");
     let itself = env::current_exe().expect("a running program has a path");
     for _ in 0..rounds {
         let output = Command::new(&itself).arg("round").output();
         let output = output.expect("a program can start itself");
+        assert!(output.status.success(), "a round failed: {}", output.status);
         print!("{}", String::from_utf8_lossy(&output.stdout));
     }
 }

@@ -42,7 +42,7 @@ pub(crate) struct Arguments {
     /// Only print names and descriptions
     #[arg(long)]
     pub(crate) list: bool,
-    /// Leave the bugs out: draw with the innocents alone, which behave as some specification permits
+    /// Draw with the innocents alone: behaviours that some specification permits, and that no case may fail there
     #[arg(long, conflicts_with_all = ["full", "order", "fuzz"])]
     pub(crate) innocents: bool,
     /// Hunt only with the cases that match this glob; may be repeated
@@ -97,6 +97,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     }
     .claim()?;
     if let Some(scenes) = arguments.fuzz {
+        if chosen.bugs.is_empty() {
+            return Err(Failure::nothing(
+                "no planted bug matches, and --fuzz draws with bugs alone".to_owned(),
+            ));
+        }
         return fuzz(arguments, scenes, &chosen.bugs, claim);
     }
     let library = library(arguments.cases.as_ref())?;
@@ -195,7 +200,7 @@ impl Chosen {
                 forbidden: chosen.forbidden_by(specification),
                 imprecise: 0,
                 violations: 0,
-                shared: 0,
+                shared: None,
                 worst: None,
             };
             PlannedInnocent {
@@ -204,6 +209,7 @@ impl Chosen {
                     changed: 0,
                     specifications: specifications.iter().map(tally).collect(),
                 },
+                backends: specifications.iter().map(|s| chosen.backend(s)).collect(),
                 limits,
             }
         };

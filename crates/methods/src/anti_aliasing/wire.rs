@@ -7,17 +7,18 @@ use serde::Deserialize;
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AntiAliasingWire {
-    /// The scene.
+    /// The shapes whose edges are drawn.
     pub(crate) scene: AntiAliasingScene,
-    /// The method.
+    /// How the edges are smoothed.
     pub(crate) method: AntiAliasingMethod,
-    /// The angle between the edges of half planes and the rows of texels in degrees, 0 to 90.
+    /// The angle between the edges of half planes and the rows of texels in degrees, 0 to 90; by default 20. Only for
+    /// `half-planes`.
     pub(crate) angle: Option<f64>,
-    /// The opening angle of wedges in degrees, 0.25 to 60.
+    /// The opening angle of wedges in degrees, 0.25 to 60; by default 4. Only for `thin-wedge`.
     pub(crate) opening: Option<f64>,
 }
 
-/// The method.
+/// A way to smooth edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum AntiAliasingMethod {
@@ -45,12 +46,12 @@ pub(crate) enum AntiAliasingMethod {
     Fxaa,
     /// Alpha from the distance to the nearest edge, blended over a neighbour that extends below the edge.
     CoverageToAlpha,
-    /// Like the method above, but both neighbours of an edge blend their side of it, and the ends of wires
-    /// are blended too.
+    /// Like `coverage-to-alpha`, but the polygons on both sides of an edge are blended, and the ends of wires
+    /// too.
     CoverageToAlphaOverlap,
 }
 
-/// The scene.
+/// Shapes with edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum AntiAliasingScene {

@@ -6,13 +6,13 @@ pub(crate) const LESSONS: &[Lesson] = &[
     Lesson::new(
         "none",
         "All faces are drawn.",
-        "The picture is right but costs time; transparent faces are blended in the order of the mesh.",
+        "Opaque meshes are right but cost time; transparent faces are blended in the order of the mesh.",
         "Vulkan: Basic Polygon Rasterization",
     ),
     Lesson::new(
         "back",
         "Faces that face away are culled by their winding.",
-        "Right for closed meshes seen from outside. Parts are missing of open or mirrored meshes, and from inside.",
+        "Right for closed meshes seen from outside. Open or mirrored meshes, and meshes seen from inside, lose parts.",
         "Foley and others 1990, Computer Graphics: Principles and Practice, 15.4",
     ),
     Lesson::new(

@@ -215,6 +215,13 @@ fn decoded(encoding: ChannelEncoding, code: u32) -> f64 {
     }
 }
 
+/// The rules of every API, without the yardstick, which requires 32-bit blending.
+fn api_rules() -> Vec<Rules> {
+    let mut rules = all_rules();
+    rules.pop();
+    rules
+}
+
 proptest! {
     #![proptest_config(config(4000))]
 
@@ -230,9 +237,7 @@ proptest! {
         let state = BlendState { color: SHORT_BLEND, alpha: SHORT_BLEND };
         let results = short_blend(encoding, |v| short(bits, direction, v), src, dst);
         let codes = results.map(|v| encoding.position(v.clamp(0.0, 1.0)).map_or(0, |p| p.round() as i64));
-        let mut remaining = all_rules();
-        remaining.pop();
-        for rules in remaining {
+        for rules in api_rules() {
             let intervals = judged(&rules, encoding, &(state, src, dst, [0.0; 4], [0.0; 4]));
             assert_inside(rules.name, codes, intervals)?;
         }
@@ -255,9 +260,7 @@ proptest! {
         let results = short_blend(encoding, |v| short(bits + more_bits, direction, v), src, dst);
         let codes = results.map(|v| encoding.order_below(v));
         let state = BlendState { color: SHORT_BLEND, alpha: SHORT_BLEND };
-        let mut remaining = all_rules();
-        remaining.pop();
-        for rules in remaining {
+        for rules in api_rules() {
             let intervals = judged(&rules, encoding, &(state, src, dst, [0.0; 4], [0.0; 4]));
             assert_inside(rules.name, codes, intervals)?;
         }

@@ -1,7 +1,7 @@
 //! The matrix for a terminal.
 
 use super::csv::state;
-use super::data::{Matrix, MatrixCell, MatrixEntry, unit};
+use super::data::{CellOutcome, Matrix, MatrixCell, MatrixEntry, unit};
 use crate::numbers::digits;
 use crate::table::Table;
 use crate::terminal::TableOptions;
@@ -46,12 +46,14 @@ fn short(cell: &MatrixCell, cells: &[&MatrixCell]) -> String {
     format!("{}{}", cell.group, axes.collect::<String>())
 }
 
+/// Returns the rate, the half width of its interval and its share of the plain fill's rate, or the state of a cell without
+/// a rate.
 fn figures(entry: &MatrixEntry) -> String {
     let times = entry.outcome.times();
     let Some((times, rate)) = times.and_then(|t| Some((t, t.slope.rate()?))) else {
-        return match state(&entry.outcome).0.as_str() {
-            "below-resolution" => "below".to_owned(),
-            other => other.to_owned(),
+        return match &entry.outcome {
+            CellOutcome::Below(_) => "below".to_owned(),
+            outcome => state(outcome).0,
         };
     };
     let mut text = digits(rate / unit(times.measure).1, 3);
