@@ -97,7 +97,7 @@ impl<'a> CheckedBackend<'a> {
 
     /// Checks that the limits allow the scene. If the backend's own limits deny it, asserts that the
     /// backend refuses it for the same reason.
-    pub(crate) fn offered(&self, scene: &Scene) -> Result<(), Missing> {
+    pub(crate) fn check_offered(&self, scene: &Scene) -> Result<(), Missing> {
         let Some(requirement) = self.limits().missing(&scene.requirements()) else {
             return Ok(());
         };
@@ -112,7 +112,7 @@ impl<'a> CheckedBackend<'a> {
 
     /// Prepares a scene that the limits allow.
     pub(crate) fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, Missing> {
-        self.offered(scene)?;
+        self.check_offered(scene)?;
         let prepared = self.backend.prepare(scene);
         self.drawn.set(true);
         Ok(prepared.unwrap_or_else(|e| panic!("the scene is not prepared: {e}")))

@@ -5,8 +5,8 @@ use etalon_scene::{Clear, ClearTarget, LoadOperation, Operations, Pass, StoreOpe
 
 pub(super) const ASPECTS: [Aspect; 3] = [Aspect::Color, Aspect::Depth, Aspect::Stencil];
 
-/// The two pairs of aspects, and the value to which a mistake clears the second aspect of the pair.
-pub(super) const BOTH: [(Aspect, Aspect, u32); 2] = [
+/// Depth with stencil and stencil with depth, and the value to which a bug clears the second aspect.
+pub(super) const ASPECT_PAIRS: [(Aspect, Aspect, u32); 2] = [
     (Aspect::Depth, Aspect::Stencil, 0),
     (Aspect::Stencil, Aspect::Depth, 1),
 ];
@@ -31,7 +31,7 @@ fn clears<T: PartialEq>(operations: &Operations<T>) -> bool {
     operations.load != LoadOperation::Load
 }
 
-/// Returns true if a pass begins with a clear.
+/// Returns true if a pass begins with a clear of this aspect, of any colour attachment for colours.
 pub(super) fn is_cleared(pass: &Pass, aspect: Aspect) -> bool {
     match aspect {
         Aspect::Color => pass.operations.color.iter().any(clears),

@@ -8,20 +8,22 @@ use etalon_frame::ChannelEncoding;
 use etalon_pipeline::DepthPlane;
 use etalon_scene::Draw;
 
-/// Returns a depth with its bias, clamped to the viewport's range as before the depth test.
+/// Returns a depth plus its bias, clamped to the viewport's range as before the depth test.
 #[inline(always)]
-pub(crate) fn held(draw: &Draw, depth: f32, bias: f64) -> f32 {
+pub(crate) fn biased(draw: &Draw, depth: f32, bias: f64) -> f32 {
     let depth = (f64::from(depth) + bias) as f32;
     Faithful.held_to_range(depth, draw.viewport.depth, draw.depth_clamp)
 }
 
 /// The number of doubles in a vector. The compiler does not vectorize larger loops well.
-const EIGHT: usize = 8;
+const DOUBLE_LANES: usize = 8;
 
 /// The depths of a triangle over the window.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Depths {
+    /// The place of `z`, in units of the grid.
     origin: [i32; 2],
+    /// The depth there, and its change per unit to the right and down.
     z: f64,
     across: f64,
     down: f64,
@@ -69,27 +71,27 @@ impl Depths {
     }
 
     /// Computes the part of the depths that depends on the column, for columns from `x` on. Their number must
-    /// be a multiple of [`EIGHT`].
+    /// be a multiple of [`DOUBLE_LANES`].
     #[inline(always)]
     pub(crate) fn columns(&self, x: i32, sample: [i32; 2], columns: &mut [f64]) {
         let units = UNITS as i32;
         let mut first = x * units + sample[0] - self.origin[0];
-        for columns in columns.as_chunks_mut::<EIGHT>().0 {
+        for columns in columns.as_chunks_mut::<DOUBLE_LANES>().0 {
             for (lane, column) in columns.iter_mut().enumerate() {
                 *column = self.z + f64::from(first + lane as i32 * units) * self.across;
             }
-            first += EIGHT as i32 * units;
+            first += DOUBLE_LANES as i32 * units;
         }
     }
 
     /// Computes the codes of float depths in a row, clamped to the depths of the vertices. The number of
-    /// columns must be a multiple of [`EIGHT`].
+    /// columns must be a multiple of [`DOUBLE_LANES`].
     #[inline(always)]
     pub(crate) fn floats(&self, columns: &[f64], y: i32, sample: [i32; 2], codes: &mut [u32]) {
         let down = f64::from(y * UNITS as i32 + sample[1] - self.origin[1]) * self.down;
         let [low, high] = self.ends;
-        let pairs = codes.as_chunks_mut::<EIGHT>().0.iter_mut();
-        for (codes, columns) in pairs.zip(columns.as_chunks::<EIGHT>().0) {
+        let pairs = codes.as_chunks_mut::<DOUBLE_LANES>().0.iter_mut();
+        for (codes, columns) in pairs.zip(columns.as_chunks::<DOUBLE_LANES>().0) {
             for (code, column) in codes.iter_mut().zip(columns) {
                 let depth = (column + down) as f32;
                 let depth = if depth < low { low } else { depth };
@@ -111,8 +113,13 @@ impl Depths {
             let v = if v < low { low } else { v };
             if v > high { high } else { v }
         };
-        for (part, depths) in depths.as_chunks_mut::<EIGHT>().0.iter_mut().enumerate() {
-            let first = first + (part * EIGHT) as i32 * units;
+        for (part, depths) in depths
+            .as_chunks_mut::<DOUBLE_LANES>()
+            .0
+            .iter_mut()
+            .enumerate()
+        {
+            let first = first + (part * DOUBLE_LANES) as i32 * units;
             for (lane, depth) in depths.iter_mut().enumerate() {
                 let across = f64::from(first + lane as i32 * units) * self.across;
                 let value = held((self.z + across + down) as f32, self.ends);

@@ -409,7 +409,7 @@ impl<'a, S: Simd> SetUp<'a, S> {
         {
             return code;
         }
-        let depth = super::depth::held(self.draw, depth, bias);
+        let depth = super::depth::biased(self.draw, depth, bias);
         let code = Faithful.depth_codes(encoding, [depth; LANES])[0];
         self.code = Some((key, code));
         code

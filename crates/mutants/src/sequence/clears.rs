@@ -1,7 +1,8 @@
 //! Clears on load and between draws, and discards: skipped, moved, or larger than requested.
 
 use crate::aspects::{
-    ASPECTS, BOTH, clear, discard, is_cleared, is_discarded, load, reach_both, reaches, word,
+    ASPECT_PAIRS, ASPECTS, clear, discard, is_cleared, is_discarded, load, reach_both, reaches,
+    word,
 };
 use crate::list::{CONFUSION, bugs};
 use crate::plant::{Plant, passes, scene};
@@ -95,7 +96,7 @@ bugs! {
         "{word}-not-cleared-on-load: Where a pass is to clear {word}, it loads it." =>
             passes(move |_, _, pass| load(pass, aspect));
     }
-    for (cleared, other, value) in BOTH {
+    for (cleared, other, value) in ASPECT_PAIRS {
         let (a, b) = (cleared.name(), other.name());
         "{b}-cleared-with-{a}-on-load: Where {a} is cleared and {b} loaded, {b} becomes {value}." =>
             passes(move |_, _, pass| if is_cleared(pass, cleared) && !is_cleared(pass, other) { clear(pass, other) });
@@ -152,13 +153,13 @@ bugs! {
                 command.rect = Some([l, t, r.saturating_sub(l), b.saturating_sub(t)]);
             }
         }), source "OpenGL: the scissor test applies to clears";
-    for (cleared, other, value) in BOTH {
+    for (cleared, other, value) in ASPECT_PAIRS {
         let (a, b) = (cleared.name(), other.name());
         "command-clears-{b}-with-{a}: A clear command of {a} sets {b} to {value}." =>
             commands(move |_, command| if reaches(command, cleared) { reach_both(command) });
     }
     source "Mali, PowerVR: one operation for both aspects";
-    for (discarded, other, _) in BOTH {
+    for (discarded, other, _) in ASPECT_PAIRS {
         let (a, b) = (discarded.name(), other.name());
         "{b}-discarded-with-{a}: Where {a} is discarded, {b} is too." =>
             passes(move |_, _, pass| if is_discarded(pass, discarded) { discard(pass, other) });

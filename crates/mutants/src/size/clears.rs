@@ -1,6 +1,6 @@
 //! Bugs of clears that a driver only records instead of writing memory.
 
-use crate::aspects::{BOTH, clear, is_cleared, load, reach_both, reaches};
+use crate::aspects::{ASPECT_PAIRS, clear, is_cleared, load, reach_both, reaches};
 use crate::list::bugs;
 use crate::plant::{Plant, contents, passes};
 use etalon_frame::Aspect;
@@ -75,7 +75,7 @@ bugs! {
         });
     "clear-alpha-lost: Clears of colour leave alpha." =>
         commands(|c, _| if let ClearTarget::Color { write_mask, .. } = &mut c.target { *write_mask &= 0b0111 });
-    for (cleared, other, value) in BOTH {
+    for (cleared, other, value) in ASPECT_PAIRS {
         let (a, b) = (cleared.name(), other.name());
         "{b}-cleared-with-{a}: A clear of {a} alone clears {b} to {value}." =>
             commands(move |c, _| if reaches(c, cleared) { reach_both(c) });
@@ -117,7 +117,7 @@ bugs! {
                 }
             }
         });
-    let named = ["load-clears-both", "load-clears-depth-with-stencil"].into_iter().zip(BOTH);
+    let named = ["load-clears-both", "load-clears-depth-with-stencil"].into_iter().zip(ASPECT_PAIRS);
     for (name, (cleared, other, value)) in named {
         let (a, b) = (cleared.name(), other.name());
         "{name}: A load operation that clears {a} alone clears {b} to {value}." =>

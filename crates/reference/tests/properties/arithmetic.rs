@@ -226,7 +226,7 @@ proptest! {
     #![proptest_config(config(4000))]
 
     #[test]
-    fn a_blend_in_floats_of_the_destinations_precision_is_legal(
+    fn a_blend_into_8_bits_by_floats_of_8_bits_or_more_is_legal(
         src in [normalized(), normalized(), normalized(), normalized()],
         dst in [code(), code(), code(), code()],
         bits in 8_i32..=24,
@@ -244,7 +244,7 @@ proptest! {
     }
 
     #[test]
-    fn a_blend_in_floats_of_the_destinations_bits_is_legal(
+    fn a_blend_into_floats_by_floats_of_as_many_bits_is_legal(
         src in [factor(), factor(), factor(), factor()],
         dst in [factor(), factor(), factor(), factor()],
         is_short in any::<bool>(),
@@ -388,7 +388,7 @@ proptest! {
     #![proptest_config(config(20_000))]
 
     #[test]
-    fn powers_and_roots_are_inside_the_judged_intervals((value, [below, above]) in argument()) {
+    fn powers_roots_and_logarithms_are_inside_the_judged_intervals((value, [below, above]) in argument()) {
         let exact = f64::from(value);
         let judged = Range::same(Interval::between(exact - below, exact + above));
         for rules in all_rules() {

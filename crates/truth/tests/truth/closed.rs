@@ -5,7 +5,7 @@ use etalon_methods::{FlatSurface, Paint, StraightTexture, TexelCoverage};
 use etalon_scene::AddressMode;
 use etalon_truth::truth;
 
-const BOTH: [TexelCoverage; 2] = [TexelCoverage::Center, TexelCoverage::Area];
+const COVERAGES: [TexelCoverage; 2] = [TexelCoverage::Center, TexelCoverage::Area];
 const RED: [f64; 4] = [1.0, 0.0, 0.0, 0.5];
 const BLUE: [f64; 4] = [0.0, 0.0, 1.0, 0.25];
 const GREEN: [f64; 4] = [0.0, 0.5, 0.0, 0.75];
@@ -16,7 +16,7 @@ fn flat(depth: f64, color: [f64; 4]) -> FlatSurface {
 
 #[test]
 fn two_panes_come_in_the_order_of_their_depths() {
-    for coverage in BOTH {
+    for coverage in COVERAGES {
         for surfaces in [
             vec![flat(0.2, BLUE), flat(0.6, RED)],
             vec![flat(0.6, RED), flat(0.2, BLUE)],
@@ -36,7 +36,7 @@ fn two_panes_come_in_the_order_of_their_depths() {
 
 #[test]
 fn three_panes_blend_only_in_the_part_that_they_cover() {
-    for coverage in BOTH {
+    for coverage in COVERAGES {
         let part = |depth, color| rectangle([1.0, 1.0], [3.0, 2.0], depth, color);
         let surfaces = vec![part(0.5, GREEN), part(-0.25, RED), part(0.75, BLUE)];
         let mut what = scene([4, 3], coverage, surfaces);
@@ -52,9 +52,9 @@ fn three_panes_blend_only_in_the_part_that_they_cover() {
 }
 
 #[test]
-fn of_two_at_the_same_depth_the_later_is_in_front() {
+fn of_two_surfaces_at_the_same_depth_the_later_is_in_front() {
     let slanted = |x: f64, y: f64| 0.1 * x + 0.03 * y;
-    for coverage in BOTH {
+    for coverage in COVERAGES {
         for tie in [
             [
                 flat(0.3, [1.0, 0.0, 0.0, 1.0]),
@@ -85,7 +85,7 @@ fn panes_a_hair_apart_keep_their_order() {
     let depth = |distance: f64| (10_000.0 - 0.1 * 10_000.0 / distance) / (10_000.0 - 0.1);
     let near = flat(depth(9999.0), [1.0, 0.0, 0.0, 1.0]);
     let far = flat(depth(9999.1), [0.0, 1.0, 0.0, 1.0]);
-    for coverage in BOTH {
+    for coverage in COVERAGES {
         let picture = truth(&scene([4, 4], coverage, vec![near.clone(), far.clone()]));
         assert_near(picture.rgb[5], [1.0, 0.0, 0.0], 0.0);
     }
@@ -230,7 +230,7 @@ fn depth_shown_as_grey_is_its_mean_over_what_is_covered() {
 
     let behind = pane(|x, y| 0.01 * x + 0.02 * y, Paint::Depth);
     let surfaces = vec![flat(-1.0, RED), behind];
-    for coverage in BOTH {
+    for coverage in COVERAGES {
         let picture = truth(&scene([2, 2], coverage, surfaces.clone()));
         // The depth at the centre of texel (1, 0) is 0.025.
         assert_near(picture.rgb[1], [0.5125, 0.0125, 0.0125], 1e-12);
@@ -299,7 +299,7 @@ fn textured(
 }
 
 #[test]
-fn a_texture_is_filtered_as_the_formula_says() {
+fn a_texture_is_filtered_linearly_before_its_mean_is_taken() {
     let texels = vec![[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 0.5]];
     // Two texels across, seen in one texel: the left and the right quarter are constant, between
     // them t runs from 0 to 1, and colour times alpha is (1 - t) (1 - t / 2) and t (1 - t / 2).
@@ -308,7 +308,8 @@ fn a_texture_is_filtered_as_the_formula_says() {
     let picture = truth(&scene([1, 1], TexelCoverage::Area, vec![surface]));
     assert_near(picture.rgb[0], expected, 1e-9);
     assert_eq!(picture.error, 0.0);
-    // Repeated it runs back likewise.
+    // Mirrored, the second copy is the first one reversed. Repeated, no part is constant: t also runs from the last
+    // texel to the first.
     for address in [AddressMode::Repeat, AddressMode::MirrorRepeat] {
         let surface = textured([2, 1], texels.clone(), address, 2.0);
         let picture = truth(&scene([1, 1], TexelCoverage::Area, vec![surface]));
