@@ -1,6 +1,6 @@
 //! The permissions that innocents use.
 
-use etalon_mutants::{innocents, specifications};
+use etalon_mutants::{Innocent, innocents, specifications};
 use etalon_reference::Rules;
 use std::collections::BTreeSet;
 
@@ -44,6 +44,27 @@ fn each_permission_has_an_innocent_or_a_reason() {
         let is_without = WITHOUT.iter().any(|(without, _)| *without == name);
         assert!(used.contains(name) != is_without, "{name}");
     }
+}
+
+/// The evidence by which each specification forbids each behaviour; `-` where it permits it. The table is read and
+/// accepted by people: a rule that becomes narrower shows here as a behaviour that was permitted.
+const TABLE: &str = include_str!("innocents.txt");
+
+#[test]
+fn the_specifications_permit_what_the_table_says() {
+    let specifications = specifications();
+    let evidence = |innocent: &Innocent| {
+        let each = specifications.iter().map(|s| innocent.forbidden_by(s));
+        let cells = each.map(|grade| grade.map_or("-", |grade| grade.name()));
+        [innocent.name.as_str()].into_iter().chain(cells).collect::<Vec<_>>()
+    };
+    let rows: Vec<Vec<&str>> = innocents().iter().map(evidence).collect();
+    let cells = |line: &'static str| line.split_whitespace().collect::<Vec<_>>();
+    let accepted: Vec<Vec<&str>> = TABLE.lines().skip(1).map(cells).collect();
+    for (row, accepted) in rows.iter().zip(&accepted) {
+        assert_eq!(row, accepted);
+    }
+    assert_eq!(rows.len(), accepted.len());
 }
 
 #[test]
