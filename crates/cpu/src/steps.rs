@@ -384,7 +384,7 @@ pub trait Steps {
         false
     }
 
-    /// Returns true if a fragment of which a sample passes counts with all samples.
+    /// Returns true if a fragment counts all its samples if one passes.
     #[inline(always)]
     fn counts_all_samples(&self) -> bool {
         false

@@ -1,4 +1,4 @@
-//! Behaviours that some specification permits and that no bug is known for. Some of them another specification forbids.
+//! Behaviours that some specification permits, and that are no known bug of a driver.
 
 use crate::blend::{Input, component, is_extreme, joined, side};
 use crate::fields::FieldPlaces;
@@ -183,6 +183,7 @@ fn unconverted(function: CompareFunction, depths: &ComparedDepths) -> bool {
 }
 
 bugs! {
+    also |list: &mut crate::list::MutantList| list.innocents_alone = true;
     class "freedom", "blend";
     source "GPUs whose blend units compute in 16-bit floats";
     "blends-in-halves: Blends into formats of 10 bits and fewer are computed in 16-bit floats." =>
@@ -371,4 +372,5 @@ bugs! {
             if is_coarse { value.map(|v| (v * 255.0 + 1e-3).floor() / 255.0) } else { value }
         }), source "filters that return codes",
         permitted vec![under!(filters_to_codes: true)];
+    also |list: &mut crate::list::MutantList| list.innocents_alone = false;
 }

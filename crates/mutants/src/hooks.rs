@@ -84,7 +84,7 @@ hooks! {
         owns_edge(from: Point, to: Point) -> bool;
         /// True if forced early tests precede the sample mask.
         tests_before_mask() -> bool;
-        /// True if a fragment of which a sample passes counts with all samples.
+        /// True if a fragment counts all its samples if one passes.
         counts_all_samples() -> bool;
         /// The slope of a polygon, given the growth of its depth per texel.
         slope(dx: f64, dy: f64) -> f64;

@@ -39,7 +39,7 @@ impl Innocent {
         self.own.iter().chain(used).map(|used| used.name).collect()
     }
 
-    /// Returns the changes that count under a specification: of a profile, those that it permits.
+    /// Returns the changes that count under a specification: of a profile, the permitted ones.
     fn changes_under(&self, specification: &Limits) -> Vec<&'static Mutant> {
         let is_permitted = |change: &&Mutant| {
             let limits = change.reported(specification.clone());
@@ -191,7 +191,7 @@ pub fn specifications() -> Vec<Limits> {
     .map(|(api, (major, minor), properties)| {
         let mut features = own.features.clone();
         if api == Api::WebGpu {
-            // WebGPU has none, so that no text says what they do.
+            // WebGPU has none, so that its text does not say what they do.
             features.remove(&Feature::ForcedEarlyTests);
             features.remove(&Feature::ForcedEarlyTestsWithDepth);
         }

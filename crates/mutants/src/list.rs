@@ -35,6 +35,8 @@ pub(super) fn coarse() -> Vec<UsedPermission> {
 /// The mutants so far, and the class, area and source of the next ones.
 #[derive(Debug, Default)]
 pub(super) struct MutantList {
+    /// True if the next changes are innocents alone, and no bugs.
+    pub(super) innocents_alone: bool,
     class: &'static str,
     area: &'static str,
     source: &'static str,
@@ -62,6 +64,7 @@ impl MutantList {
             area: facts.area.unwrap_or(self.area),
             permissions: facts.permitted.unwrap_or_default(),
             reports: facts.reports,
+            is_innocent_alone: self.innocents_alone,
             plant: match facts.when {
                 Some(strikes) => plant.when(strikes),
                 None => plant,

@@ -22,6 +22,8 @@ pub struct Mutant {
     pub permissions: Vec<UsedPermission>,
     /// Sets the limits that a driver that behaves so reports.
     pub(super) reports: Option<fn(&mut Limits)>,
+    /// True if it is no bug where a specification forbids it: no driver's bug is known to be of its kind.
+    pub(super) is_innocent_alone: bool,
     pub(super) plant: Plant,
 }
 
@@ -43,8 +45,13 @@ impl Mutant {
         each.filter_map(|used| used.forbidden_by(rules)).max()
     }
 
+    /// Returns true if the suite must catch the change.
+    pub(super) fn is_bug(&self) -> bool {
+        !self.is_innocent_alone && !self.is_legal()
+    }
+
     /// Returns true if the specification that binds the rasterizer permits the change.
-    pub(super) fn is_legal(&self) -> bool {
+    fn is_legal(&self) -> bool {
         let limits = || CpuBackend::spans("cpu").limits().clone();
         let is_permitted = |limits| self.forbidden_by(&Rules::of(&limits)).is_none();
         !self.permissions.is_empty() && is_permitted(self.reported(limits()))

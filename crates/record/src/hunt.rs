@@ -9,8 +9,8 @@ use crate::line_writer::put;
 use crate::output_folder::OutputFolder;
 use crate::paths::open_below;
 use crate::provenance::Provenance;
-use crate::verdict::Verdict;
-use etalon_frame::{WrongTexel, state_enum};
+use crate::sighting::Sighting;
+use etalon_frame::state_enum;
 use schemars::JsonSchema;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
@@ -64,22 +64,6 @@ pub struct AreaTally {
     pub fail: u64,
     /// Cases that could not be drawn.
     pub broken: u64,
-}
-
-/// The first case that failed, or the first imprecise one if none failed.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Sighting {
-    /// The case's id.
-    pub case: String,
-    /// `Fail` or `Imprecise`; `InternalError` if the case could not be drawn.
-    pub verdict: Verdict,
-    /// The first texel outside the legal set or the yardstick.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub texel: Option<WrongTexel>,
-    /// The error if the case could not be drawn; empty otherwise.
-    #[serde(default, skip_serializing_if = "String::is_empty")]
-    pub message: String,
 }
 
 /// The result of one planted bug.

@@ -1,6 +1,6 @@
 //! The result of drawing with an innocent: the rasterizer with what some specification permits.
 
-use crate::hunt::Sighting;
+use crate::sighting::Sighting;
 use crate::verdict::Verdict;
 use etalon_frame::Grade;
 use serde::{Deserialize, Serialize};

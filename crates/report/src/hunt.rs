@@ -6,10 +6,11 @@ use crate::innocents;
 use crate::numbers::{count, duration};
 use crate::page::origin::origin;
 use crate::page::{self, Page};
+use crate::sighting::sighting;
 use crate::table::{Cell, Table};
 use crate::terminal::TableOptions;
 use crate::words::plain;
-use etalon_record::{AreaTally, Catch, Hunt, MutantRecord, OutputFolder, Sighting};
+use etalon_record::{AreaTally, Catch, Hunt, MutantRecord, OutputFolder};
 use maud::{Markup, html};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -226,23 +227,6 @@ fn tally(area: &AreaTally, is_own: bool) -> Markup {
                 @if area.broken > 0 { ", " (area.broken) " broken" }
             }
         }
-    }
-}
-
-pub(super) fn sighting(first: &Sighting) -> Markup {
-    html! {
-        code { (first.case) }
-        @if let Some(texel) = &first.texel {
-            small {
-                " (" (texel.x) ", " (texel.y) ")"
-                @if let Some(c) = texel.channels.first() {
-                    " " (c.attachment) " " (c.aspect) " channel " (c.channel) ": " (c.actual)
-                    ", due "
-                    @if c.low == c.high { (c.low) } @else { (c.low) " to " (c.high) }
-                }
-            }
-        }
-        @if !first.message.is_empty() { small { " " (first.message) } }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Innocents on the page of a hunt and in its summary: behaviours that a specification permits, and the verdicts on them.
 
-use crate::hunt::sighting;
 use crate::numbers::count;
+use crate::sighting::sighting;
 use crate::table::{Cell, Table};
 use crate::words::plain;
 use etalon_record::{Hunt, InnocentRecord, InnocentTally};

@@ -31,6 +31,7 @@ mod numbers;
 mod page;
 mod picture;
 mod run;
+mod sighting;
 mod site;
 mod staged;
 mod table;

@@ -53,7 +53,6 @@ classes! {
     early = "early",
     fetch = "fetch",
     format = "format",
-    freedom = "freedom",
     geometry = "geometry",
     held = "held",
     hierarchy = "hierarchy",

@@ -52,8 +52,8 @@ fn pretty(path: &Path) -> String {
 
 /// A hunt with a bug of each outcome.
 pub(crate) fn hunt() -> Hunt {
-    let bug = |name: &str, outcome: &str, legal: Option<&str>, areas: Value| {
-        let mut bug = json!({
+    let bug = |name: &str, outcome: &str, areas: Value| {
+        json!({
             "mutant": {
                 "name": name,
                 "about": "Depth is not written.",
@@ -62,22 +62,17 @@ pub(crate) fn hunt() -> Hunt {
             },
             "outcome": outcome,
             "areas": areas,
-        });
-        if let Some(legal) = legal {
-            bug["mutant"]["legal"] = json!(legal);
-        }
-        bug
+        })
     };
     let area = |area: &str, [pass, imprecise, fail, broken]: [u64; 4]| json!({ "area": area, "pass": pass, "imprecise": imprecise, "fail": fail, "broken": broken });
     let mut caught = bug(
         "depth/write-ignored",
         "caught",
-        None,
         json!([area("depth", [3, 1, 2, 0]), area("blend", [4, 0, 1, 0])]),
     );
     caught["first"] = json!({ "case": "depth/compare/compare=less", "verdict": "fail" });
     let hunt = json!({
-        "format": 1,
+        "format": 2,
         "etalon": "0.1.0",
         "machine": { "os": "Linux", "cpu": "A processor", "cores": 2 },
         "started": "2026-01-02T03:04:05Z",
@@ -87,10 +82,24 @@ pub(crate) fn hunt() -> Hunt {
         "full": false,
         "mutants": [
             caught,
-            bug("depth/elsewhere", "caught", None, json!([area("depth", [6, 0, 0, 0]), area("blend", [4, 0, 1, 0])])),
-            bug("depth/rounds-down", "noticed", Some("Vulkan: Fixed-Point Data Conversions"), json!([area("depth", [3, 3, 0, 0])])),
-            bug("depth/survivor", "survived", None, json!([area("depth", [6, 0, 0, 0])])),
-            bug("depth/panics", "broken", None, json!([area("depth", [0, 0, 0, 6])])),
+            bug("depth/elsewhere", "caught", json!([area("depth", [6, 0, 0, 0]), area("blend", [4, 0, 1, 0])])),
+            bug("depth/rounds-down", "noticed", json!([area("depth", [3, 3, 0, 0])])),
+            bug("depth/survivor", "survived", json!([area("depth", [6, 0, 0, 0])])),
+            bug("depth/panics", "broken", json!([area("depth", [0, 0, 0, 6])])),
+        ],
+        "innocents": [
+            {
+                "innocent": {
+                    "name": "freedom/slope-root", "about": "It takes the root.", "source": "the text",
+                    "permissions": ["slope_root"], "is_itself": false, "is_profile": false,
+                },
+                "changed": 4,
+                "specifications": [
+                    { "specification": "Vulkan 1.4", "imprecise": 4, "violations": 0 },
+                    { "specification": "WebGPU (draft)", "forbidden": "disputed", "imprecise": 0, "violations": 4,
+                      "worst": { "case": "depth/bias", "verdict": "fail" } },
+                ],
+            },
         ],
     });
     serde_json::from_value(hunt).unwrap()
