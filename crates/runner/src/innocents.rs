@@ -41,7 +41,7 @@ const SAMPLES: usize = 16;
 /// and each thread calls `drawn` after each case.
 ///
 /// Frames that equal the rasterizer's are judged for the rasterizer itself alone. A single behaviour is drawn with
-/// [`SAMPLES`] cases of each file, and with the others of the file if a frame differs; the rasterizer itself and
+/// some cases of each file, and with the others of the file if a frame differs; the rasterizer itself and
 /// profiles are drawn with all.
 pub fn try_innocents(
     plan: InnocentPlan<'_>,
