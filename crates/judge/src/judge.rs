@@ -137,7 +137,7 @@ impl Judge {
             }
         }
         let verdict = match worst {
-            Some(band) => violation(band),
+            Some(band) => Verdict::of_band(band),
             None => Verdict::Pass,
         };
         Ok((verdict, first))
@@ -198,7 +198,7 @@ fn judge_scene(case: &Case, adapter: &str, limits: &Limits, compared: ComparedFr
     // If the rules leave a method's outcome open, only its distance from the truth is reported.
     let unasserted = record.texels.open > record.texels.total.saturating_sub(judgement.looked_at);
     record.verdict = match worst {
-        Some(band) if band > Band::Imprecise => violation(band),
+        Some(band) if band > Band::Imprecise => Verdict::of_band(band),
         _ if case.method.is_some() && (unasserted || texels == 0) => Verdict::Measured,
         _ if texels == 0 && counters == 0 => Verdict::Open,
         Some(_) => Verdict::Imprecise,
@@ -269,16 +269,6 @@ pub fn is_due_to_fail(case: &Case, limits: &Limits) -> bool {
         permission.value() > Some(Band::Imprecise)
     };
     case.judged_as.is_some() && case.relation.as_ref().is_none_or(bound)
-}
-
-/// Returns the verdict on a texel that is outside a band.
-fn violation(band: Band) -> Verdict {
-    match band {
-        Band::Imprecise => Verdict::Imprecise,
-        Band::Disputed => Verdict::Disputed,
-        Band::RequiredByCts => Verdict::RequiredByCts,
-        Band::Fail => Verdict::Fail,
-    }
 }
 
 /// Returns the record of the worse of two scenes of one case, with the assertions of both.

@@ -14,6 +14,7 @@ use crate::tables::{factor_neighbours, place, round, same_for_alpha};
 use etalon_frame::ChannelEncoding;
 use etalon_pipeline::BlendInput;
 use etalon_scene::{BlendComponent, BlendFactor, BlendOperation, BlendState};
+use std::ops::Sub;
 
 pub(super) type Input = BlendInput<[f32; 1]>;
 pub(super) type Encodings = [ChannelEncoding; 4];
@@ -66,6 +67,31 @@ pub(super) fn side(
 
 pub(super) fn component(state: &BlendState, c: usize) -> &BlendComponent {
     if c == 3 { &state.alpha } else { &state.color }
+}
+
+/// Returns the factor of a channel, given source, destination, constant and second source, and the number that stands
+/// for 1.
+pub(super) fn factor<T>(operands: [[T; 4]; 4], factor: BlendFactor, c: usize, one: T) -> T
+where
+    T: Copy + Default + PartialOrd + Sub<Output = T>,
+{
+    let [src, dst, ..] = operands;
+    match (place(factor), factor) {
+        (Some([row, column]), _) => {
+            let operand = operands[row][if column < 2 { c } else { 3 }];
+            if column % 2 == 1 {
+                one - operand
+            } else {
+                operand
+            }
+        }
+        (None, BlendFactor::Zero) => T::default(),
+        (None, BlendFactor::SrcAlphaSaturated) if c < 3 => {
+            let rest = one - dst[3];
+            if src[3] < rest { src[3] } else { rest }
+        }
+        (None, _) => one,
+    }
 }
 
 /// Combines the two sides.

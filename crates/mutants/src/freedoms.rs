@@ -1,6 +1,7 @@
 //! Behaviours that some specification permits, and that are no known bug of a driver.
 
-use crate::blend::{Input, component, is_extreme, joined, side};
+use crate::blend::precision::CONSTANT;
+use crate::blend::{Input, component, factor, is_extreme, joined, side};
 use crate::fields::FieldPlaces;
 use crate::formats::{store, value};
 use crate::hooks::{
@@ -11,7 +12,6 @@ use crate::hooks::{
 use crate::list::bugs;
 use crate::permission::under;
 use crate::plant::{Plant, draws, each, frames, images};
-use crate::tables::place;
 use etalon_cpu::steps::{ComparedDepths, Faithful, Steps};
 use etalon_frame::ChannelEncoding::{self, Float16, Snorm, Ufloat, Unorm};
 use etalon_frame::{Aspect, CounterKind};
@@ -21,14 +21,10 @@ use etalon_reference::rules::{
     Resolve, Rounding, SameDepth, SamplesCounted, SharedEdge, SmallFloats, Snap,
 };
 use etalon_scene::{
-    BlendComponent, BlendFactor, BlendOperation, CompareFunction, Draw, FilterMode,
-    InterpolationSampling, PrimitiveTopology, Shader, Vertex,
+    BlendOperation, CompareFunction, Draw, FilterMode, InterpolationSampling, PrimitiveTopology,
+    Shader, Vertex,
 };
 
-/// The grid of vertices has this many units per texel.
-const UNITS: f32 = 256.0;
-
-const CONSTANT: FieldPlaces<[f32; 4]> = |d| vec![&mut d.blend_constant];
 const RECT: FieldPlaces<[f32; 4]> = |d| vec![&mut d.viewport.rect];
 
 /// Returns the 16-bit float nearest to a value, or in direction of zero.
@@ -85,7 +81,7 @@ fn stepwise(
 /// Moves vertices to the grid of this many bits, at or below their positions.
 fn floored(bits: i32) -> Plant {
     let steps = 2_f32.powi(bits);
-    snap(move |v| ((v * steps).floor() * (UNITS / steps)) as i64)
+    snap(move |v| Faithful.snap((v * steps).floor() / steps))
 }
 
 /// Reads textures at coordinates rounded down to this many steps per texel.
@@ -96,32 +92,19 @@ fn filtered_in(steps: f32) -> Plant {
     })
 }
 
-/// Returns the factors of source and destination in one channel.
-fn factors(component: &BlendComponent, input: &Input, c: usize) -> [f32; 2] {
-    let operands = [input.src, input.dst, input.constant, input.src1];
-    [component.src_factor, component.dst_factor].map(|factor| match (place(factor), factor) {
-        (Some([row, column]), _) => {
-            let [value] = operands[row][if column < 2 { c } else { 3 }];
-            if column % 2 == 1 { 1.0 - value } else { value }
-        }
-        (None, BlendFactor::Zero) => 0.0,
-        (None, BlendFactor::SrcAlphaSaturated) if c < 3 => {
-            input.src[3][0].min(1.0 - input.dst[3][0])
-        }
-        (None, _) => 1.0,
-    })
-}
-
 /// Blends into floats with one rounding for the second product and the sum.
 fn fused() -> Plant {
     blending(|state, encodings, input: &Input| {
+        let operands = [input.src, input.dst, input.constant, input.src1];
+        let operands = operands.map(|color| color.map(|[v]| v));
         let mut result = faithful_blend(state, encodings, input);
         for (c, value) in result.iter_mut().enumerate() {
             let component = component(state, c);
-            let [source, destination] = factors(component, input, c);
-            let (s, d) = (input.src[c][0], input.dst[c][0]);
             if encodings[0].is_float() && component.operation == BlendOperation::Add {
-                *value = d.mul_add(destination, s * source);
+                let [source, destination] = [component.src_factor, component.dst_factor]
+                    .map(|f| factor(operands, f, c, 1.0));
+                let [src, dst, ..] = operands;
+                *value = dst[c].mul_add(destination, src[c] * source);
             }
         }
         result
@@ -140,7 +123,7 @@ fn halved(codes: &[u32]) -> u32 {
 }
 
 /// Changes each line of a list along an axis that is longer than 3 texels.
-fn axial_lines(bug: fn([Vertex; 2], [usize; 1], f32) -> Vec<Vertex>) -> Plant {
+fn axial_lines(bug: fn([Vertex; 2], usize, f32) -> Vec<Vertex>) -> Plant {
     draws(move |draw: &mut Draw| {
         if draw.topology != PrimitiveTopology::LineList || draw.mesh.indices.is_some() {
             return;
@@ -154,7 +137,7 @@ fn axial_lines(bug: fn([Vertex; 2], [usize; 1], f32) -> Vec<Vertex>) -> Plant {
                     let [a, b] = ends.map(|v| v.position);
                     let is_flat = a[3] == 1.0 && b[3] == 1.0 && a[1 - axis] == b[1 - axis];
                     let texels = (b[axis] - a[axis]).abs() * size / 2.0;
-                    (is_flat && texels > 3.0).then(|| bug(ends, [axis], 2.0 / size))
+                    (is_flat && texels > 3.0).then(|| bug(ends, axis, 2.0 / size))
                 };
                 let changed = along(0, width).or_else(|| along(1, height));
                 changed.unwrap_or_else(|| ends.to_vec())
@@ -183,7 +166,6 @@ fn unconverted(function: CompareFunction, depths: &ComparedDepths) -> bool {
 }
 
 bugs! {
-    also |list: &mut crate::list::MutantList| list.innocents_alone = true;
     class "freedom", "blend";
     source "GPUs whose blend units compute in 16-bit floats";
     "blends-in-halves: Blends into formats of 10 bits and fewer are computed in 16-bit floats." =>
@@ -302,14 +284,14 @@ bugs! {
         permitted vec![under!(shared_edge: SharedEdge::Independent)];
     source "the letter of Bresenham's rule";
     "axial-lines-with-a-gap: A line along an axis lacks the texel in its middle." =>
-        axial_lines(|[a, b], [axis], texel| {
+        axial_lines(|[a, b], axis, texel| {
             let (from, to) = (a.position[axis], b.position[axis]);
             let (middle, gap) = (f32::midpoint(from, to), texel.copysign(to - from) / 2.0);
             vec![a, moved(b, axis, middle - gap), moved(a, axis, middle + gap), b]
         }),
         permitted vec![under!(lines_cover_texels: false), under!(lines_lack: None | Some(1..))];
     "axial-lines-one-texel-short: A line along an axis ends a texel early." =>
-        axial_lines(|[a, b], [axis], texel| {
+        axial_lines(|[a, b], axis, texel| {
             let (from, to) = (a.position[axis], b.position[axis]);
             vec![a, moved(b, axis, to - texel.copysign(to - from))]
         }),
@@ -372,5 +354,4 @@ bugs! {
             if is_coarse { value.map(|v| (v * 255.0 + 1e-3).floor() / 255.0) } else { value }
         }), source "filters that return codes",
         permitted vec![under!(filters_to_codes: true)];
-    also |list: &mut crate::list::MutantList| list.innocents_alone = false;
 }

@@ -91,7 +91,7 @@ const CLASSES: &[Class] = &[
     clear::add, geometry::add, upload::add, fetch::add, early::add,
     discard::add, counter::add, texture::add, invariance::add, readback::add, stale::sticky, tiled::add,
     hierarchy::add, sequence::add, size::add, shader_mask::add, input_mask::add, stencil_export::add, held::add,
-    combinations::add, freedoms::add,
+    combinations::add,
 ];
 
 /// Returns all bugs, class by class. The rasterizer's own specification forbids each.
@@ -108,6 +108,8 @@ fn changes() -> &'static [Mutant] {
     static ALL: LazyLock<Vec<Mutant>> = LazyLock::new(|| {
         let mut list = MutantList::default();
         CLASSES.iter().for_each(|add| add(&mut list));
+        list.innocents_alone = true;
+        freedoms::add(&mut list);
         list.mutants
     });
     &ALL

@@ -7,7 +7,7 @@ use etalon_cpu::CpuBackend;
 use etalon_frame::{Grade, Limits};
 use etalon_reference::Rules;
 
-/// A planted bug.
+/// A planted change.
 #[derive(Debug)]
 pub struct Mutant {
     /// The stable name, its class first: `depth/write-ignored`.

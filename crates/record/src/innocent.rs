@@ -47,17 +47,21 @@ pub struct InnocentTally {
 impl InnocentTally {
     /// Adds a verdict.
     pub fn add(&mut self, sighting: Sighting) {
-        let severity = |s: &Option<Sighting>| s.as_ref().map(|s| s.verdict.severity());
         match sighting.verdict {
             Verdict::Pass => {}
             Verdict::Imprecise => self.imprecise += 1,
             _ => {
                 self.violations += 1;
-                if Some(sighting.verdict.severity()) > severity(&self.worst) {
+                if Some(sighting.verdict.severity()) > self.severity() {
                     self.worst = Some(sighting);
                 }
             }
         }
+    }
+
+    /// Returns the severity of the worst violation.
+    fn severity(&self) -> Option<u8> {
+        self.worst.as_ref().map(|worst| worst.verdict.severity())
     }
 
     /// Notes a verdict that the rasterizer itself gets as well.
@@ -71,20 +75,18 @@ impl InnocentTally {
 
     /// Returns the verdict that the specification's evidence supports; `None` if it permits the behaviour.
     pub fn due(&self) -> Option<Verdict> {
-        self.forbidden.map(Verdict::of_grade)
+        self.forbidden.map(|grade| Verdict::of_band(grade.band()))
     }
 
     /// Returns true if a verdict is more severe than the specification's evidence supports.
     pub fn is_accused(&self) -> bool {
-        let worst = self.worst.as_ref().map(|worst| worst.verdict.severity());
-        worst > self.due().map(Verdict::severity)
+        self.severity() > self.due().map(Verdict::severity)
     }
 
     /// Returns true if the specification forbids the behaviour and no case shows it with the evidence's grade.
     pub fn is_missed(&self) -> bool {
-        let worst = self.worst.as_ref().map(|worst| worst.verdict);
-        let shown = worst.into_iter().chain(self.shared).map(Verdict::severity);
-        shown.max() < self.due().map(Verdict::severity)
+        let shown = self.severity().max(self.shared.map(Verdict::severity));
+        shown < self.due().map(Verdict::severity)
     }
 }
 
@@ -105,9 +107,7 @@ impl InnocentRecord {
     pub fn add(&mut self, other: Self) {
         self.changed += other.changed;
         for (tally, other) in self.specifications.iter_mut().zip(other.specifications) {
-            let severity =
-                |tally: &InnocentTally| tally.worst.as_ref().map(|w| w.verdict.severity());
-            if severity(&other) > severity(tally) {
+            if other.severity() > tally.severity() {
                 tally.worst.clone_from(&other.worst);
             }
             tally.imprecise += other.imprecise;

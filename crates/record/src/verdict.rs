@@ -1,6 +1,6 @@
 //! The outcome of a case on an adapter.
 
-use etalon_frame::{ErrorKind, Grade, state_enum};
+use etalon_frame::{Band, ErrorKind, state_enum};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -52,12 +52,13 @@ impl Verdict {
         }
     }
 
-    /// Returns the verdict on a texel that only evidence of this grade or a weaker one forbids.
-    pub fn of_grade(grade: Grade) -> Self {
-        match grade {
-            Grade::Disputed => Self::Disputed,
-            Grade::RequiredByCts => Self::RequiredByCts,
-            Grade::Proven => Self::Fail,
+    /// Returns the verdict on a texel that is outside a band.
+    pub fn of_band(band: Band) -> Self {
+        match band {
+            Band::Imprecise => Self::Imprecise,
+            Band::Disputed => Self::Disputed,
+            Band::RequiredByCts => Self::RequiredByCts,
+            Band::Fail => Self::Fail,
         }
     }
 

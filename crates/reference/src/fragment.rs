@@ -199,14 +199,17 @@ impl Walk<'_> {
                             place, worlds, output, incoming, covered, result, notes,
                         );
                     } else {
-                        let mut untested = world.clone();
-                        if !self.rules.skips_rejected.value() {
-                            self.run(place, &mut outcome, false);
-                            self.run(place, &mut untested, false);
-                        }
+                        let may_run = !self.rules.skips_rejected.value();
                         // The stencil value of a fragment that the shader removes first is not updated.
                         if self.may_be_removed_first(shaded.covered) {
+                            let mut untested = world.clone();
+                            if may_run {
+                                self.run(place, &mut untested, false);
+                            }
                             result.push(untested);
+                        }
+                        if may_run {
+                            self.run(place, &mut outcome, false);
                         }
                         result.push(outcome);
                     }
@@ -668,10 +671,8 @@ impl Walk<'_> {
 
     /// Returns the window depth of a covered sample. If its position is open, so is the depth.
     pub(crate) fn own_depth(&self, place: &FragmentPlace<'_>) -> Range {
-        let anywhere = place.at.samples > 1 && !self.rules.covers_at_positions.value();
-        place
-            .primitive
-            .depth_at(place.point, anywhere.then_some(self.units))
+        let anywhere = self.anywhere(place.at.samples);
+        place.primitive.depth_at(place.point, anywhere)
     }
 
     /// Returns true if the fragment has a shader, or if the rules let it pass unchanged without a shader.

@@ -63,9 +63,10 @@ impl Walk<'_> {
     fn coordinates(&self, place: &FragmentPlace<'_>) -> Option<[Interval; 2]> {
         let samples = self.samples_shaded(place);
         let mut sampling = place.draw.shader.interpolation_sampling();
-        let is_open =
-            !self.rules.covers_at_positions.value() && !self.rules.inputs_at_samples.value();
-        if sampling == InterpolationSampling::Sample && is_open {
+        if sampling == InterpolationSampling::Sample
+            && self.anywhere(samples).is_some()
+            && !self.rules.inputs_at_samples.value()
+        {
             // At a position of the sample that is not known, inside the primitive.
             sampling = InterpolationSampling::Centroid;
         }

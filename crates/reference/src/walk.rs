@@ -391,8 +391,7 @@ impl<'a> Walk<'a> {
         }
         let in_distances = primitive.inside_distances(point, || {
             let samples = self.scene.pass_samples(&self.scene.passes[p]);
-            let anywhere = samples > 1 && !self.rules.covers_at_positions.value();
-            anywhere.then_some(self.units)
+            self.anywhere(samples)
         });
         if !in_distances.can() {
             return Err(Rejection::ClipDistance);
@@ -403,6 +402,12 @@ impl<'a> Walk<'a> {
             in_depth: in_depth.must(),
             in_distances: in_distances.must(),
         })
+    }
+
+    /// Returns the units of a texel if its samples, of this number, can be anywhere in it.
+    pub(crate) fn anywhere(&self, samples: u32) -> Option<i64> {
+        let is_open = samples > 1 && !self.rules.covers_at_positions.value();
+        is_open.then_some(self.units)
     }
 
     /// Forgets the decisions of a pass at its end.

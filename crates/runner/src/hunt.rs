@@ -51,8 +51,14 @@ pub fn hunt(
     open: &(dyn Fn(&str) -> Option<Box<dyn Backend>> + Sync),
     drawn: &(dyn Fn() + Sync),
 ) -> Hunted {
+    if plan.mutants.is_empty() {
+        return Hunted {
+            records: Vec::new(),
+            catches: vec![Catches::default(); plan.cases.len()],
+        };
+    }
     let judge = Judge::default();
-    let jobs = plan.jobs.clamp(1, plan.mutants.len().max(1));
+    let jobs = plan.jobs.clamp(1, plan.mutants.len());
     let numbers: Vec<usize> = (0..jobs).collect();
     let found = each(jobs, &numbers, |job| {
         let mut share: Vec<HuntedMutant> = plan

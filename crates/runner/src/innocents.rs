@@ -7,10 +7,8 @@ use etalon_case::Case;
 use etalon_frame::threads::each;
 use etalon_frame::{Frame, Limits};
 use etalon_judge::Judge;
-use etalon_record::{InnocentRecord, Sighting};
-use std::collections::hash_map::DefaultHasher;
+use etalon_record::{InnocentRecord, Sighting, shard_of};
 use std::collections::{HashMap, HashSet};
-use std::hash::{Hash, Hasher};
 
 /// One innocent, and the limits and backends by which it is judged and drawn.
 #[derive(Clone, Debug)]
@@ -49,6 +47,9 @@ pub fn try_innocents(
     open: &(dyn Fn(&str) -> Option<Box<dyn Backend>> + Sync),
     drawn: &(dyn Fn() + Sync),
 ) -> Vec<InnocentRecord> {
+    if plan.innocents.is_empty() {
+        return Vec::new();
+    }
     let samples = samples(plan.cases);
     let draws_all = |number: usize| {
         let innocent = &plan.innocents[number].record.innocent;
@@ -74,12 +75,10 @@ pub fn try_innocents(
 
 /// Returns the numbers of the cases that are drawn with every behaviour: some of each file, scattered over it.
 fn samples(cases: &[Case]) -> HashSet<usize> {
-    let mut files: HashMap<&str, Vec<(u64, usize)>> = HashMap::new();
+    let mut files: HashMap<&str, Vec<(u32, usize)>> = HashMap::new();
     for (number, case) in cases.iter().enumerate() {
-        let mut hasher = DefaultHasher::new();
-        case.id.hash(&mut hasher);
         let file = files.entry(case.parts().file()).or_default();
-        file.push((hasher.finish(), number));
+        file.push((shard_of(&case.id, u32::MAX), number));
     }
     let chosen = files.into_values().flat_map(|mut file| {
         file.sort_unstable();
@@ -153,6 +152,7 @@ impl<'a> Trial<'a> {
         let Ok(right) = draw_frames(faithful, case) else {
             return;
         };
+        let requirements = case.requirements();
         let mut known = KnownSightings::default();
         for innocent in tried {
             let is_itself = innocent.record.innocent.is_itself;
@@ -182,7 +182,7 @@ impl<'a> Trial<'a> {
                 }
                 for index in specifications {
                     let limits = &innocent.planned.limits[*index];
-                    if limits.missing(&case.requirements()).is_some() {
+                    if limits.missing(&requirements).is_some() {
                         continue;
                     }
                     let sighting = known.get(limits, &frames, || {

@@ -25,6 +25,7 @@ use etalon_record::{
 };
 use etalon_reference::Rules;
 use etalon_runner::{HuntPlan, InnocentPlan, PlannedInnocent};
+use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -97,11 +98,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     }
     .claim()?;
     if let Some(scenes) = arguments.fuzz {
-        if chosen.bugs.is_empty() {
-            return Err(Failure::nothing(
-                "no planted bug matches, and --fuzz draws with bugs alone".to_owned(),
-            ));
-        }
         return fuzz(arguments, scenes, &chosen.bugs, claim);
     }
     let library = library(arguments.cases.as_ref())?;
@@ -147,9 +143,10 @@ impl Chosen {
                 .filter(|_| !arguments.innocents)
                 .map(|m| bug(m))
                 .collect(),
+            // Random scenes are drawn with bugs alone.
             innocents: innocents()
                 .iter()
-                .filter(|i| set.matches(&i.name))
+                .filter(|i| arguments.fuzz.is_none() && set.matches(&i.name))
                 .collect(),
         };
         if chosen.bugs.is_empty() && chosen.innocents.is_empty() {
@@ -168,26 +165,12 @@ impl Chosen {
 
     /// Prints the bugs, or the innocents if there are no bugs.
     fn list(&self, format: OutputFormat) -> Result<u8, Failure> {
-        let innocents: Vec<InnocentInfo> = self.innocents.iter().map(|i| innocent(i)).collect();
-        if format == OutputFormat::Json {
-            match self.bugs.is_empty() {
-                true => print_json(&innocents)?,
-                false => print_json(&self.bugs)?,
-            }
-            return Ok(0);
-        }
-        let lines: Vec<(&str, &str)> = if self.bugs.is_empty() {
-            innocents.iter().map(|i| (&*i.name, &*i.about)).collect()
+        if self.bugs.is_empty() {
+            let innocents: Vec<InnocentInfo> = self.innocents.iter().map(|i| innocent(i)).collect();
+            list(&innocents, |i| (&i.name, &i.about), format)
         } else {
-            self.bugs.iter().map(|m| (&*m.name, &*m.about)).collect()
-        };
-        let width = lines.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
-        let mut text = String::new();
-        for (name, about) in lines {
-            text.push_str(&format!("{name:width$}  {about}\n"));
+            list(&self.bugs, |m| (&m.name, &m.about), format)
         }
-        print(&text)?;
-        Ok(0)
     }
 
     /// Returns the innocents with the specifications that judge them.
@@ -215,6 +198,26 @@ impl Chosen {
         };
         self.innocents.iter().map(plan).collect()
     }
+}
+
+/// Prints items as JSON, or their names and descriptions.
+fn list<T: Serialize>(
+    items: &[T],
+    line: fn(&T) -> (&String, &String),
+    format: OutputFormat,
+) -> Result<u8, Failure> {
+    if format == OutputFormat::Json {
+        print_json(&items)?;
+        return Ok(0);
+    }
+    let lines = || items.iter().map(line);
+    let width = lines().map(|(name, _)| name.len()).max().unwrap_or(0);
+    let mut text = String::new();
+    for (name, about) in lines() {
+        text.push_str(&format!("{name:width$}  {about}\n"));
+    }
+    print(&text)?;
+    Ok(0)
 }
 
 fn bug(mutant: &Mutant) -> MutantInfo {

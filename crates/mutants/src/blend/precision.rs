@@ -1,16 +1,15 @@
 //! Bugs of the blend constant, of precision and of the colour store.
 
-use super::{Input, after, before, component, is_extreme, joined};
+use super::{Input, after, before, component, factor, is_extreme, joined};
 use crate::fields::FieldPlaces;
 use crate::formats::store;
 use crate::hooks::{blending, code, color_code, faithful_blend};
 use crate::list::{CONFUSION, SMALL, bugs, coarse, rounded};
 use crate::plant::{Plant, each, in_bits, set};
-use crate::tables::place;
 use etalon_frame::ChannelEncoding::{Float32, Unorm};
 use etalon_scene::{BlendFactor, BlendOperation};
 
-const CONSTANT: FieldPlaces<[f32; 4]> = |d| vec![&mut d.blend_constant];
+pub(crate) const CONSTANT: FieldPlaces<[f32; 4]> = |d| vec![&mut d.blend_constant];
 
 type BlendValues = [[f32; 1]; 4];
 
@@ -35,20 +34,11 @@ fn integer(product: fn(u32, u32) -> u32) -> Plant {
         let codes = |v: BlendValues| v.map(|[v]| code(Unorm(8), v));
         let operands = [input.src, input.dst, input.constant, input.src1].map(codes);
         let [src, dst, ..] = operands;
-        let factor = |f: BlendFactor, c: usize| match (place(f), f) {
-            (Some([row, column]), _) => {
-                let code = operands[row][if column < 2 { c } else { 3 }];
-                if column % 2 == 1 { 255 - code } else { code }
-            }
-            (None, BlendFactor::Zero) => 0,
-            (None, BlendFactor::SrcAlphaSaturated) if c < 3 => src[3].min(255 - dst[3]),
-            (None, _) => 255,
-        };
         std::array::from_fn(|c| {
             let component = component(state, c);
             let side = |operand, f| match component.operation {
                 BlendOperation::Min | BlendOperation::Max => operand,
-                _ => product(operand, factor(f, c)),
+                _ => product(operand, factor(operands, f, c, 255)),
             };
             let s = side(src[c], component.src_factor) as f32;
             let d = side(dst[c], component.dst_factor) as f32;
