@@ -162,7 +162,12 @@ fn examine(context: &Context, format: TextureFormat, surface: &Surface) -> Optio
         TextureFormat::Rgba32Float => context.caps.float_blend,
         _ => format.is_color() && !format.is_integer(),
     };
-    done(&[1], blendable, encoding.as_slice(), read)
+    // No function of ES reads a depth, so either encoding is possible there.
+    let encodings = match encoding {
+        Some(ChannelEncoding::Unorm(24)) if context.caps.es => format.depth_encodings(),
+        _ => encoding.as_slice(),
+    };
+    done(&[1], blendable, encodings, read)
 }
 
 /// Returns how to read single-sample surfaces of a format; `None` if the context has no exact way.
@@ -286,16 +291,37 @@ fn query(context: &Context, surface: &Surface, attachment: u32, name: u32) -> i3
     }
 }
 
-/// Returns the depth encoding that the driver reports, if it is a known one.
+/// Returns the depth encoding that the driver reports, if it is a known one. A depth that is said to have 24 bits can
+/// be a float (radeonsi), which a read of a depth shows that is less than half of their step.
 fn depth_encoding(context: &Context, surface: &Surface) -> Option<ChannelEncoding> {
     let of_depth = |name| query(context, surface, glow::DEPTH_ATTACHMENT, name);
     let bits = of_depth(glow::FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
     let kind = of_depth(glow::FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE);
     match (u32::try_from(kind).ok()?, bits) {
+        (glow::UNSIGNED_NORMALIZED, 24) if !context.caps.es && holds_floats(context, surface) => {
+            Some(ChannelEncoding::Float32)
+        }
         (glow::UNSIGNED_NORMALIZED, bits) => Some(ChannelEncoding::Unorm(u8::try_from(bits).ok()?)),
         (glow::FLOAT, 32) => Some(ChannelEncoding::Float32),
         _ => None,
     }
+}
+
+/// Returns true if a depth of 2^-30, which 24 bits cannot tell from 0, is read back as another number.
+fn holds_floats(context: &Context, surface: &Surface) -> bool {
+    let gl = &context.gl;
+    let mut depth = [0_u8; 4];
+    // SAFETY: the context is current, the surface lives and has a depth attachment, and the pixel fits into the array.
+    unsafe {
+        gl.bind_framebuffer(glow::FRAMEBUFFER, Some(surface.framebuffer));
+        gl.disable(glow::SCISSOR_TEST);
+        gl.depth_mask(true);
+        gl.clear_buffer_f32_slice(glow::DEPTH, 0, &[2_f32.powi(-30)]);
+        let pixel = glow::PixelPackData::Slice(Some(&mut depth));
+        gl.read_pixels(0, 0, 1, 1, glow::DEPTH_COMPONENT, glow::FLOAT, pixel);
+    }
+    let depth = f32::from_ne_bytes(depth);
+    depth > 0.0 && depth < 2_f32.powi(-25)
 }
 
 /// Returns the sample counts above 1 of complete attachments that a shader can read exactly.
