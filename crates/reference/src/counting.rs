@@ -3,7 +3,7 @@
 use crate::rules::{Rules, SamplesCounted};
 use crate::world::{Increment, World};
 use etalon_frame::{CountRange, CounterKind, CounterSet};
-use etalon_scene::Scene;
+use etalon_scene::{Query, Scene};
 
 /// The count of a counter over the texels walked so far, and over the samples of the current texel.
 #[derive(Clone, Debug)]
@@ -162,13 +162,12 @@ impl<'a> EventTally<'a> {
         let queries = self.scene.queries();
         let each = self.scene.counters.iter().zip(self.counts).enumerate();
         each.map(move |(index, (counter, count))| {
-            let encloses_operations = || {
-                let mut matching = queries.iter().filter(|q| q.counter == index);
-                matching.any(|query| query.encloses_operations(self.scene))
+            let counts_more = |query: &Query| {
+                query.over_passes && !self.rules.operations_count_nothing.value()
+                    || query.encloses_clears(self.scene) && !self.rules.clears_count_nothing.value()
             };
-            let unlimited = counter.kind.is_occlusion()
-                && encloses_operations()
-                && !self.rules.operations_count_nothing.value();
+            let mut own = queries.iter().filter(|q| q.counter == index);
+            let unlimited = counter.kind.is_occlusion() && own.any(counts_more);
             let range = CountRange {
                 low: count.low,
                 high: count.high.filter(|_| !unlimited),

@@ -38,12 +38,11 @@ impl Query {
         self.over_passes && self.last.0 == pass
     }
 
-    /// Returns true if the query encloses operations other than draws: a clear, the load or store operations
-    /// of a pass, or a resolve.
-    pub fn encloses_operations(&self, scene: &Scene) -> bool {
+    /// Returns true if the query begins and ends within a pass and encloses a clear.
+    pub fn encloses_clears(&self, scene: &Scene) -> bool {
         let clears = scene.passes.get(self.first.0).map(|pass| &pass.clears);
         let between = |before: usize| self.first.1 < before && before <= self.last.1;
-        self.over_passes || clears.is_some_and(|clears| clears.iter().any(|c| between(c.before)))
+        !self.over_passes && clears.is_some_and(|clears| clears.iter().any(|c| between(c.before)))
     }
 }
 
@@ -240,11 +239,10 @@ mod tests {
         };
         let mut scene = scene(QueryScope::Pass, &[&[&[], &[0], &[0]]]);
         scene.passes[0].clears = vec![clear(1), clear(3)];
-        assert!(!scene.queries()[0].encloses_operations(&scene));
+        assert!(!scene.queries()[0].encloses_clears(&scene));
         scene.passes[0].clears.push(clear(2));
-        assert!(scene.queries()[0].encloses_operations(&scene));
-        scene.passes[0].clears.clear();
+        assert!(scene.queries()[0].encloses_clears(&scene));
         scene.query_scope = QueryScope::Frame;
-        assert!(scene.queries()[0].encloses_operations(&scene));
+        assert!(!scene.queries()[0].encloses_clears(&scene));
     }
 }

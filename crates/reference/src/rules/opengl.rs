@@ -497,6 +497,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             ]),
         ),
         half_overflows: narrowed(
+        clears_count_nothing: permit(
+            true,
+            text.cite([
+                "OpenGL 3.3: 4.1.6 Occlusion Queries: the fragments that pass the depth test; 4.2.3, 4.3.2: clears and blits make none",
+                "OpenGL 4.5: 17.3.5 Occlusion Queries: the fragments still processed after the depth test; 17.4.3, 18.3.1: clears and blits make none",
+                "OpenGL 4.6: 17.3.5 Occlusion Queries: the fragments still processed after the depth test; 17.4.3, 18.3.1: clears and blits make none",
+            ]),
+        ),
             true,
             false,
             Grade::Disputed,

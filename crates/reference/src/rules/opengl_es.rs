@@ -428,6 +428,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: silent on the precision of filter weights; Vulkan: at least 4 bits",
             ]),
         ),
+        clears_count_nothing: permit(
+            true,
+            text.cite([
+                "OpenGL ES 3.0: 4.1.6 Occlusion Queries: the fragments or samples that pass the depth test; 4.2.3, 4.3.3: clears and blits make none",
+                "OpenGL ES 3.1: 15.1.4 Occlusion Queries: the fragments or samples that pass the depth test; 15.2.3, 16.2.1: clears and blits make none",
+                "OpenGL ES 3.2: 15.1.4 Occlusion Queries: the fragments or samples that pass the depth test; 15.2.3, 16.2.1: clears and blits make none",
+            ]),
+        ),
         filters_to_codes: permit(
             true,
             text.cite([

@@ -568,8 +568,10 @@ rules! {
     early_counts: EarlyUpdates,
     /// The samples that a precise occlusion query counts, if there are several.
     samples_counted: SamplesCounted,
-    /// True if clears, load and store operations, and resolves count nothing in an enclosing occlusion query;
-    /// otherwise they may count.
+    /// True if clears within a pass count nothing in an enclosing occlusion query; otherwise they may count.
+    clears_count_nothing: bool,
+    /// True if load and store operations and resolves count nothing in an enclosing occlusion query; otherwise
+    /// they may count.
     operations_count_nothing: bool,
     /// The redraws that have identical depths.
     same_depth: SameDepth,

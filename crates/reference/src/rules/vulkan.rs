@@ -355,6 +355,12 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             SmallFloats::EitherNeighbour,
             "Vulkan: Fundamentals, Floating-Point Format Conversions: either neighbour; past the largest value that or infinity",
         ),
+        clears_count_nothing: narrowed(
+            true,
+            false,
+            Grade::RequiredByCts,
+            "Vulkan: Queries: clears may count towards the results of queries; dEQP-VK.query_pool.occlusion_query.clear_attachments_only (mustpass) demands 0",
+        ),
         runs_for_discarded: permit(
             true,
             "Vulkan: Fragment Shading: at least one run for every fragment that no operation before shading discards, where the shader writes storage",

@@ -259,6 +259,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         ),
         half_overflows: permit(
             true,
+        clears_count_nothing: permit(
+            true,
+            "WebGPU: Occlusion Query: the samples that pass the tests of a set of drawing commands; nothing else is within one",
+        ),
             "WebGPU: silent on overflow; Vulkan: the largest finite value or infinity",
         ),
         flushes_small_floats: permit(

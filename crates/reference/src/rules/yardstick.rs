@@ -194,6 +194,7 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             "Yardstick: 8 bits of fraction (Direct3D 11.3, 7.18.7 and 7.18.8)",
         ),
         filters_to_codes: permit(false, "Yardstick: in floats"),
+        clears_count_nothing: permit(true, "Yardstick: samples of draws"),
         half_overflows: permit(true, "Yardstick: the largest finite value or infinity"),
         flushes_small_floats: permit(
             FlushedFloats::None,
