@@ -1,5 +1,6 @@
 //! Coverage of a sample by primitives, world by world.
 
+use crate::line_shape::shape_holds;
 use crate::notes::Notes;
 use crate::primitive::{CoverTimes, EdgeSide, Shape, Triangle, inside_of, is_outside};
 use crate::rules::SharedEdge;
@@ -75,8 +76,22 @@ impl Walk<'_> {
             primitive: place.primitive.index,
         };
         if is_line && self.forced.get() == Some(forced) {
-            (least.max(1), most.max(1))
-        } else if least > 0 && is_line && !self.rules.lines_cover_texels.value() {
+            return (least.max(1), most.max(1));
+        }
+        if let Shape::Line(ends) = &place.primitive.shape
+            && most > 0
+            && self.rules.lines_cover_their_shape.value()
+            && self.is_whole(place)
+        {
+            let step =
+                self.units as f64 / f64::from(1_u32 << self.rules.sub_pixel_bits.value().min(16));
+            let (is_inside, can_be_inside) = shape_holds(*ends, place.point, self.units, step);
+            return (
+                if is_inside { 1 } else { least },
+                if can_be_inside { most } else { least },
+            );
+        }
+        if least > 0 && is_line && !self.rules.lines_cover_texels.value() {
             (0, most)
         } else {
             (least, most)

@@ -123,7 +123,7 @@ impl Walk<'_> {
     }
 
     /// Returns true if nothing clips a fragment's primitive.
-    fn is_whole(&self, place: &FragmentPlace<'_>) -> bool {
+    pub(crate) fn is_whole(&self, place: &FragmentPlace<'_>) -> bool {
         let primitive = place.primitive;
         let clip = self.setups[place.pass].clip(place.draw_index);
         clip.holds_all_of(primitive)

@@ -26,6 +26,7 @@ mod interval;
 mod judging;
 mod known_sets;
 mod legal_sets;
+mod line_shape;
 mod lines;
 mod notes;
 mod pass_operations;

@@ -372,6 +372,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             EarlyUpdates::Each,
             Grade::Disputed,
             text.cite([
+        lines_cover_their_shape: permit(
+            false,
+            "OpenGL: 14.5.1 Basic Line Segment Rasterization (3.3: 3.5.1): a fragment may deviate by one unit from that of the diamond-exit rule",
+        ),
                 "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: depth and stencil are updated before the shader runs, though GLSL has discard update nothing",
                 "OpenGL 4.5: 14.9.4 The Early Fragment Test Qualifier: depth and stencil are updated before the shader runs, though GLSL has discard update nothing",
                 "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: depth and stencil are updated before the shader runs, though GLSL has discard update nothing",

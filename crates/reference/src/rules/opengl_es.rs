@@ -315,6 +315,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "OpenGL ES 3.0: has no polygon modes",
             "OpenGL ES 3.1: has no polygon modes",
             "OpenGL ES 3.2: has no polygon modes",
+        lines_cover_their_shape: permit(
+            false,
+            "OpenGL ES: 13.6.1 Basic Line Segment Rasterization (3.0: 3.5.1, 3.1: 13.4.1): a fragment may deviate by one unit from that of the diamond-exit rule",
+        ),
         ])),
         early_updates: narrowed(
             EarlyUpdates::Happen,

@@ -545,6 +545,9 @@ rules! {
     early_updates: EarlyUpdates,
     /// Updates of depth and stencil by samples that alpha to coverage removes after forced early tests.
     early_coverage: EarlyUpdates,
+    /// True if a line covers exactly the samples in its rectangle or its parallelogram; otherwise it may cover any
+    /// near it.
+    lines_cover_their_shape: bool,
     /// Updates of depth and stencil by samples that the shader's sample mask removes after forced early
     /// tests.
     early_mask: EarlyUpdates,

@@ -250,6 +250,20 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             happens("")
         } else {
             narrowed(
+        lines_cover_their_shape: if limits
+            .properties
+            .contains(&Property::LinesAreParallelograms)
+        {
+            permit(
+                true,
+                "Vulkan: Basic Line Segment Rasterization: with strictLines, or nonStrictSinglePixelWideLinesUseParallelogram, coverage bits of samples in the rectangle or parallelogram are 1, others are 0",
+            )
+        } else {
+            permit(
+                false,
+                "Vulkan: Bresenham Line Segment Rasterization, which lines that are not strict may follow: a fragment may deviate by one unit from that of the diamond-exit rule",
+            )
+        },
                 EarlyUpdates::Happen,
                 EarlyUpdates::Either,
                 Grade::RequiredByCts,

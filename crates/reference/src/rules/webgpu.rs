@@ -202,6 +202,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         early_coverage: permit(
             EarlyUpdates::Each,
             "WebGPU: has no forced early tests; OpenGL: depth and stencil may be updated",
+        lines_cover_their_shape: permit(
+            false,
+            "WebGPU: 23.2.5.2 Line Rasterization: the algorithm is not defined",
+        ),
         ),
         early_mask: permit(
             EarlyUpdates::Each,

@@ -152,6 +152,10 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             "Direct3D 11.3: 15.10: points and lines are front-facing",
         ),
         outlines_face_as_polygons: permit(true, "Direct3D 11.3: 15.10 Facing: of the triangle"),
+        lines_cover_their_shape: permit(
+            text.lines_cover_their_shape.value,
+            "Yardstick: as the API's text says",
+        ),
         early_updates: permit(
             EarlyUpdates::Happen,
             "Yardstick: forced early tests come first, as Direct3D 11.3 has them (17.3)",

@@ -576,6 +576,60 @@ fn a_line_along_an_axis_has_no_gap_if_lines_are_parallelograms() {
     assert_eq!(allowed(&scene, &vulkan, 0, &kept), NEVER);
 }
 
+#[test]
+fn a_strict_line_covers_the_samples_of_its_shape_and_no_others() {
+    let (drawn, kept) = ([255; 4], [0; 4]);
+    let of = |positions: &str| {
+        line(
+            WHITE,
+            &format!(r#""units":"texels","positions":{positions}"#),
+        )
+    };
+    // 0.25 texels above the sample, and 1.25 below it.
+    let through = of("[[0.25,0.5,0.5],[3.75,2.5,0.5]]");
+    let beside = of("[[0.25,2.6,0.5],[3.75,3.4,0.5]]");
+    let strict = |limits: &Limits| {
+        let mut limits = limits.clone();
+        limits.properties.insert(Property::LinesAreParallelograms);
+        limits
+    };
+    let vulkan = version(Api::Vulkan, 1, 3);
+    for scene in [&through, &beside] {
+        assert_eq!(allowed(scene, &vulkan, 0, &drawn), ALWAYS);
+        assert_eq!(allowed(scene, &vulkan, 0, &kept), ALWAYS);
+    }
+    assert_eq!(allowed(&through, &strict(&vulkan), 0, &drawn), ALWAYS);
+    assert_eq!(allowed(&through, &strict(&vulkan), 0, &kept), NEVER);
+    assert_eq!(allowed(&beside, &strict(&vulkan), 0, &kept), ALWAYS);
+    assert_eq!(allowed(&beside, &strict(&vulkan), 0, &drawn), NEVER);
+}
+
+#[test]
+fn clears_within_a_query_count_nothing_by_the_cts_in_vulkan_and_by_the_text_elsewhere() {
+    let scene = scene(&format!(
+        r#"{{"attachments":{{"c":{{"format":"rgba8unorm","size":[4,4]}},"d":{{"format":"depth32float","clear":1}}}},
+            "counters":{{"n":"samples-passed"}},
+            "passes":[{{"color":["c"],"depth_stencil":"d",
+              "clears":[{{"before":1,"depth":0.5}}],
+              "draws":[{{{WHITE},"mesh":{{"kind":"full"}},"counters":["n"]}},{{{WHITE},"mesh":{{"kind":"full"}},"counters":["n"]}}]}}],
+            "queries":"pass","read":["c"]}}"#
+    ));
+    let most = |limits: &Limits| {
+        let rules = Rules::of(limits);
+        Grade::ALL.map(|grade| {
+            let set = legal_set(&scene, limits, &rules.bound_by(grade));
+            set.counters[0].range.high
+        })
+    };
+    assert_eq!(
+        most(&version(Api::Vulkan, 1, 3)),
+        [Some(32), Some(32), None]
+    );
+    for (api, major, minor) in OTHERS {
+        assert_eq!(most(&version(api, major, minor)), [Some(32); 3]);
+    }
+}
+
 /// Returns the order of a 32-bit float.
 fn order(depth: f32) -> i64 {
     i64::from(depth.to_bits())
