@@ -251,11 +251,13 @@ mod tests {
         let mut distances = Distances::new(&[(0, &info)]);
         let edge = TexelSet {
             worlds: vec![world([(0, 0), (0, 0)]), world([(200, 202), (100, 100)])],
+            ..TexelSet::default()
         };
         distances.add(&edge, &[200, 100], 1);
         distances.add(&edge, &[0, 0], 1);
         let free = TexelSet {
             worlds: vec![world([(0, 255), (5, 5)])],
+            ..TexelSet::default()
         };
         distances.add(&free, &[77, 8], 1);
         distances.add(&TexelSet::default(), &[1, 2], 3);
@@ -296,6 +298,7 @@ mod tests {
                         .into_iter()
                         .collect(),
                 }],
+                operands: None,
             };
             distances.add(
                 &allowed,

@@ -6,6 +6,7 @@ use crate::format::Aspect;
 use crate::image::{Image, ReadPath};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
+use std::num::NonZeroU64;
 
 /// A closed interval of code orders (see [`ChannelEncoding`]); never empty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -82,6 +83,9 @@ impl WorldBox {
 pub struct TexelSet {
     /// The boxes, sorted and without repetition.
     pub worlds: Vec<WorldBox>,
+    /// The number of everything that the colours are computed from, if it is known exactly: samples with the same
+    /// number must have the same colours.
+    pub operands: Option<NonZeroU64>,
 }
 
 impl TexelSet {
@@ -208,7 +212,7 @@ impl SampleGroup {
     }
 
     /// Returns the column, the row and the sample within the texel of a sample, by its index.
-    pub(crate) fn position(&self, index: usize) -> [u32; 3] {
+    pub fn position(&self, index: usize) -> [u32; 3] {
         let texel = index / self.samples as usize;
         let width = self.size[0] as usize;
         // Each part fits, since the index was made from unsigned 32-bit numbers.
@@ -434,6 +438,7 @@ mod tests {
                     channels: b.iter().map(|(l, h)| CodeInterval::new(*l, *h)).collect(),
                 })
                 .collect(),
+            operands: None,
         }
     }
 

@@ -5,6 +5,7 @@
 
 use etalon_frame::{Band, CounterOutcome, Frame, Grade, Limits, compare};
 use etalon_record::MAX_WRONG_TEXELS;
+use etalon_reference::rules::BlendPrecision;
 use etalon_reference::{Rules, Sets, fit, set_by};
 use etalon_scene::Scene;
 use std::collections::HashSet;
@@ -29,6 +30,8 @@ pub(crate) struct Grades {
     proven: Forbidden,
     /// Forbidden by "must" clauses or by the CTS.
     required: Forbidden,
+    /// Forbidden by all evidence, if every representation that a reading permits is tried.
+    disputed: Forbidden,
 }
 
 impl Grades {
@@ -47,7 +50,19 @@ impl Grades {
         Some(Self {
             proven: forbidden_by(Grade::Proven),
             required: forbidden_by(Grade::RequiredByCts),
+            disputed: {
+                let mut rules = rules.clone();
+                if rules.blend.value() == BlendPrecision::DestinationCodes {
+                    rules.blend.set(BlendPrecision::UniformSteps);
+                }
+                forbidden(scene, limits, frame, &rules, sets)
+            },
         })
+    }
+
+    /// Returns the number of samples that violate.
+    pub(crate) fn violations(&self) -> u64 {
+        self.disputed.count
     }
 
     /// Returns the band of the whole frame.
@@ -66,14 +81,13 @@ impl Grades {
     }
 
     fn band(&self, forbids: impl Fn(&Forbidden) -> bool) -> Band {
-        let grade = if forbids(&self.proven) {
-            Grade::Proven
-        } else if forbids(&self.required) {
-            Grade::RequiredByCts
-        } else {
-            Grade::Disputed
-        };
-        grade.band()
+        let grades = [
+            (&self.proven, Grade::Proven),
+            (&self.required, Grade::RequiredByCts),
+            (&self.disputed, Grade::Disputed),
+        ];
+        let grade = grades.into_iter().find(|(forbidden, _)| forbids(forbidden));
+        grade.map_or(Band::Imprecise, |(_, grade)| grade.band())
     }
 }
 

@@ -5,7 +5,7 @@ use crate::frame_file::frame_file;
 use crate::grade::Grades;
 use crate::judgement_cache::{JudgementCache, judged_scene};
 use crate::line_gap::{gap_reason, note_gap, proven_line_gap};
-use crate::relation::{self, Differences};
+use crate::relation::{self, Differences, Equality};
 use crate::story;
 use etalon_case::{Case, Relation};
 use etalon_frame::{
@@ -61,8 +61,12 @@ impl Judge {
             && judged.record.verdict != Verdict::InternalError
         {
             let found = relation::check(relation, case, frames);
-            story::add_relation(&mut judged.record, case, relation, limits, (frames, &found));
-            note_differences(&mut judged.record, relation, limits, found);
+            if let Some(equality) = Equality::of_relation(relation, limits) {
+                if judged.record.verdict == Verdict::Open && found.compared > 0 {
+                    judged.record.verdict = Verdict::Pass;
+                }
+                note_differences(&mut judged.record, case, &equality, limits, (frames, found));
+            }
         }
         judged
     }
@@ -84,7 +88,7 @@ impl Judge {
             let (comparison, judgement) = best(scene, &judgements, frame, &sets)?;
             Ok(then(ComparedFrame {
                 index,
-                frame,
+                frames,
                 comparison,
                 judgement: &judgement,
                 sets: &sets,
@@ -107,24 +111,25 @@ impl Judge {
         let mut worst: Option<Band> = None;
         let mut first = None;
         let each = self.compare_each(number, case, limits, frames, |compared| {
-            let ComparedFrame {
-                index,
-                frame,
-                comparison,
-                judgement,
-                ..
-            } = compared;
-            let scene = judged_scene(case, index);
-            let judged = (frame, comparison.worst());
-            let gap = proven_line_gap(scene, limits, judged, &judgement.legal);
-            (comparison, gap)
+            let scene = judged_scene(case, compared.index);
+            let legal = &compared.judgement.legal;
+            let frame = &frames[compared.index];
+            let judged = (frame, compared.comparison.worst());
+            let gap = proven_line_gap(scene, limits, judged, legal);
+            let gap = gap.map(|gap| (Some(Band::Fail), gap.wrong));
+            let operands = relation::check_operands(frame, compared.index, legal);
+            let band = Equality::of_operands(limits).band;
+            let operands = (operands.differing > 0).then_some((Some(band), operands.wrong));
+            let own = (judged.1, compared.comparison.wrong);
+            // The first of the worst.
+            let all = [Some(own), gap, operands].into_iter().flatten();
+            all.rev().max_by_key(|(band, _)| *band)
         });
         for compared in each {
-            let (comparison, gap) = compared?;
-            let found = comparison.worst().max(gap.as_ref().map(|_| Band::Fail));
-            if found > worst {
-                worst = found;
-                let wrong = gap.map_or(comparison.wrong, |gap| gap.wrong);
+            if let Some((band, wrong)) = compared?
+                && band > worst
+            {
+                worst = band;
                 first = wrong.into_iter().next();
             }
         }
@@ -147,7 +152,8 @@ impl Judge {
 /// A frame of one of a case's scenes, compared with the judgement that it fits best.
 struct ComparedFrame<'a> {
     index: usize,
-    frame: &'a Frame,
+    /// The frames of all of the case's scenes.
+    frames: &'a [Frame],
     comparison: Comparison,
     judgement: &'a Judgement,
     sets: &'a Sets<'a>,
@@ -168,11 +174,12 @@ fn unjudged(case: &Case, adapter: &str, limits: &Limits, reason: Reason) -> Judg
 fn judge_scene(case: &Case, adapter: &str, limits: &Limits, compared: ComparedFrame<'_>) -> Judged {
     let ComparedFrame {
         index,
-        frame,
+        frames,
         mut comparison,
         judgement,
         sets,
     } = compared;
+    let frame = &frames[index];
     let mut record = Record::new(&case.id, adapter, Verdict::Pass);
     record.due_fail = is_due_to_fail(case, limits);
     let mut worst = comparison.worst();
@@ -225,9 +232,18 @@ fn judge_scene(case: &Case, adapter: &str, limits: &Limits, compared: ComparedFr
     if index == 0 {
         expected_values(case, frame, &judgement.legal, &mut record);
     }
+    if worst < Some(Band::Fail) {
+        let found = relation::check_operands(frame, index, &judgement.legal);
+        let equality = Equality::of_operands(limits);
+        note_differences(&mut record, case, &equality, limits, (frames, found));
+    }
     let mut file = None;
     if record.verdict.is_violation() || record.verdict == Verdict::Imprecise {
-        if let Some(wrong) = record.wrong.first().filter(|_| has_story) {
+        if let Some(wrong) = record
+            .wrong
+            .first()
+            .filter(|_| has_story && record.story.is_none())
+        {
             let rules = match wrong.band {
                 Band::Imprecise => Rules::yardstick(&judgement.limits),
                 _ => judgement.rules.clone(),
@@ -254,6 +270,9 @@ pub(crate) fn regrade(comparison: &mut Comparison, grades: &Grades) {
         }
     }
     comparison.wrong.sort_by_key(|w| Reverse(w.band));
+    let texels = &mut comparison.texels;
+    texels.imprecise += texels.wrong.saturating_sub(grades.violations());
+    texels.wrong = texels.wrong.min(grades.violations());
     for (index, counter) in comparison.counters.iter_mut().enumerate() {
         if counter.band == Some(Band::Fail) {
             counter.band = Some(grades.counter(index));
@@ -318,15 +337,16 @@ fn worse(first: Judged, second: Judged, case: &Case, index: usize) -> Judged {
     kept
 }
 
-/// Adds to a record the differences that a relation forbids.
-fn note_differences(record: &mut Record, relation: &Relation, limits: &Limits, found: Differences) {
-    let permission = Rules::invariance(limits, relation.invariance);
-    let Some(band) = permission.value() else {
-        return;
-    };
-    if record.verdict == Verdict::Open && found.compared > 0 {
-        record.verdict = Verdict::Pass;
-    }
+/// Adds to a record the differences that a specification forbids.
+fn note_differences(
+    record: &mut Record,
+    case: &Case,
+    equality: &Equality,
+    limits: &Limits,
+    (frames, found): (&[Frame], Differences),
+) {
+    let band = equality.band;
+    story::add_difference(record, case, equality, limits, (frames, &found));
     if found.differing == 0 {
         return;
     }
@@ -343,7 +363,7 @@ fn note_differences(record: &mut Record, relation: &Relation, limits: &Limits, f
     let difference = found.between.map(|pair| Reason::Difference {
         samples: found.differing,
         pair,
-        citation: permission.citation.to_owned(),
+        citation: equality.citation.to_owned(),
     });
     record.reasons.extend(difference);
     let room = MAX_WRONG_TEXELS.saturating_sub(record.wrong.len());

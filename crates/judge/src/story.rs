@@ -2,8 +2,8 @@
 //! them for records, `etalon explain` for any texel.
 
 use crate::judgement_cache::judged_scene;
-use crate::relation::{self, Differences};
-use etalon_case::{Case, Relation};
+use crate::relation::{self, Differences, Equality};
+use etalon_case::Case;
 use etalon_frame::{
     Band, Demand, Effect, Event, Frame, Limits, Origin, Ruling, SceneName, Side, Step, Story,
 };
@@ -45,28 +45,26 @@ pub fn story_of_relation(
         inside.then_some(())?;
     }
     let found = relation::check(&texel_relation, case, frames);
-    let band = Rules::invariance(limits, relation.invariance).value()?;
-    Some((
-        band,
-        of_differences(case, relation, limits, frames, &found)?,
-    ))
+    let equality = Equality::of_relation(relation, limits)?;
+    let story = of_differences(case, &equality, limits, frames, &found)?;
+    Some((equality.band, story))
 }
 
-/// Gives a record the story of the difference that a relation forbids, unless a sample of one frame is at
-/// least as wrong on its own.
-pub(crate) fn add_relation(
+/// Gives a record the story of a forbidden difference, unless a sample of one frame is at least as wrong on its
+/// own.
+pub(crate) fn add_difference(
     record: &mut Record,
     case: &Case,
-    relation: &Relation,
+    equality: &Equality,
     limits: &Limits,
     (frames, found): (&[Frame], &Differences),
 ) {
-    let Some(band) = Rules::invariance(limits, relation.invariance).value() else {
-        return;
-    };
-    let graver = record.wrong.first().is_none_or(|first| first.band < band);
+    let graver = record
+        .wrong
+        .first()
+        .is_none_or(|first| first.band < equality.band);
     if (record.story.is_none() || graver)
-        && let Some(story) = of_differences(case, relation, limits, frames, found)
+        && let Some(story) = of_differences(case, equality, limits, frames, found)
     {
         record.story = Some(story);
     }
@@ -80,20 +78,19 @@ fn scene_name(case: &Case, index: usize) -> SceneName {
 /// Returns the story of the first difference, with the operations on both sides.
 fn of_differences(
     case: &Case,
-    relation: &Relation,
+    equality: &Equality,
     limits: &Limits,
     frames: &[Frame],
     found: &Differences,
 ) -> Option<Story> {
     let (first, compared) = (found.wrong.first()?, found.sides.as_ref()?);
-    let permission = Rules::invariance(limits, relation.invariance);
     let rules = Rules::of(limits);
     let sides = compared.each_ref().map(|side| match &side.attachment {
         Some(name) => Side::Attachment(name.clone()),
         None => Side::Scene(scene_name(case, side.scene)),
     });
     let samples = compared[0].samples;
-    let invariance = Step::Relation(relation.invariance.name().to_owned());
+    let invariance = Step::Relation(equality.name.to_owned());
     let mut story = Story {
         ruling: Some(Ruling {
             variant: None,
@@ -103,11 +100,11 @@ fn of_differences(
                 sides: sides.clone(),
                 texel: compared[1].at,
                 channels: first.channels.clone(),
-                citation: permission.citation.to_owned(),
+                citation: equality.citation.to_owned(),
             },
             rules: rules.text.to_string(),
             after: Vec::new(),
-            band: permission.value(),
+            band: Some(equality.band),
         }),
         events: vec![Event {
             scene: None,
@@ -120,16 +117,16 @@ fn of_differences(
     };
     let mut seen = Vec::new();
     for side in compared {
-        if seen.contains(&(side.scene, side.at)) {
+        if seen.contains(&(side.scene, side.at, side.sample)) {
             continue;
         }
-        seen.push((side.scene, side.at));
+        seen.push((side.scene, side.at, side.sample));
         let position = Sample {
             size: side.size,
             samples,
             x: side.at[0],
             y: side.at[1],
-            sample: first.sample,
+            sample: side.sample,
         };
         let scene = judged_scene(case, side.scene);
         let alone = explain(scene, limits, &rules, position, frames.get(side.scene));

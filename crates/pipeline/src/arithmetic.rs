@@ -62,6 +62,17 @@ pub trait Arithmetic {
     /// Returns a source, destination or constant as it enters a blend into this encoding: clamped to the
     /// encoding's range, at the precision of blending.
     fn blend_operand(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Real;
+    /// Returns a source's alpha as it weighs a channel whose encoding is not that of alpha, from the exact alpha and
+    /// from the operand that enters the blend of alpha.
+    #[inline(always)]
+    fn blend_weight(
+        &mut self,
+        _encodings: [ChannelEncoding; 2],
+        _exact: Self::Real,
+        operand: Self::Real,
+    ) -> Self::Real {
+        operand
+    }
     /// Returns a blend factor of the form `1 - value`.
     fn blend_complement(&mut self, encoding: ChannelEncoding, value: Self::Real) -> Self::Real;
     /// Returns a factor clamped to the encoding's range, ready to multiply by.
@@ -87,6 +98,17 @@ pub trait Arithmetic {
         b: Self::Real,
         subtract: bool,
     ) -> Self::Real;
+    /// Returns the values of a blend that weighs source and destination by a factor and its complement: `in_order`
+    /// by the equation, `by_difference` from one operand and the other's difference to it.
+    #[inline(always)]
+    fn blend_mix(
+        &mut self,
+        _encoding: ChannelEncoding,
+        in_order: Self::Real,
+        _by_difference: impl FnOnce(&mut Self) -> Self::Real,
+    ) -> Self::Real {
+        in_order
+    }
     /// Returns a colour divided by its alpha for advanced blending; 0 if alpha is 0.
     fn blend_quotient(
         &mut self,

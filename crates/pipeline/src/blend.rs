@@ -48,9 +48,18 @@ pub fn blend<A: Arithmetic>(
         }
     }
     // A loop, because closures over arrays are not always inlined.
+    let alphas = [operands.src[3], operands.src1[3], operands.constant[3]];
     let mut result = operands.src;
     for (c, encoding) in encodings.into_iter().enumerate() {
         let component = if c == 3 { &state.alpha } else { &state.color };
+        if c < 3 && encoding != encodings[3] {
+            let pair = [encoding, encodings[3]];
+            operands.src[3] = a.blend_weight(pair, input.src[3], alphas[0]);
+            operands.src1[3] = a.blend_weight(pair, input.src1[3], alphas[1]);
+            operands.constant[3] = a.blend_weight(pair, input.constant[3], alphas[2]);
+        } else {
+            [operands.src[3], operands.src1[3], operands.constant[3]] = alphas;
+        }
         result[c] = channel(a, component, encoding, &operands, c);
     }
     result
@@ -84,10 +93,40 @@ fn channel<A: Arithmetic>(
             match component.operation {
                 BlendOperation::Subtract => a.blend_sum(encoding, s, d, true),
                 BlendOperation::ReverseSubtract => a.blend_sum(encoding, d, s, true),
-                _ => a.blend_sum(encoding, s, d, false),
+                _ => {
+                    let sum = a.blend_sum(encoding, s, d, false);
+                    let factors = [component.src_factor, component.dst_factor];
+                    let (weight, near, far) = match factors.map(complement) {
+                        [_, Some(of)] if of == factors[0] => (factors[0], src, dst),
+                        [Some(of), _] if of == factors[1] => (factors[1], dst, src),
+                        _ => return sum,
+                    };
+                    a.blend_mix(encoding, sum, |a| {
+                        let weight = factor(a, weight, encoding, input, c);
+                        let difference = a.blend_sum(encoding, near, far, true);
+                        let weighed = side(a, encoding, difference, weight);
+                        a.blend_sum(encoding, far, weighed, false)
+                    })
+                }
             }
         }
     }
+}
+
+/// Returns the factor that this one is the complement of, if it is one.
+#[inline(always)]
+fn complement(factor: BlendFactor) -> Option<BlendFactor> {
+    Some(match factor {
+        BlendFactor::OneMinusSrc => BlendFactor::Src,
+        BlendFactor::OneMinusSrcAlpha => BlendFactor::SrcAlpha,
+        BlendFactor::OneMinusDst => BlendFactor::Dst,
+        BlendFactor::OneMinusDstAlpha => BlendFactor::DstAlpha,
+        BlendFactor::OneMinusSrc1 => BlendFactor::Src1,
+        BlendFactor::OneMinusSrc1Alpha => BlendFactor::Src1Alpha,
+        BlendFactor::OneMinusConstant => BlendFactor::Constant,
+        BlendFactor::OneMinusConstantAlpha => BlendFactor::ConstantAlpha,
+        _ => return None,
+    })
 }
 
 #[inline(always)]

@@ -170,6 +170,8 @@ pub enum ComparedPair {
     Variant(String),
     /// Two attachments of one frame.
     Attachments(String, String),
+    /// Samples of one frame whose colours a draw computes from the same source and the same destination.
+    Operands,
 }
 
 /// The thing that is new for each of several drawings.

@@ -59,7 +59,6 @@ impl Walk<'_> {
                     let cell = &mut world.cells[resolve.to];
                     if let Some(codes) = depth {
                         cell.set_channel(0, *codes);
-                        cell.origin = None;
                     }
                     cell.stencil = stencil.unwrap_or(cell.stencil);
                     world

@@ -33,6 +33,8 @@ pub struct Judging<'r> {
     /// True if operands of blends into signed formats are clamped to -1 to 1, false if they are clamped to 0
     /// to 1. If `None`, the rules decide, or both are possible.
     pub(crate) signed_operands: Option<bool>,
+    /// The number of steps between 0 and 1 beyond those between codes, if blends are computed in such steps.
+    pub(crate) further_steps: Option<u32>,
 }
 
 impl<'r> Judging<'r> {
@@ -42,6 +44,7 @@ impl<'r> Judging<'r> {
             rules,
             advanced: false,
             signed_operands: None,
+            further_steps: None,
         }
     }
 
@@ -51,6 +54,7 @@ impl<'r> Judging<'r> {
             rules,
             advanced: true,
             signed_operands: None,
+            further_steps: None,
         }
     }
 
@@ -214,18 +218,48 @@ impl<'r> Judging<'r> {
         })
     }
 
-    /// Returns the number of steps between 0 and 1 in fixed-point arithmetic of the least precision, a power
-    /// of two.
+    /// Returns the number of steps between 0 and 1 in fixed-point arithmetic: a power of two for the least
+    /// precision.
     #[inline]
     fn steps(&self, encoding: ChannelEncoding) -> f64 {
+        if let Some(further) = self.further_steps {
+            let codes = encoding.max_order() as f64;
+            return codes + f64::from(further).min(3.0 * codes);
+        }
         self.bits(encoding)
             .map_or(1.0, |bits| (1_u64 << bits) as f64)
+    }
+
+    /// Returns the numbers of further steps between 0 and 1 with which a blend into these channels may be computed.
+    pub(crate) fn uniform_steps(&self, encodings: &[ChannelEncoding]) -> std::ops::Range<u32> {
+        let counts = encodings
+            .iter()
+            .filter(|encoding| has_few_codes(**encoding));
+        let most = counts.map(|encoding| encoding.max_order()).max();
+        match most {
+            Some(codes) if self.blend_precision() == BlendPrecision::UniformSteps => {
+                0..3 * codes as u32 + 1
+            }
+            _ => 0..0,
+        }
+    }
+
+    /// Returns the relative error of one step of a blend in floats.
+    #[inline]
+    fn blend_error(&self, encoding: ChannelEncoding) -> f64 {
+        if encoding == ChannelEncoding::Float32 && !self.advanced {
+            self.rules.float32_blend_error.value()
+        } else {
+            self.error()
+        }
     }
 
     /// Returns the floats that one step of a blend may compute for an exact result.
     #[inline]
     fn float_step(&self, encoding: ChannelEncoding, exact: Interval) -> Interval {
-        let computed = exact.widen_relative(self.error()).may_underflow();
+        let computed = exact
+            .widen_relative(self.blend_error(encoding))
+            .may_underflow();
         self.float_outward(encoding, exact, computed)
     }
 
@@ -326,7 +360,12 @@ impl<'r> Judging<'r> {
             BlendPrecision::AnySteps if is_normalized => {
                 return self.within_a_code(encoding, value);
             }
-            BlendPrecision::AnySteps | BlendPrecision::DestinationCodes => {}
+            BlendPrecision::UniformSteps if is_normalized && !has_few_codes(encoding) => {
+                return self.within_a_code(encoding, value);
+            }
+            BlendPrecision::AnySteps
+            | BlendPrecision::UniformSteps
+            | BlendPrecision::DestinationCodes => {}
         }
         match encoding {
             ChannelEncoding::Float16 | ChannelEncoding::Float32 if self.advanced => to_half(value),
@@ -477,6 +516,11 @@ impl<'r> Judging<'r> {
     }
 }
 
+/// Returns true for the channels in which every number of even steps is tried.
+fn has_few_codes(encoding: ChannelEncoding) -> bool {
+    matches!(encoding, ChannelEncoding::Unorm(bits) | ChannelEncoding::Snorm(bits) if bits <= 8)
+}
+
 /// The maximum error of a square root in units in the last place: it may be one over an inverse root.
 const ROOT_UNITS: f64 = 5.0;
 
@@ -624,9 +668,29 @@ impl Arithmetic for Judging<'_> {
 
     fn blend_operand(&mut self, encoding: ChannelEncoding, value: Range) -> Range {
         let clamped = value.map(|v| self.blend_clamp(encoding, v));
+        let float = self.float_outward(encoding, clamped.float, clamped.float);
+        let rounded = self.on_grids(encoding, clamped);
         Range {
-            float: self.float_outward(encoding, clamped.float, clamped.float),
-            ..self.on_grids(encoding, clamped)
+            float: match self.blend_precision() {
+                BlendPrecision::UniformSteps if has_few_codes(encoding) => {
+                    float.hull(rounded.codes)
+                }
+                _ => float,
+            },
+            ..rounded
+        }
+    }
+
+    fn blend_weight(
+        &mut self,
+        [to, alpha]: [ChannelEncoding; 2],
+        exact: Range,
+        operand: Range,
+    ) -> Range {
+        if self.bits(to) > self.bits(alpha) && self.rules.weights_by_channel.value() {
+            self.blend_operand(to, exact)
+        } else {
+            operand
         }
     }
 
@@ -692,13 +756,14 @@ impl Arithmetic for Judging<'_> {
         let float = if a.float.is(0.0) || b.float.is(0.0) {
             sum.float
         } else {
-            // The error is relative to the sides: their sum can be a small difference. An infinite side adds
-            // no error.
+            // The error is relative to the sides and their sum, which can be a small difference. An infinite
+            // side adds no error.
             let greatest = f64::from(f32::MAX);
-            let largest = [a.float.low, a.float.high, b.float.low, b.float.high]
+            let largest = [a.float, b.float, sum.float]
                 .into_iter()
+                .flat_map(|v| [v.low, v.high])
                 .fold(0.0, |m: f64, v| m.max(v.abs().min(greatest)));
-            let computed = sum.float.widen(largest * self.error());
+            let computed = sum.float.widen(largest * self.blend_error(encoding));
             self.float_outward(encoding, sum.float, computed)
         };
         let rounded = match encoding {
@@ -713,6 +778,19 @@ impl Arithmetic for Judging<'_> {
             float: float.may_overflow(),
             ..rounded
         }
+    }
+
+    /// Differences of normalized values are in range, so that each order has the same errors.
+    fn blend_mix(
+        &mut self,
+        encoding: ChannelEncoding,
+        in_order: Range,
+        by_difference: impl FnOnce(&mut Self) -> Range,
+    ) -> Range {
+        if !encoding.is_float() || self.rules.blends_in_order.value() {
+            return in_order;
+        }
+        in_order.zip(by_difference(self), Interval::hull)
     }
 
     /// An exact 0 and a divisor of 1 leave the quotient exact. A nonzero colour with a possibly zero alpha is
@@ -874,6 +952,29 @@ mod tests {
         assert_eq!(a.blend_complement(e, value).fixed, steps(27.0, 28.0));
         let one = a.constant(1.0);
         assert_eq!(a.blend_operand(e, one).fixed, Interval::exact(1.0));
+    }
+
+    /// 1/3 of 300 steps is 100; half of a step more lies between 100 and 101.
+    #[test]
+    fn a_blend_in_any_even_steps_is_computed_in_these_alone() {
+        let mut rules = Rules::of(&crate::test_limits::limits(Api::Vulkan));
+        let e = ChannelEncoding::Unorm(8);
+        assert!(Judging::new(&rules).uniform_steps(&[e]).is_empty());
+        rules.blend.set(BlendPrecision::UniformSteps);
+        let mut a = Judging::new(&rules);
+        assert_eq!(a.uniform_steps(&[e; 4]), 0..766);
+        assert!(a.uniform_steps(&[ChannelEncoding::Unorm(10)]).is_empty());
+        a.further_steps = Some(45);
+        let value = a.constant(100.5 / 300.0);
+        let value = a.blend_operand(e, value);
+        assert_eq!(value.fixed, Interval::between(100.0 / 300.0, 101.0 / 300.0));
+        // A channel with fewer codes has at most four times as many steps.
+        let e = ChannelEncoding::Unorm(5);
+        let value = a.constant(0.5);
+        assert_eq!(
+            a.blend_operand(e, value).fixed,
+            Interval::between(38.0 / 76.0, 38.0 / 76.0)
+        );
     }
 
     #[test]

@@ -169,9 +169,6 @@ impl Walk<'_> {
             for (channel, codes) in &filling.channels {
                 cell.set_channel(*channel, *codes);
             }
-            if !filling.channels.is_empty() {
-                cell.origin = None;
-            }
             if let Some((value, mask)) = filling.stencil {
                 cell.stencil = cell.stencil & !mask | value & mask;
             }

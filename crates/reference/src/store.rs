@@ -14,6 +14,8 @@ use etalon_frame::{
 use etalon_pipeline::shader::FragmentOutput;
 use etalon_pipeline::{Arithmetic, BlendInput, advanced_blend, blend, takes_logic};
 use etalon_scene::AdvancedBlend;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::num::NonZeroU64;
 
 impl Walk<'_> {
     /// Stores the depth of a fragment that passed all tests.
@@ -177,6 +179,7 @@ impl Walk<'_> {
                     None => judging.decode(per_channel[c], stored[c]),
                 })
             };
+            let mut in_steps: Vec<[Range; 4]> = Vec::new();
             let value = match (&target.blend, target.advanced) {
                 (None, None) => color,
                 (None, Some(mode)) => {
@@ -191,11 +194,22 @@ impl Walk<'_> {
                     };
                     let value = blend(&mut judging, state, per_channel, &input);
                     self.note_blend(place, state, &input, value, notes);
+                    for further in judging.uniform_steps(encodings) {
+                        let mut judging = judging;
+                        judging.further_steps = Some(further);
+                        let value = blend(&mut judging, state, per_channel, &input);
+                        in_steps.push(value.map(|v| Range::same(v.fixed)));
+                    }
                     value
                 }
             };
             let has_logic = self.has_logic(attachment.format, world);
             let logic = place.draw.logic.filter(|_| has_logic);
+            let keeps = encodings.len() as u32
+                > (target.write_mask & ((1 << encodings.len()) - 1)).count_ones();
+            let reads =
+                keeps || logic.is_some() || target.blend.is_some() || target.advanced.is_some();
+            let origin = color_origin(place, location, (world, *index), [color, second], reads);
             if let Some(operation) = logic {
                 let before = world.cells[*index];
                 notes.add(
@@ -209,7 +223,10 @@ impl Walk<'_> {
             }
             for (c, encoding) in encodings.iter().enumerate() {
                 if target.write_mask & (1 << c) != 0 {
-                    let codes = self.store_color(&mut judging, *encoding, value[c], world);
+                    let ways = std::iter::once(&value).chain(&in_steps);
+                    let codes =
+                        ways.map(|v| self.store_color(&mut judging, *encoding, v[c], world));
+                    let codes = codes.reduce(CodeInterval::hull).unwrap_or(stored[c]);
                     // On sRGB attachments the operation works on the 8-bit codes.
                     let bits = match encoding {
                         ChannelEncoding::Srgb8 => ChannelEncoding::Unorm(8),
@@ -222,10 +239,43 @@ impl Walk<'_> {
                     world.cells[*index].set_channel(c, codes);
                 }
             }
-            let cell = world.cells[*index];
+            let cell = &mut world.cells[*index];
+            cell.origin = origin.filter(|_| !cell.is_exact());
+            let cell = *cell;
             self.note_store(place, *index, target.write_mask, cell, notes);
         }
     }
+}
+
+/// Returns the origin of the colours that a fragment stores in an attachment: the draw and the operands of its
+/// arithmetic, if all of them are known exactly. `reads` tells whether the destination is one of them. Coverage that
+/// is still to be decided leaves the origin unknown, so that no two worlds differ in it alone.
+fn color_origin(
+    place: &FragmentPlace<'_>,
+    location: usize,
+    (world, attachment): (&World, usize),
+    sources: [[Range; 4]; 2],
+    reads: bool,
+) -> Option<NonZeroU64> {
+    let is_exact = |value: &Range| value.is_same() && value.float.low == value.float.high;
+    if !world.decisions.is_empty() || !sources.as_flattened().iter().all(is_exact) {
+        return None;
+    }
+    let before = reads.then_some(world.cells[attachment]);
+    if before.is_some_and(|cell| !cell.is_determined()) {
+        return None;
+    }
+    let mut hasher = DefaultHasher::new();
+    let values = sources
+        .as_flattened()
+        .iter()
+        .map(|value| value.float.low.to_bits());
+    (place.draw_id, location).hash(&mut hasher);
+    values.for_each(|bits| bits.hash(&mut hasher));
+    before
+        .map(|cell| (cell.codes, cell.origin))
+        .hash(&mut hasher);
+    NonZeroU64::new(hasher.finish())
 }
 
 /// Returns the values of a destination's missing channels in blending: colours 0, alpha 1 (Vulkan, Blending;

@@ -27,6 +27,8 @@ use smallvec::SmallVec;
 use std::borrow::Cow;
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::num::NonZeroU64;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -506,7 +508,39 @@ impl<'a> Walk<'a> {
             }
             set.worlds.push(WorldBox { channels });
         }
+        if let ([world], [values]) = (worlds, &set.worlds[..]) {
+            set.operands = self.operands(world, at, values);
+        }
         set
+    }
+
+    /// Returns the number of the operands that the colours of a sample come from, if they are known and the colours
+    /// are read back as they are stored.
+    fn operands(&self, world: &World, at: Sample, read: &WorldBox) -> Option<NonZeroU64> {
+        let mut hasher = DefaultHasher::new();
+        let mut has_origin = false;
+        let mut read = read.channels.iter();
+        for index in &self.scene.read {
+            let attachment = &self.scene.attachments[*index];
+            if (attachment.size, attachment.samples) != (at.size, at.samples) {
+                continue;
+            }
+            let cell = &world.cells[*index];
+            for aspect in attachment.format.aspects() {
+                if *aspect != Aspect::Color {
+                    read.next();
+                    continue;
+                }
+                let channels = attachment.format.color_channels().len();
+                let as_stored = (0..channels).all(|c| read.next() == Some(&cell.channel(c)));
+                if !as_stored || !cell.is_determined() {
+                    return None;
+                }
+                has_origin |= cell.origin.is_some();
+                (index, cell.codes, cell.origin).hash(&mut hasher);
+            }
+        }
+        NonZeroU64::new(hasher.finish()).filter(|_| has_origin)
     }
 
     /// Returns a colour as it is read back.

@@ -17,7 +17,8 @@ pub(crate) struct SampleContents {
     pub(crate) codes: [[i32; 2]; 4],
     /// Stencil.
     pub(crate) stencil: u8,
-    /// The geometry that the depth comes from, if that determines it: see [`crate::rules::SameDepth`].
+    /// The geometry that the depth comes from, if that determines it: see [`crate::rules::SameDepth`]. For a colour
+    /// attachment, the number of everything that its codes are computed from, if that is known exactly.
     pub(crate) origin: Option<NonZeroU64>,
 }
 
@@ -35,8 +36,20 @@ impl SampleContents {
         [0, 1, 2, 3].map(|c| self.channel(c))
     }
 
+    /// Returns true if the colours are the same wherever they have this origin.
+    pub(crate) fn is_determined(&self) -> bool {
+        self.origin.is_some() || self.is_exact()
+    }
+
+    /// Returns true if every channel has one code.
+    pub(crate) fn is_exact(&self) -> bool {
+        self.codes.iter().all(|[low, high]| low == high)
+    }
+
+    /// Replaces the codes of a channel. The origin of the contents is no longer known.
     #[inline]
     pub(crate) fn set_channel(&mut self, c: usize, codes: CodeInterval) {
+        self.origin = None;
         self.codes[c] = [codes.low, codes.high].map(|order| {
             debug_assert!(i32::try_from(order).is_ok(), "an order of {order}");
             order as i32

@@ -5,6 +5,25 @@ use etalon_frame::{Api, Band, Limits};
 use etalon_scene::Invariance;
 
 impl Rules {
+    /// Returns the band of different colours in samples of one frame that a draw computes from the same source and the
+    /// same destination: Fail if the specification requires them to be equal, Imprecise if it is silent.
+    pub fn equal_operands(limits: &Limits) -> Permission<Band> {
+        match limits.api {
+            Api::Vulkan => permit(
+                Band::Fail,
+                "Vulkan: Invariance, Rule 3: the arithmetic of each per-fragment operation is invariant",
+            ),
+            Api::OpenGl | Api::OpenGlEs => permit(
+                Band::Fail,
+                "OpenGL: Appendix A, Rule 3: the arithmetic of each per-fragment operation is invariant",
+            ),
+            Api::WebGpu => permit(
+                Band::Imprecise,
+                "WebGPU: silent on invariance; Vulkan and OpenGL both require it",
+            ),
+        }
+    }
+
     /// Returns the band of a difference between two pictures that differ only in this change: Fail if the
     /// specification requires them to be equal, Imprecise if it only suggests equality, or is silent while
     /// the other specifications require it; otherwise `None`.

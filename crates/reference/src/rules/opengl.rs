@@ -134,6 +134,35 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 2.3.5.2 Conversion from Floating-Point to Normalized Fixed-Point: one of the two closest values, an integer exactly",
             ]),
         ),
+        float32_blend_error: if old {
+            narrowed(
+                f64::from(f32::EPSILON),
+                1e-5,
+                Grade::Disputed,
+                "OpenGL 3.3: 4.1.7 Blending: no precision is named; OpenGL 4.2: no lower than that used to represent destination components",
+            )
+        } else {
+            permit(
+                f64::from(f32::EPSILON),
+                text.cite([
+                    "",
+                    "OpenGL 4.5: 17.3.6.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components",
+                    "OpenGL 4.6: 17.3.6.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components",
+                ]),
+            )
+        },
+        weights_by_channel: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "OpenGL: 17.3.6.1 Blend Equation (3.3: 4.1.7): precision no lower than that used to represent destination components (read as: of the component that is computed)",
+        ),
+        blends_in_order: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "OpenGL: 17.3.6.1 Blend Equation (3.3: 4.1.7): equations of products and their sum (read as the order of computing)",
+        ),
         advanced_blend: permit(
             BlendPrecision::DestinationCodes,
             "OpenGL with KHR_blend_equation_advanced: precision and dynamic range no lower than the smaller of the destination's and that of 16-bit floats",
@@ -343,6 +372,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 14.5.1 Basic Line Segment Rasterization: a fragment may deviate by one unit from that of the diamond-exit rule, and one may be missing (read as: at the ends, and beside slanted lines)",
             ]),
         ),
+        lines_cover_their_shape: permit(
+            false,
+            "OpenGL: 14.5.1 Basic Line Segment Rasterization (3.3: 3.5.1): a fragment may deviate by one unit from that of the diamond-exit rule",
+        ),
         lines_lack: permit(
             Some(1),
             text.cite([
@@ -372,10 +405,6 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             EarlyUpdates::Each,
             Grade::Disputed,
             text.cite([
-        lines_cover_their_shape: permit(
-            false,
-            "OpenGL: 14.5.1 Basic Line Segment Rasterization (3.3: 3.5.1): a fragment may deviate by one unit from that of the diamond-exit rule",
-        ),
                 "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: depth and stencil are updated before the shader runs, though GLSL has discard update nothing",
                 "OpenGL 4.5: 14.9.4 The Early Fragment Test Qualifier: depth and stencil are updated before the shader runs, though GLSL has discard update nothing",
                 "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: depth and stencil are updated before the shader runs, though GLSL has discard update nothing",
@@ -468,6 +497,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 17.3.5 Occlusion Queries: the samples whose coverage bit is set, or at the implementation's discretion SAMPLES if any is",
             ]),
         ),
+        clears_count_nothing: permit(
+            true,
+            text.cite([
+                "OpenGL 3.3: 4.1.6 Occlusion Queries: the fragments that pass the depth test; 4.2.3, 4.3.2: clears and blits make none",
+                "OpenGL 4.5: 17.3.5 Occlusion Queries: the fragments still processed after the depth test; 17.4.3, 18.3.1: clears and blits make none",
+                "OpenGL 4.6: 17.3.5 Occlusion Queries: the fragments still processed after the depth test; 17.4.3, 18.3.1: clears and blits make none",
+            ]),
+        ),
         operations_count_nothing: permit(
             true,
             text.cite([
@@ -501,14 +538,6 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             ]),
         ),
         half_overflows: narrowed(
-        clears_count_nothing: permit(
-            true,
-            text.cite([
-                "OpenGL 3.3: 4.1.6 Occlusion Queries: the fragments that pass the depth test; 4.2.3, 4.3.2: clears and blits make none",
-                "OpenGL 4.5: 17.3.5 Occlusion Queries: the fragments still processed after the depth test; 17.4.3, 18.3.1: clears and blits make none",
-                "OpenGL 4.6: 17.3.5 Occlusion Queries: the fragments still processed after the depth test; 17.4.3, 18.3.1: clears and blits make none",
-            ]),
-        ),
             true,
             false,
             Grade::Disputed,

@@ -112,6 +112,26 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: 2.3.5.2 Conversion from Floating-Point to Normalized Fixed-Point: one of the two closest values, an integer exactly",
             ]),
         ),
+        float32_blend_error: permit(
+            f64::from(f32::EPSILON),
+            text.cite([
+                "OpenGL ES 3.0: 4.1.7.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components",
+                "OpenGL ES 3.1: 15.1.5.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components",
+                "OpenGL ES 3.2: 15.1.5.1 Blend Equation: precision and dynamic range no lower than that used to represent destination components",
+            ]),
+        ),
+        weights_by_channel: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "OpenGL ES: 15.1.5.1 Blend Equation (3.0: 4.1.7.1): precision no lower than that used to represent destination components (read as: of the component that is computed)",
+        ),
+        blends_in_order: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "OpenGL ES: 15.1.5.1 Blend Equation (3.0: 4.1.7.1): equations of products and their sum (read as the order of computing)",
+        ),
         advanced_blend: permit(
             BlendPrecision::DestinationCodes,
             text.cite([
@@ -295,6 +315,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: 13.6.1 Basic Line Segment Rasterization: a fragment may deviate by one unit from that of the diamond-exit rule, and one may be missing (read as: at the ends, and beside slanted lines)",
             ]),
         ),
+        lines_cover_their_shape: permit(
+            false,
+            "OpenGL ES: 13.6.1 Basic Line Segment Rasterization (3.0: 3.5.1, 3.1: 13.4.1): a fragment may deviate by one unit from that of the diamond-exit rule",
+        ),
         lines_lack: permit(
             Some(1),
             text.cite([
@@ -315,10 +339,6 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "OpenGL ES 3.0: has no polygon modes",
             "OpenGL ES 3.1: has no polygon modes",
             "OpenGL ES 3.2: has no polygon modes",
-        lines_cover_their_shape: permit(
-            false,
-            "OpenGL ES: 13.6.1 Basic Line Segment Rasterization (3.0: 3.5.1, 3.1: 13.4.1): a fragment may deviate by one unit from that of the diamond-exit rule",
-        ),
         ])),
         early_updates: narrowed(
             EarlyUpdates::Happen,
@@ -408,6 +428,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: 15.1.4 Occlusion Queries: boolean queries only; OpenGL: the samples that pass, or SAMPLES if any does",
             ]),
         ),
+        clears_count_nothing: permit(
+            true,
+            text.cite([
+                "OpenGL ES 3.0: 4.1.6 Occlusion Queries: the fragments or samples that pass the depth test; 4.2.3, 4.3.3: clears and blits make none",
+                "OpenGL ES 3.1: 15.1.4 Occlusion Queries: the fragments or samples that pass the depth test; 15.2.3, 16.2.1: clears and blits make none",
+                "OpenGL ES 3.2: 15.1.4 Occlusion Queries: the fragments or samples that pass the depth test; 15.2.3, 16.2.1: clears and blits make none",
+            ]),
+        ),
         operations_count_nothing: permit(
             true,
             text.cite([
@@ -430,14 +458,6 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.0: silent on the precision of filter weights; Vulkan: at least 4 bits",
                 "OpenGL ES 3.1: silent on the precision of filter weights; Vulkan: at least 4 bits",
                 "OpenGL ES 3.2: silent on the precision of filter weights; Vulkan: at least 4 bits",
-            ]),
-        ),
-        clears_count_nothing: permit(
-            true,
-            text.cite([
-                "OpenGL ES 3.0: 4.1.6 Occlusion Queries: the fragments or samples that pass the depth test; 4.2.3, 4.3.3: clears and blits make none",
-                "OpenGL ES 3.1: 15.1.4 Occlusion Queries: the fragments or samples that pass the depth test; 15.2.3, 16.2.1: clears and blits make none",
-                "OpenGL ES 3.2: 15.1.4 Occlusion Queries: the fragments or samples that pass the depth test; 15.2.3, 16.2.1: clears and blits make none",
             ]),
         ),
         filters_to_codes: permit(

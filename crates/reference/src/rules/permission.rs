@@ -135,6 +135,10 @@ pub enum BlendPrecision {
     /// Like `DestinationCodes`; into normalized formats, every operand and product may also be off by less than one
     /// code by itself. 0 and ±1 are exact, and so are sums.
     AnySteps,
+    /// Like `DestinationCodes`, and in channels of at most 8 bits with any number of even steps between 0 and 1, from
+    /// that of the codes to four times as many, or with operands in codes and floats after that; wider channels like
+    /// `AnySteps`. It takes hundreds of blends, so only frames that violate `DestinationCodes` are judged by it.
+    UniformSteps,
     /// Blending is computed in 32-bit floating-point.
     Float32,
 }
@@ -481,6 +485,14 @@ rules! {
     store: Rounding,
     /// The precision of blending.
     blend: BlendPrecision,
+    /// Relative error of each step of a blend into 32-bit floats, advanced ones aside.
+    float32_blend_error: f64,
+    /// True if a source alpha that weighs another channel is rounded to that channel's precision; otherwise it may be
+    /// rounded to alpha's own.
+    weights_by_channel: bool,
+    /// True if a blend into floats that weighs source and destination by a factor and its complement is computed as
+    /// the equation is written; otherwise it may be computed from their difference.
+    blends_in_order: bool,
     /// The precision of advanced blending, for which 16-bit floats suffice.
     advanced_blend: BlendPrecision,
     /// Clamping of operands of blends into signed normalized formats.
@@ -533,6 +545,9 @@ rules! {
     clips_lines_by_distance: bool,
     /// True if a line along an axis covers the texels that it runs through; otherwise it may miss any.
     lines_cover_texels: bool,
+    /// True if a line covers exactly the samples in its rectangle or its parallelogram; otherwise it may cover any
+    /// near it.
+    lines_cover_their_shape: bool,
     /// The number of fragments that a line may lack, compared with the diamond-exit rule; `None` if no
     /// specification counts fragments.
     lines_lack: Option<usize>,
@@ -545,9 +560,6 @@ rules! {
     early_updates: EarlyUpdates,
     /// Updates of depth and stencil by samples that alpha to coverage removes after forced early tests.
     early_coverage: EarlyUpdates,
-    /// True if a line covers exactly the samples in its rectangle or its parallelogram; otherwise it may cover any
-    /// near it.
-    lines_cover_their_shape: bool,
     /// Updates of depth and stencil by samples that the shader's sample mask removes after forced early
     /// tests.
     early_mask: EarlyUpdates,

@@ -100,6 +100,22 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "Vulkan: Fundamentals, Conversion from Floating-Point to Normalized Fixed-Point: one of \
              the two closest values, an integer exactly",
         ),
+        float32_blend_error: permit(
+            f64::from(f32::EPSILON),
+            "Vulkan: Blending: precision and dynamic range no lower than that used to represent destination components",
+        ),
+        weights_by_channel: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "Vulkan: Blending: precision no lower than that used to represent destination components (read as: of the component that is computed)",
+        ),
+        blends_in_order: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "Vulkan: Blend Factors, Blend Operations: equations of products and their sum (read as the order of computing)",
+        ),
         advanced_blend: permit(
             BlendPrecision::DestinationCodes,
             "Vulkan: Blending: advanced operations with precision and dynamic range no lower than the \
@@ -234,6 +250,20 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "Vulkan: Bresenham Line Segment Rasterization, which lines that are not strict may follow: a fragment may deviate by one unit from that of the diamond-exit rule, and one may be missing (read as: at the ends, and beside slanted lines)",
             )
         },
+        lines_cover_their_shape: if limits
+            .properties
+            .contains(&Property::LinesAreParallelograms)
+        {
+            permit(
+                true,
+                "Vulkan: Basic Line Segment Rasterization: with strictLines, or nonStrictSinglePixelWideLinesUseParallelogram, coverage bits of samples in the rectangle or parallelogram are 1, others are 0",
+            )
+        } else {
+            permit(
+                false,
+                "Vulkan: Bresenham Line Segment Rasterization, which lines that are not strict may follow: a fragment may deviate by one unit from that of the diamond-exit rule",
+            )
+        },
         lines_lack: permit(
             Some(1),
             "Vulkan: Bresenham Line Segment Rasterization: the number of fragments differs by at most one from that of the diamond-exit rule; rectangles and parallelograms have one in each column",
@@ -250,20 +280,6 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             happens("")
         } else {
             narrowed(
-        lines_cover_their_shape: if limits
-            .properties
-            .contains(&Property::LinesAreParallelograms)
-        {
-            permit(
-                true,
-                "Vulkan: Basic Line Segment Rasterization: with strictLines, or nonStrictSinglePixelWideLinesUseParallelogram, coverage bits of samples in the rectangle or parallelogram are 1, others are 0",
-            )
-        } else {
-            permit(
-                false,
-                "Vulkan: Bresenham Line Segment Rasterization, which lines that are not strict may follow: a fragment may deviate by one unit from that of the diamond-exit rule",
-            )
-        },
                 EarlyUpdates::Happen,
                 EarlyUpdates::Either,
                 Grade::RequiredByCts,
@@ -339,9 +355,15 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             SamplesCounted::Passing,
             "Vulkan: Sample Counting: each sample with a coverage of 1 that survives all tests, with VK_QUERY_CONTROL_PRECISE_BIT",
         ),
+        clears_count_nothing: narrowed(
+            true,
+            false,
+            Grade::RequiredByCts,
+            "Vulkan: Queries: clears may count towards the results of queries; dEQP-VK.query_pool.occlusion_query.clear_attachments_only (mustpass) demands 0",
+        ),
         operations_count_nothing: permit(
             false,
-            "Vulkan: Queries: clears, resolves, and load and store operations may count towards the results of queries",
+            "Vulkan: Queries: resolves, and load and store operations may count towards the results of queries",
         ),
         same_depth: narrowed(
             SameDepth::Written,
@@ -363,17 +385,11 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         ),
         flushes_small_floats: permit(
             FlushedFloats::None,
-            "Vulkan: Fundamentals, Floating-Point Format Conversions: representable finite values are kept",
+            "Vulkan: Fundamentals, Floating-Point Format Conversions: representable finite values are kept; Blending: dynamic range no lower than that used to represent destination components",
         ),
         small_floats: permit(
             SmallFloats::EitherNeighbour,
             "Vulkan: Fundamentals, Floating-Point Format Conversions: either neighbour; past the largest value that or infinity",
-        ),
-        clears_count_nothing: narrowed(
-            true,
-            false,
-            Grade::RequiredByCts,
-            "Vulkan: Queries: clears may count towards the results of queries; dEQP-VK.query_pool.occlusion_query.clear_attachments_only (mustpass) demands 0",
         ),
         runs_for_discarded: permit(
             true,

@@ -61,6 +61,22 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "WebGPU: silent on the rounding of stores; Vulkan and OpenGL: one of the two closest \
              values, an integer exactly",
         ),
+        float32_blend_error: narrowed(
+            f64::from(f32::EPSILON),
+            1e-5,
+            Grade::Disputed,
+            "WebGPU: silent on blend precision; Vulkan and OpenGL: no lower than the destination's",
+        ),
+        weights_by_channel: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            "WebGPU: silent on blend precision; Vulkan and OpenGL: no lower than the destination's (read as: of the component that is computed)",
+        ),
+        blends_in_order: permit(
+            false,
+            "WebGPU: silent on the order of computing; Direct3D 11.3, 17.5: the operations of a blend may be fused and reordered",
+        ),
         advanced_blend: permit(
             BlendPrecision::DestinationCodes,
             "WebGPU: has no advanced blending; Vulkan and OpenGL: no lower than 16-bit floats",
@@ -186,6 +202,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             Grade::Disputed,
             "WebGPU: 23.2.5.2 Line Rasterization: the algorithm is not defined; by a rectangle, or by Bresenham's in which a fragment may deviate by one unit",
         ),
+        lines_cover_their_shape: permit(
+            false,
+            "WebGPU: 23.2.5.2 Line Rasterization: the algorithm is not defined",
+        ),
         lines_lack: permit(
             None,
             "WebGPU: 23.2.5.2 Line Rasterization: the algorithm is not defined",
@@ -202,10 +222,6 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         early_coverage: permit(
             EarlyUpdates::Each,
             "WebGPU: has no forced early tests; OpenGL: depth and stencil may be updated",
-        lines_cover_their_shape: permit(
-            false,
-            "WebGPU: 23.2.5.2 Line Rasterization: the algorithm is not defined",
-        ),
         ),
         early_mask: permit(
             EarlyUpdates::Each,
@@ -243,6 +259,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             SamplesCounted::Passing,
             "WebGPU: queries tell zero from non-zero; a precise count is no part of it",
         ),
+        clears_count_nothing: permit(
+            true,
+            "WebGPU: Occlusion Query: the samples that pass the tests of a set of drawing commands; nothing else is within one",
+        ),
         operations_count_nothing: permit(
             true,
             "WebGPU: Occlusion Query: the samples that pass the tests of a set of drawing commands; nothing else is within one",
@@ -263,10 +283,6 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         ),
         half_overflows: permit(
             true,
-        clears_count_nothing: permit(
-            true,
-            "WebGPU: Occlusion Query: the samples that pass the tests of a set of drawing commands; nothing else is within one",
-        ),
             "WebGPU: silent on overflow; Vulkan: the largest finite value or infinity",
         ),
         flushes_small_floats: permit(

@@ -58,6 +58,12 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             Rounding::Within(0.6),
             "Direct3D 11.3: 3.2.3.6 FLOAT to UNORM: 0.6 ULP",
         ),
+        float32_blend_error: permit(
+            f64::from(f32::EPSILON),
+            "Direct3D 11.3: 3.1 Floating Point Rules: 1 ULP",
+        ),
+        weights_by_channel: permit(true, "Yardstick: in 32-bit floats"),
+        blends_in_order: permit(true, "Yardstick: as the equation is written"),
         advanced_blend: permit(BlendPrecision::Float32, "Yardstick: in 32-bit floats"),
         blend: permit(
             BlendPrecision::Float32,
@@ -146,16 +152,16 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             "Yardstick: nothing outside of the clip volume is drawn",
         ),
         lines_cover_texels: permit(true, "Yardstick: no gap in a line"),
+        lines_cover_their_shape: permit(
+            text.lines_cover_their_shape.value,
+            "Yardstick: as the API's text says",
+        ),
         lines_lack: permit(Some(0), "Yardstick: no gap in a line"),
         points_face_front: permit(
             api != Api::WebGpu,
             "Direct3D 11.3: 15.10: points and lines are front-facing",
         ),
         outlines_face_as_polygons: permit(true, "Direct3D 11.3: 15.10 Facing: of the triangle"),
-        lines_cover_their_shape: permit(
-            text.lines_cover_their_shape.value,
-            "Yardstick: as the API's text says",
-        ),
         early_updates: permit(
             EarlyUpdates::Happen,
             "Yardstick: forced early tests come first, as Direct3D 11.3 has them (17.3)",
@@ -188,6 +194,7 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             SamplesCounted::Passing,
             "Yardstick: samples that pass, one by one",
         ),
+        clears_count_nothing: permit(true, "Yardstick: samples of draws"),
         operations_count_nothing: permit(true, "Yardstick: samples of draws"),
         same_depth: permit(
             SameDepth::All,
@@ -198,7 +205,6 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             "Yardstick: 8 bits of fraction (Direct3D 11.3, 7.18.7 and 7.18.8)",
         ),
         filters_to_codes: permit(false, "Yardstick: in floats"),
-        clears_count_nothing: permit(true, "Yardstick: samples of draws"),
         half_overflows: permit(true, "Yardstick: the largest finite value or infinity"),
         flushes_small_floats: permit(
             FlushedFloats::None,

@@ -5,7 +5,7 @@ use etalon_frame::{Api, ApiVersion, Grade, Limits, Property};
 use etalon_reference::{Rules, legal_set};
 use etalon_scene::Scene;
 
-fn version(api: Api, major: u8, minor: u8) -> Limits {
+pub(crate) fn version(api: Api, major: u8, minor: u8) -> Limits {
     let mut limits = limits(api);
     limits.version = ApiVersion::new(major, minor);
     limits.properties.clear();
@@ -13,7 +13,7 @@ fn version(api: Api, major: u8, minor: u8) -> Limits {
 }
 
 /// Returns whether each kind of evidence, from all to only musts, allows the orders of a sample.
-fn allowed(scene: &Scene, limits: &Limits, sample: u32, orders: &[i64]) -> [bool; 3] {
+pub(crate) fn allowed(scene: &Scene, limits: &Limits, sample: u32, orders: &[i64]) -> [bool; 3] {
     let rules = Rules::of(limits);
     Grade::ALL.map(|grade| {
         let set = legal_set(scene, limits, &rules.bound_by(grade));
@@ -21,12 +21,12 @@ fn allowed(scene: &Scene, limits: &Limits, sample: u32, orders: &[i64]) -> [bool
     })
 }
 
-const NEVER: [bool; 3] = [false; 3];
-const ALWAYS: [bool; 3] = [true; 3];
+pub(crate) const NEVER: [bool; 3] = [false; 3];
+pub(crate) const ALWAYS: [bool; 3] = [true; 3];
 /// A disputed reading forbids it.
-const DISPUTED: [bool; 3] = [false, true, true];
+pub(crate) const DISPUTED: [bool; 3] = [false, true, true];
 /// A case of the CTS forbids it.
-const BY_CTS: [bool; 3] = [false, false, true];
+pub(crate) const BY_CTS: [bool; 3] = [false, false, true];
 
 #[test]
 fn signed_blending_is_clamped_as_the_version_says() {

@@ -4,6 +4,7 @@
 mod advanced;
 mod arithmetic;
 mod asked;
+mod blending;
 mod common;
 mod evidence;
 mod families;

@@ -101,6 +101,7 @@ fn text(reason: &Reason) -> String {
                 ComparedPair::Attachments(first, other) => {
                     format!("attachment {first} in attachment {other}")
                 }
+                ComparedPair::Operands => "samples with the same source and destination".to_owned(),
             };
             format!("{samples} samples differ from {pair}: {citation}")
         }
