@@ -37,7 +37,7 @@ pub(super) fn store(
     encoding: ChannelEncoding,
     bug: impl Fn(f32) -> u32 + Send + Sync + 'static,
 ) -> Plant {
-    color_code(move |e, v| if e == encoding { bug(v) } else { code(e, v) })
+    color_code(move |e, v, _| if e == encoding { bug(v) } else { code(e, v) })
 }
 
 /// Replaces the conversion of destination values of one encoding for blending.

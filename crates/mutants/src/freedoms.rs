@@ -13,7 +13,7 @@ use crate::list::bugs;
 use crate::permission::under;
 use crate::plant::{Plant, draws, each, frames, images};
 use etalon_cpu::steps::{ComparedDepths, Faithful, Steps};
-use etalon_frame::ChannelEncoding::{self, Float16, Snorm, Ufloat, Unorm};
+use etalon_frame::ChannelEncoding::{self, Float16, Float32, Snorm, Ufloat, Unorm};
 use etalon_frame::{Aspect, CounterKind};
 use etalon_pipeline::{BlendInput, compare, is_top_left};
 use etalon_reference::rules::{
@@ -21,8 +21,8 @@ use etalon_reference::rules::{
     Resolve, Rounding, SameDepth, SamplesCounted, SharedEdge, SmallFloats, Snap,
 };
 use etalon_scene::{
-    BlendOperation, CompareFunction, Draw, FilterMode, InterpolationSampling, PrimitiveTopology,
-    Shader, Vertex,
+    BlendComponent, BlendFactor, BlendOperation, BlendState, CompareFunction, Draw, FilterMode,
+    InterpolationSampling, PrimitiveTopology, Shader, Vertex,
 };
 
 const RECT: FieldPlaces<[f32; 4]> = |d| vec![&mut d.viewport.rect];
@@ -39,7 +39,7 @@ fn is_at_most(bits: u8) -> impl Fn(ChannelEncoding) -> bool + Copy {
     }
 }
 
-/// Blends with operands, products and results rounded, where the encodings of all channels are of a kind.
+/// Blends into encodings of a kind with each product and sum rounded, and operands first.
 fn stepwise(
     of_kind: impl Fn(ChannelEncoding) -> bool + Send + Sync + 'static,
     round: fn(f32) -> f32,
@@ -64,17 +64,57 @@ fn stepwise(
             dst: held(input.dst),
             constant: held(input.constant),
         };
-        let [source, destination] =
-            [true, false].map(|which| side(state, encodings, &operands, which));
-        let extreme = faithful_blend(state, encodings, &operands);
-        std::array::from_fn(|c| {
-            let operation = component(state, c).operation;
-            if is_extreme(operation) {
-                extreme[c]
-            } else {
-                round(joined(operation, round(source[c]), round(destination[c])))
+        in_steps(state, encodings, &operands, round)
+    })
+}
+
+/// Returns the result of a blend with each product and the sum rounded.
+fn in_steps(
+    state: &BlendState,
+    encodings: [ChannelEncoding; 4],
+    operands: &Input,
+    round: fn(f32) -> f32,
+) -> [f32; 4] {
+    let [source, destination] = [true, false].map(|which| side(state, encodings, operands, which));
+    let extreme = faithful_blend(state, encodings, operands);
+    std::array::from_fn(|c| {
+        let operation = component(state, c).operation;
+        if is_extreme(operation) {
+            extreme[c]
+        } else {
+            round(joined(operation, round(source[c]), round(destination[c])))
+        }
+    })
+}
+
+/// Rounds a float towards 0 to 20 bits.
+fn in_20_bits(v: f32) -> f32 {
+    f32::from_bits(v.to_bits() & !0xf)
+}
+
+/// Blends by alpha into floats as the destination plus a part of its difference to the source.
+fn by_difference() -> Plant {
+    blending(|state, encodings, input: &Input| {
+        let mut result = faithful_blend(state, encodings, input);
+        let round: fn(f32) -> f32 = if encodings[0] == Float16 { half } else { |v| v };
+        for (c, value) in result.iter_mut().enumerate() {
+            let BlendComponent {
+                operation,
+                src_factor,
+                dst_factor,
+            } = *component(state, c);
+            let is_over = (operation, src_factor, dst_factor)
+                == (
+                    BlendOperation::Add,
+                    BlendFactor::SrcAlpha,
+                    BlendFactor::OneMinusSrcAlpha,
+                );
+            if encodings[0].is_float() && is_over {
+                let ([src], [dst], [alpha]) = (input.src[c], input.dst[c], input.src[3]);
+                *value = dst + round(round(src - dst) * alpha);
             }
-        })
+        }
+        result
     })
 }
 
@@ -92,7 +132,7 @@ fn filtered_in(steps: f32) -> Plant {
     })
 }
 
-/// Blends into floats with one rounding for the second product and the sum.
+/// Blends into floats with one rounding for the second product and the sum, at the destination's precision.
 fn fused() -> Plant {
     blending(|state, encodings, input: &Input| {
         let operands = [input.src, input.dst, input.constant, input.src1];
@@ -104,7 +144,8 @@ fn fused() -> Plant {
                 let [source, destination] = [component.src_factor, component.dst_factor]
                     .map(|f| factor(operands, f, c, 1.0));
                 let [src, dst, ..] = operands;
-                *value = dst[c].mul_add(destination, src[c] * source);
+                let round: fn(f32) -> f32 = if encodings[0] == Float16 { half } else { |v| v };
+                *value = dst[c].mul_add(destination, round(src[c] * source));
             }
         }
         result
@@ -177,12 +218,47 @@ bugs! {
         }),
         permitted vec![under!(advanced_blend: BlendPrecision::DestinationCodes | BlendPrecision::AnySteps)];
     "exported-as-halves: Colours reach formats of 8 bits and fewer as 16-bit floats." =>
-        color_code(|e, v| if is_at_most(8)(e) { code(e, half(v)) } else { code(e, v) }),
+        color_code(|e, v, _| if is_at_most(8)(e) { code(e, half(v)) } else { code(e, v) }),
         source "AMD: shaders export 16-bit floats to formats of 8 bits",
         permitted vec![under!(store: Rounding::EitherNeighbour)];
     "float-blends-fused: Blends into floats round the second product and the sum together." =>
         fused(), source "blend units with fused multiply-add",
-        permitted vec![under!(float_error: error if error >= 1e-6)];
+        permitted vec![under!(float32_blend_error: error if error >= 1e-7)];
+    "float-blends-by-difference: A blend by alpha into floats adds a part of the difference to the destination." =>
+        by_difference(), source "Direct3D 11.3, 17.5: operations may be reordered",
+        permitted vec![under!(blends_in_order: false)];
+    "float32-blends-in-20-bits: Products and sums of blends into 32-bit floats keep 20 bits." =>
+        blending(|state, encodings, input: &Input| match encodings[0] {
+            Float32 => in_steps(state, encodings, input, in_20_bits),
+            _ => faithful_blend(state, encodings, input),
+        }), source "OpenGL 3.3: 1 part in 10^5",
+        permitted vec![under!(float32_blend_error: error if error >= 2e-6)];
+    "blends-in-even-steps: Operands and products of blends into 8 bits are multiples of 1/300." =>
+        stepwise(|encoding| encoding == Unorm(8), |v| (v * 300.0).round() / 300.0),
+        source "no grid is named",
+        permitted vec![under!(blend: BlendPrecision::DestinationCodes | BlendPrecision::AnySteps)];
+    "sources-in-codes: Sources of blends into 8 bits are rounded to codes, and blended in floats." =>
+        blending(|state, encodings, input: &Input| {
+            let mut operands = *input;
+            if encodings == [Unorm(8); 4] {
+                operands.src = input.src.map(|[v]| [(v.clamp(0.0, 1.0) * 255.0).round() / 255.0]);
+            }
+            faithful_blend(state, encodings, &operands)
+        }), source "OpenGL: a source held in fixed point",
+        permitted vec![under!(blend: BlendPrecision::DestinationCodes | BlendPrecision::AnySteps)];
+    "alpha-weighs-in-its-bits: A source's alpha weighs wider channels with the bits of the stored alpha." =>
+        blending(|state, encodings, input: &Input| {
+            let mut operands = *input;
+            if let Unorm(bits @ 1..=2) = encodings[3] {
+                let most = ((1_u32 << bits) - 1) as f32;
+                operands.src[3] = [(input.src[3][0].clamp(0.0, 1.0) * most).round() / most];
+            }
+            faithful_blend(state, encodings, &operands)
+        }), source "blend units that take a colour apart after rounding",
+        permitted vec![
+            under!(weights_by_channel: false),
+            under!(blend: BlendPrecision::DestinationCodes | BlendPrecision::AnySteps),
+        ];
     "destination-read-coarsely: A stored code is read one part in 200,000 too small." =>
         color_value(|e, c| {
             let right = value(e, c);
@@ -199,14 +275,14 @@ bugs! {
         store(Float16, |v| if v.abs() < 2_f32.powi(-14) { code(Float16, 0.0_f32.copysign(v)) } else { code(Float16, v) }),
         permitted vec![under!(flushes_small_floats: FlushedFloats::Half | FlushedFloats::All)];
     "subnormal-small-floats-flushed: Subnormal floats of 11 and 10 bits are stored as 0." =>
-        color_code(|e, v| match e {
+        color_code(|e, v, _| match e {
             Ufloat(_) if v < 2_f32.powi(-14) => code(e, 0.0),
             _ => code(e, v),
         }),
         permitted vec![under!(flushes_small_floats: FlushedFloats::All)];
     source "conversions that saturate, and others that do not";
     "small-floats-overflow-to-infinity: Floats of 11 and 10 bits beyond the largest become infinity." =>
-        color_code(|e, v| match e {
+        color_code(|e, v, _| match e {
             Ufloat(6) if v > 65024.0 => code(e, f32::INFINITY),
             Ufloat(5) if v > 64512.0 => code(e, f32::INFINITY),
             _ => code(e, v),
@@ -218,7 +294,8 @@ bugs! {
     "quotients-beyond-one-lost: An advanced blend of a colour above its alpha gives 0 in normalized formats." =>
         advanced_blending(|mode, encodings, colors: [[f32; 4]; 2]| {
             let is_normalized = encodings[0].normalized_range().is_some();
-            if is_normalized && is_beyond_alpha(colors) { [0.0; 4] } else { faithful_advanced(mode, encodings, colors) }
+            let right = faithful_advanced(mode, encodings, colors);
+            if is_normalized && is_beyond_alpha(colors) { [0.0, 0.0, 0.0, right[3]] } else { right }
         }), source "colours that are not premultiplied",
         permitted vec![under!(quotients_beyond_one: false)];
     "negative-alpha-lost: An advanced blend of a negative alpha gives 0 in float formats." =>
@@ -227,12 +304,12 @@ bugs! {
             if encodings[0].is_float() && is_negative { [0.0; 4] } else { faithful_advanced(mode, encodings, colors) }
         }), source "a square root of a negative number",
         permitted vec![under!(negative_alpha: NegativeAlpha::Undefined | NegativeAlpha::IfNormalized)];
-    "lowest-as-minus-one: A copy returns the code of -1 for the lowest code." =>
+    "subnormals-lost-in-copies: A copy returns 0 for a subnormal 16-bit float." =>
         images(Aspect::Color, |image| {
             let channels = image.channels.clone();
             for texel in image.codes.chunks_exact_mut(channels.len()) {
                 for (code, encoding) in texel.iter_mut().zip(&channels) {
-                    if *encoding == Snorm(8) && *code == 0x80 { *code = 0x81; }
+                    if *encoding == Float16 && *code & 0x7c00 == 0 { *code &= 0x8000; }
                 }
             }
         }), source "copies that convert",
@@ -289,13 +366,17 @@ bugs! {
             let (middle, gap) = (f32::midpoint(from, to), texel.copysign(to - from) / 2.0);
             vec![a, moved(b, axis, middle - gap), moved(a, axis, middle + gap), b]
         }),
-        permitted vec![under!(lines_cover_texels: false), under!(lines_lack: None | Some(1..))];
+        permitted vec![
+            under!(lines_cover_texels: false),
+            under!(lines_cover_their_shape: false),
+            under!(lines_lack: None | Some(1..)),
+        ];
     "axial-lines-one-texel-short: A line along an axis ends a texel early." =>
         axial_lines(|[a, b], axis, texel| {
             let (from, to) = (a.position[axis], b.position[axis]);
             vec![a, moved(b, axis, to - texel.copysign(to - from))]
         }),
-        permitted vec![under!(lines_lack: None | Some(1..))];
+        permitted vec![under!(lines_cover_their_shape: false), under!(lines_lack: None | Some(1..))];
     "lines-behind-lost: A line with an end behind the eye is lost." =>
         draws(|draw| {
             let vertices = &mut draw.mesh.vertices;

@@ -173,9 +173,9 @@ hooks! {
         ) -> [Real; 4] =
             |bug| planes(from_fn(|i| bug(mode, encodings, [src, dst].map(|color| color.map(|plane| plane[i])))));
 
-        /// The conversion of colours at the store.
-        color_code(ChannelEncoding, f32) -> u32:
-        color_codes(encoding: ChannelEncoding, value: Real) -> LaneCodes = |bug| value.map(|v| bug(encoding, v));
+        /// The conversion of colours at the store, given the texel's number in the lanes that are drawn at once.
+        color_code(ChannelEncoding, f32, usize) -> u32:
+        color_codes(encoding: ChannelEncoding, value: Real) -> LaneCodes = |bug| from_fn(|i| bug(encoding, value[i], i));
 
         /// The conversion of stored colours to blend operands.
         color_value(ChannelEncoding, u32) -> f32:

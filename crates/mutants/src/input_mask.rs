@@ -23,7 +23,7 @@ bugs! {
     "of-all-runs: With sample shading the mask has the bits of other runs." =>
         input_bit(|bit| bit.covered && bit.drawn), permitted vec![under!(input_mask: InputMaskRule::AllOrOwn)];
     "masked-samples-stay: The mask has samples that the draw's own mask removes." =>
-        input_bit(|bit| bit.covered && bit.shaded), permitted vec![under!(input_mask_lacks_masked: false, or samples_as_told: false)];
+        input_bit(|bit| bit.covered && bit.shaded), permitted vec![under!(input_mask_lacks_masked: false)];
     source "AMDVLK: a shader that reads the mask runs once per sample";
     "own-bit-alone: The mask has one bit also without sample shading." =>
         input_bit(|bit| is_set(bit) && bit.bit == bit.sample);

@@ -32,8 +32,12 @@ pub struct InnocentPlan<'a> {
     pub jobs: usize,
 }
 
-/// The number of cases of a file that are drawn with every single behaviour.
+/// The number of cases of a large file that are drawn with every single behaviour.
 const SAMPLES: usize = 16;
+
+/// The largest number of cases with which a file is drawn as a whole. A behaviour can show in one case alone, as a
+/// format with a source.
+const WHOLE_FILE: usize = 64;
 
 /// Draws and judges cases with every innocent. `open` returns the backend of a name, `faithful` the rasterizer itself,
 /// and each thread calls `drawn` after each case.
@@ -82,7 +86,12 @@ fn samples(cases: &[Case]) -> HashSet<usize> {
     }
     let chosen = files.into_values().flat_map(|mut file| {
         file.sort_unstable();
-        file.into_iter().take(SAMPLES)
+        let count = if file.len() > WHOLE_FILE {
+            SAMPLES
+        } else {
+            file.len()
+        };
+        file.into_iter().take(count)
     });
     chosen.map(|(_, number)| number).collect()
 }

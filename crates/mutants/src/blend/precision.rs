@@ -129,9 +129,14 @@ bugs! {
     "store-by-256: Colours are stored as v × 256, rounded down and clamped to 255." =>
         store(Unorm(8), |v| ((exact(v) * 256.0 / 255.0) as u32).min(255)),
         source "multiplying by 256 instead of 255", permitted rounded();
+    "store-dithered: Colours are rounded down and up in turns along a row." =>
+        color_code(|encoding, v, lane| match encoding {
+            Unorm(8) => (exact(v) - 1e-4 + if lane % 2 == 0 { 2e-4 } else { 1.0 }) as u32,
+            _ => code(encoding, v),
+        }), source "dithering that nobody asked for";
     "store-wraps: Colours outside 0 to 1 wrap around." =>
         store(Unorm(8), |v| ((v * 255.0 + 0.5).floor() as i64 & 0xff) as u32), source CONFUSION;
     "store-in-7-bits: Stored colours lose their lowest bit." => store(Unorm(8), |v| code(Unorm(8), v) & 0xfe);
     "store-in-6-bits: Stored colours keep 6 bits." =>
-        color_code(|encoding, v| code(encoding, in_bits(v.clamp(0.0, 1.0), 6)));
+        color_code(|encoding, v, _| code(encoding, in_bits(v.clamp(0.0, 1.0), 6)));
 }

@@ -27,6 +27,10 @@ const WITHOUT: &[(&str, &str)] = &[
         "the rasterizer biases fragments only",
     ),
     (
+        "clears_count_nothing",
+        "clears have no counters in the rasterizer",
+    ),
+    (
         "operations_count_nothing",
         "clears have no counters in the rasterizer",
     ),
