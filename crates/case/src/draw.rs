@@ -31,7 +31,6 @@ pub(crate) fn draw(wire: &DrawWire, target: &DrawTarget<'_>) -> Result<Draw, At>
         size,
         samples,
         depth_stencil,
-        attachments,
         ..
     } = *target;
     let viewport = viewport(wire, size)?;
@@ -57,50 +56,7 @@ pub(crate) fn draw(wire: &DrawWire, target: &DrawTarget<'_>) -> Result<Draw, At>
     if wire.stencil.is_some() && !depth_stencil.is_some_and(TextureFormat::has_stencil) {
         return Err(At::new("a stencil test needs a stencil attachment").key("stencil"));
     }
-    let mut textures = Vec::new();
-    for (i, name) in wire.textures.iter().enumerate() {
-        let check = || -> Result<usize, At> {
-            let index = find(name, attachments)?;
-            let attachment = &attachments[index];
-            if !attachment.format.is_color() || attachment.samples != 1 {
-                let message = "is not a single-sample colour attachment, so it cannot be read";
-                return Err(At::new(format!("`{name}` {message}")));
-            }
-            if target.bound.contains(&index) {
-                let message = "belongs to the pass itself, so it cannot be read";
-                return Err(At::new(format!("`{name}` {message}")));
-            }
-            if attachment.format.is_integer() {
-                return Err(At::new(format!(
-                    "`{name}` has integers, but the shader reads floats"
-                )));
-            }
-            if !wire.shader.samples_texture() && attachment.size != size {
-                return Err(At::new(format!(
-                    "`{name}` differs in size from the pass's attachments"
-                )));
-            }
-            Ok(index)
-        };
-        textures.push(check().map_err(|e| e.index(i).key("textures"))?);
-    }
-    if wire.shader.writes_mask() {
-        let masks = textures.first().map(|i| &attachments[*i]);
-        check_masks(masks).map_err(|e| e.key("textures"))?;
-    }
-    if wire.shader.writes_reference() {
-        let references = textures.first().map(|i| &attachments[*i]);
-        check_references(references).map_err(|e| e.key("textures"))?;
-    }
-    if textures.len() != wire.shader.textures() {
-        return Err(At::new(format!(
-            "shader {} reads {} textures, {} are given",
-            wire.shader.name(),
-            wire.shader.textures(),
-            textures.len()
-        ))
-        .key("textures"));
-    }
+    let textures = textures(wire, target).map_err(|e| e.key("textures"))?;
     check_sampler(wire, target, &textures).map_err(|e| e.key("sampler"))?;
     check_tessellation(wire, &mesh).map_err(|e| e.key("tessellation"))?;
     check_clip_distances(wire)?;
@@ -244,6 +200,50 @@ fn check_outlines(mode: PolygonMode, mesh: &Mesh) -> Result<(), At> {
         ));
     }
     Ok(())
+}
+
+/// Returns the indices of the attachments that the shader reads.
+fn textures(wire: &DrawWire, target: &DrawTarget<'_>) -> Result<Vec<usize>, At> {
+    let each = wire.textures.iter().enumerate();
+    let textures: Vec<usize> = each
+        .map(|(i, name)| texture(name, wire.shader, target).map_err(|e| e.index(i)))
+        .collect::<Result<_, _>>()?;
+    let first = textures.first().map(|index| &target.attachments[*index]);
+    if wire.shader.writes_mask() {
+        check_masks(first)?;
+    }
+    if wire.shader.writes_reference() {
+        check_references(first)?;
+    }
+    if textures.len() != wire.shader.textures() {
+        return Err(At::new(format!(
+            "shader {} reads {} textures, {} are given",
+            wire.shader.name(),
+            wire.shader.textures(),
+            textures.len()
+        )));
+    }
+    Ok(textures)
+}
+
+/// Returns the index of an attachment that the shader can read.
+fn texture(name: &str, shader: Shader, target: &DrawTarget<'_>) -> Result<usize, At> {
+    let index = find(name, target.attachments)?;
+    let attachment = &target.attachments[index];
+    let refuse = |message: &str| Err(At::new(format!("`{name}` {message}")));
+    if !attachment.format.is_color() || attachment.samples != 1 {
+        return refuse("is not a single-sample colour attachment, so it cannot be read");
+    }
+    if target.bound.contains(&index) {
+        return refuse("belongs to the pass itself, so it cannot be read");
+    }
+    if attachment.format.is_integer() {
+        return refuse("has integers, but the shader reads floats");
+    }
+    if !shader.samples_texture() && attachment.size != target.size {
+        return refuse("differs in size from the pass's attachments");
+    }
+    Ok(index)
 }
 
 /// Checks how a texture is sampled.
@@ -428,7 +428,7 @@ fn check_masks(texture: Option<&Attachment>) -> Result<(), At> {
 
 /// Checks the texture that gives a shader its stencil references, and perhaps its depth.
 fn check_references(texture: Option<&Attachment>) -> Result<(), At> {
-    const MOST: f32 = 65535.0;
+    const MAX_REFERENCE: f32 = 65535.0;
     let Some(texture) = texture else {
         return Ok(());
     };
@@ -443,7 +443,7 @@ fn check_references(texture: Option<&Attachment>) -> Result<(), At> {
     };
     let fits = |texel: &[u32]| {
         let [front, depth, _, back] = [0, 1, 2, 3].map(|c| f32::from_bits(texel[c]));
-        let is_integer = |v: f32| v.fract() == 0.0 && v.abs() <= MOST;
+        let is_integer = |v: f32| v.fract() == 0.0 && v.abs() <= MAX_REFERENCE;
         is_integer(front) && is_integer(back) && (0.0..=1.0).contains(&depth)
     };
     if texels.chunks_exact(4).all(fits) {
@@ -627,12 +627,12 @@ fn stencil(wire: &StencilWire) -> StencilState {
 mod tests {
     use super::*;
     use crate::resolve::parse_scene;
-    use crate::{CaseFile, Profile};
+    use crate::{CaseError, CaseFile, Profile};
     use etalon_scene::{AdvancedBlend, SampleCoverage};
     use serde_json::{Value, json};
 
     /// Returns the error of a draw with a texture of this format, all of whose texels have this value.
-    fn fault(draw: Value, format: &str, texel: [f64; 4]) -> Option<String> {
+    fn fault(draw: Value, format: &str, texel: [f64; 4]) -> Option<At> {
         let values = [texel; 4];
         let scene = json!({
             "attachments": {
@@ -641,7 +641,7 @@ mod tests {
             },
             "passes": [{ "color": ["c"], "draws": [draw] }], "read": ["c"]
         });
-        parse_scene(&scene).err().map(|e| format!("{e:?}"))
+        parse_scene(&scene).err()
     }
 
     #[test]
@@ -688,13 +688,19 @@ mod tests {
     }
 
     /// Returns the error of a scene with one draw.
-    fn wrong(draw: Value) -> Option<String> {
+    fn wrong(draw: Value) -> Option<At> {
         let scene = json!({
             "attachments": { "color": { "format": "rgba8unorm" } },
             "passes": [{ "color": ["color"], "draws": [draw] }],
             "read": ["color"]
         });
-        parse_scene(&scene).err().map(|error| format!("{error:?}"))
+        parse_scene(&scene).err()
+    }
+
+    /// Returns the error at a key of the draw.
+    fn at_draw(key: &str, message: &str) -> At {
+        let draw = At::new(message).key(key).index(0).key("draws");
+        draw.index(0).key("passes")
     }
 
     #[test]
@@ -708,28 +714,35 @@ mod tests {
         };
         let two = json!([0, 1, 2, 2, 1, 3]);
         assert_eq!(draw("uniform_color", "triangle-list", two.clone()), None);
-        let refused = [
-            draw("flat_color", "triangle-list", two.clone()),
-            draw("uniform_color", "triangle-strip", two),
-            draw("uniform_color", "triangle-list", json!([0, 1, 2, 3])),
-            draw(
+        let incomplete = "patches must have three vertices each, without restarts between them";
+        for (shader, topology, indices, message) in [
+            (
+                "flat_color",
+                "triangle-list",
+                two.clone(),
+                "the evaluation shader passes on only positions, but shader flat_color reads attributes",
+            ),
+            (
+                "uniform_color",
+                "triangle-strip",
+                two,
+                "tessellation requires `triangle-list`",
+            ),
+            (
+                "uniform_color",
+                "triangle-list",
+                json!([0, 1, 2, 3]),
+                incomplete,
+            ),
+            (
                 "uniform_color",
                 "triangle-list",
                 json!([0, 1, 2, null, 1, 2]),
+                incomplete,
             ),
-        ];
-        let words = [
-            "reads attributes",
-            "triangle-list",
-            "three vertices",
-            "three vertices",
-        ];
-        for (refused, words) in refused.into_iter().zip(words) {
-            let said = refused.expect("no such patch");
-            assert!(
-                said.contains(words) && said.contains("tessellation"),
-                "{said}"
-            );
+        ] {
+            let expected = at_draw("tessellation", message);
+            assert_eq!(draw(shader, topology, indices), Some(expected));
         }
     }
 
@@ -749,17 +762,29 @@ mod tests {
         ] {
             assert_eq!(draw(keys), None);
         }
-        for (keys, words) in [
-            (json!({ "clip_distances": 4 }), "has 2 clip distances"),
+        for (keys, key, message) in [
+            (
+                json!({ "clip_distances": 4 }),
+                "clip_distances",
+                "shader clip_flat has 2 clip distances",
+            ),
             (
                 json!({ "shader": "flat_color", "clip_distances": 1 }),
-                "has 0 clip distances",
+                "clip_distances",
+                "shader flat_color has 0 clip distances",
             ),
-            (json!({ "polygon_mode": "line" }), "the outline"),
-            (json!({ "instances": { "colors": [1] } }), "have their own"),
+            (
+                json!({ "polygon_mode": "line" }),
+                "polygon_mode",
+                "no specification defines the outline of a polygon clipped by distances",
+            ),
+            (
+                json!({ "instances": { "colors": [1] } }),
+                "instances",
+                "clip distances come from the vertex colour, but instances have their own",
+            ),
         ] {
-            let error = draw(keys).expect("it is impossible").to_string();
-            assert!(error.contains(words), "{error}");
+            assert_eq!(draw(keys), Some(at_draw(key, message)));
         }
     }
 
@@ -793,7 +818,7 @@ mod tests {
     }
 
     /// Builds a scene whose draw has these keys and draws to these attachments.
-    fn build(color: &str, keys: &str) -> Result<etalon_scene::Scene, String> {
+    fn build(color: &str, keys: &str) -> Result<etalon_scene::Scene, CaseError> {
         let text = format!(
             r#"{{"about":"t","spec":["t"],"scene":{{
             "attachments":{{"color":{{"format":"rgba8unorm","size":[4,4]}},
@@ -802,10 +827,9 @@ mod tests {
             "passes":[{{"color":{color},"draws":[{{"mesh":{{"kind":"full"}},{keys}}}]}}],
             "read":["color"]}}}}"#
         );
-        let file = CaseFile::parse("t.json", &text).map_err(|e| e.to_string())?;
+        let file = CaseFile::parse("t.json", &text)?;
         let case = file.cases(Profile::Full).next().expect("there is one");
-        let built = case.build().map_err(|e| e.to_string())?;
-        Ok(built.scene)
+        Ok(case.build()?.scene)
     }
 
     #[test]
@@ -814,30 +838,35 @@ mod tests {
         let scene = build(r#"["color"]"#, flat).expect("it builds");
         let target = scene.passes[0].draws[0].targets[0];
         assert_eq!(target.advanced, Some(AdvancedBlend::ColorBurn));
-        let both = r#""shader":"weighted_accumulate","advanced_blend":"screen""#;
+        let two = r#""shader":"weighted_accumulate","advanced_blend":"screen""#;
         let uint = r#""shader":"uint_color","advanced_blend":"screen""#;
         let with = |keys: &str| format!("{flat},{keys}");
         let component = r#"{"operation":"add","src_factor":"one","dst_factor":"one"}"#;
-        for (color, keys, expected) in [
-            (r#"["color"]"#, with(r#""logic":"xor""#), "excludes"),
-            (
-                r#"["color"]"#,
-                with(&format!(
-                    r#""blend":{{"color":{component},"alpha":{component}}}"#
-                )),
-                "excludes",
-            ),
-            (r#"["color"]"#, with(r#""targets":[{}]"#), "excludes"),
+        let blend = format!(r#""blend":{{"color":{component},"alpha":{component}}}"#);
+        let excludes = "advanced blending excludes `blend`, `targets` and `logic`";
+        for (color, keys, message) in [
+            (r#"["color"]"#, with(r#""logic":"xor""#), excludes),
+            (r#"["color"]"#, with(&blend), excludes),
+            (r#"["color"]"#, with(r#""targets":[{}]"#), excludes),
             (
                 r#"["color","other"]"#,
-                both.to_owned(),
-                "one colour attachment",
+                two.to_owned(),
+                "advanced blending needs exactly one colour attachment",
             ),
-            (r#"["signed"]"#, flat.to_owned(), "values from 0 to 1"),
-            (r#"["integer"]"#, uint.to_owned(), "values from 0 to 1"),
+            (
+                r#"["signed"]"#,
+                flat.to_owned(),
+                "the modes are defined for values from 0 to 1, not for rgba8snorm",
+            ),
+            (
+                r#"["integer"]"#,
+                uint.to_owned(),
+                "the modes are defined for values from 0 to 1, not for rgba8uint",
+            ),
         ] {
             let error = build(color, &keys).expect_err("it is refused");
-            assert!(error.contains(expected), "{error}");
+            let key = "scene.passes[0].draws[0].advanced_blend";
+            assert_eq!((&*error.key, &*error.message), (key, message));
         }
         let unknown = flat.replace("color-burn", "hue");
         assert!(build(r#"["color"]"#, &unknown).is_err());

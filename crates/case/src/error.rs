@@ -8,7 +8,7 @@ use thiserror::Error;
 /// An error in a case file, with its position.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub struct CaseError {
-    /// The file.
+    /// The path of the case file below its folder.
     pub file: String,
     /// The line, from 1; 0 if the error has no line.
     pub line: usize,
@@ -33,7 +33,7 @@ impl fmt::Display for CaseError {
 }
 
 /// A path into a JSON document, and what is wrong there.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct At {
     pub(crate) path: Vec<PathStep>,
     pub(crate) message: String,
