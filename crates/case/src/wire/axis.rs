@@ -21,7 +21,7 @@ impl std::ops::Deref for Axis {
 /// `count` consecutive integers, starting at `from`.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct Count {
+struct IntegerRange {
     from: u32,
     count: u16,
 }
@@ -40,7 +40,7 @@ impl<'de> Deserialize<'de> for Axis {
                 Vec::deserialize(SeqAccessDeserializer::new(seq)).map(Axis)
             }
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Axis, A::Error> {
-                let range = Count::deserialize(MapAccessDeserializer::new(map))?;
+                let range = IntegerRange::deserialize(MapAccessDeserializer::new(map))?;
                 let values = (0..u64::from(range.count)).map(|i| {
                     let number = u64::from(range.from) + i;
                     AxisValue {
@@ -61,7 +61,7 @@ impl JsonSchema for Axis {
     }
     fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
         let value = generator.subschema_for::<AxisValue>();
-        let range = generator.subschema_for::<Count>();
+        let range = generator.subschema_for::<IntegerRange>();
         schemars::json_schema!({
             "description": "The values of an axis: a list, or `count` consecutive integers starting at `from`.",
             "anyOf": [{ "type": "array", "items": value }, range]
