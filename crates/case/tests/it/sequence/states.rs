@@ -187,7 +187,8 @@ impl States {
         self.0.insert(name.to_owned(), format!("{value:?}"));
     }
 
-    /// The face comes last, so that what both faces share is one state.
+    /// Adds the states of a face. The face is the last part of a name, so that draws that differ in both faces differ in
+    /// the state `stencil.compare`.
     fn face(&mut self, name: &str, face: &StencilFace) {
         let StencilFace {
             compare,
