@@ -12,7 +12,7 @@ use std::num::NonZeroU32;
 /// A fully expanded case.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// The stable id.
+    /// The file's path without its ending, then each axis with its value: `cull/lines/mode=back`.
     pub id: String,
     /// The purpose, in a sentence.
     pub about: String,
