@@ -15,7 +15,7 @@ const NOT_FINITE: f64 = 4_294_967_296.0;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Accuracy {
-    /// The aspect.
+    /// The aspect; figures of attachments with the same aspect and encoding are added up.
     pub aspect: Aspect,
     /// The encoding of the channels, whose codes are counted; `None` in records of older versions, which add
     /// up codes of several encodings.

@@ -13,13 +13,13 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ChannelMismatch {
-    /// The attachment.
+    /// The attachment's name in the scene.
     pub attachment: String,
-    /// The aspect.
+    /// The aspect of the attachment that has the channel.
     pub aspect: Aspect,
     /// The channel's position: red is 0.
     pub channel: u8,
-    /// The channel's encoding.
+    /// The encoding of the three codes below.
     pub encoding: ChannelEncoding,
     /// Code of the lowest allowed value.
     pub low: u32,
@@ -37,11 +37,11 @@ pub struct WrongTexel {
     pub x: u32,
     /// Row, from the top.
     pub y: u32,
-    /// Sample within the texel.
+    /// Sample within the texel, from 0; always 0 for single-sample attachments.
     pub sample: u32,
     /// The worst band that the sample is outside of.
     pub band: Band,
-    /// The channels that are wrong.
+    /// The channels outside the nearest allowed box, in the order of the images.
     pub channels: Vec<ChannelMismatch>,
 }
 
@@ -80,7 +80,7 @@ pub struct Comparison {
     pub texels: TexelCounts,
     /// The first wrong samples, failures before imprecise ones, up to the requested number.
     pub wrong: Vec<WrongTexel>,
-    /// Every counter.
+    /// One outcome per counter, in the order of the scene's counters.
     pub counters: Vec<CounterOutcome>,
     /// The distance from the yardstick's middle, for each aspect that was read back.
     pub accuracy: Vec<Accuracy>,

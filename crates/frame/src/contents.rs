@@ -9,11 +9,11 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Contents {
-    /// The name of the attachment.
+    /// The attachment's name in the scene.
     pub attachment: String,
-    /// The aspect.
+    /// The aspect to which the channels belong.
     pub aspect: Aspect,
-    /// The codes, channel by channel.
+    /// One entry per channel; one for depth and for stencil.
     pub codes: Vec<Codes>,
 }
 
@@ -24,7 +24,7 @@ pub struct Contents {
     into = "(ChannelEncoding, i64, i64)"
 )]
 pub struct Codes {
-    /// The encoding.
+    /// The encoding in which `low` and `high` are orders.
     pub encoding: ChannelEncoding,
     /// The order of the lowest code.
     pub low: i64,
@@ -79,9 +79,9 @@ impl Codes {
 /// and JSON readers can be off by a unit in the last place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ValueRange {
-    /// The lowest value.
+    /// The lower end; equal to `high` for a value that the rules pin.
     pub low: f64,
-    /// The highest value.
+    /// The upper end, which belongs to the range.
     pub high: f64,
 }
 

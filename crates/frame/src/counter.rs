@@ -72,9 +72,9 @@ impl fmt::Display for CountRange {
 pub struct CounterSet {
     /// The counter's name in the scene.
     pub name: String,
-    /// The kind of count.
+    /// What is counted, as the scene asks for it.
     pub kind: CounterKind,
-    /// The legal counts.
+    /// The counts that a driver can return without breaking a rule.
     pub range: CountRange,
 }
 
@@ -84,7 +84,7 @@ pub struct CounterSet {
 pub struct CounterOutcome {
     /// The counter's name in the scene.
     pub name: String,
-    /// The kind of count.
+    /// What is counted.
     pub kind: CounterKind,
     /// The least legal count.
     pub low: u64,

@@ -167,9 +167,9 @@ impl Effect {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Target {
-    /// The attachment.
+    /// The attachment's name in the scene.
     pub attachment: String,
-    /// The aspect.
+    /// Colour, or the depth or the stencil of a depth-stencil attachment.
     pub aspect: Aspect,
 }
 
@@ -250,9 +250,9 @@ pub enum Step {
         from: String,
         /// The single-sampled attachment.
         to: String,
-        /// The resolve mode.
+        /// The resolve mode by its name in case files: `sample-zero`.
         mode: String,
-        /// The result.
+        /// The codes that the resolved aspect can have.
         result: Codes,
         /// Depth or stencil.
         aspect: Aspect,
@@ -279,23 +279,23 @@ pub enum Step {
     Culling {
         /// True if the face is a front face.
         front: bool,
-        /// The cull mode.
+        /// The cull mode by its name in case files.
         mode: String,
     },
     /// Sample coverage (a fraction of the samples).
     SampleCoverage {
-        /// The fraction of samples that are covered.
+        /// The fraction of samples that are covered; OpenGL clamps it to 0 to 1.
         share: f32,
         /// True if the coverage is inverted, so that the other samples are drawn.
         inverted: bool,
-        /// The sample.
+        /// The sample's number within its texel, from 0.
         sample: u32,
     },
     /// The fragment shader.
     Shade {
         /// True if the fragment's face is a front face.
         front: bool,
-        /// The shader; `None` without a fragment shader.
+        /// The shader by its name in case files; `None` without a fragment shader.
         shader: Option<String>,
         /// The colour that the shader returns.
         color: [ValueRange; 4],
@@ -325,45 +325,45 @@ pub enum Step {
     },
     /// The sample mask of the draw.
     SampleMask {
-        /// The mask.
+        /// Bit `i` lets sample `i` be drawn.
         mask: u32,
     },
     /// Alpha to coverage.
     AlphaToCoverage {
-        /// The alpha.
+        /// The alpha of the shader's first output, which decides the number of samples.
         alpha: ValueRange,
     },
     /// Forced early tests passed, and the fragment is lost afterwards.
     LostAfterEarlyTests,
     /// The depth bounds test.
     DepthBounds {
-        /// The stored depth.
+        /// The stored depth, which the test compares in place of the fragment's.
         stored: ValueRange,
-        /// The lower bound.
+        /// The lower bound, which passes.
         low: ValueRange,
-        /// The upper bound.
+        /// The upper bound, which passes.
         high: ValueRange,
     },
     /// The stencil test. It fails if the effect rejects.
     StencilTest {
-        /// The reference.
+        /// The reference before the read mask, on the left of the comparison.
         reference: u8,
         /// True if the shader wrote the reference.
         exported: bool,
-        /// The compare function.
+        /// The compare function by its name in case files.
         compare: String,
-        /// The stored value.
+        /// The stored value before the read mask, on the right of the comparison.
         stored: u8,
-        /// The read mask.
+        /// The bits of both values that are compared.
         read_mask: u8,
         /// True if the stencil test passes and the depth test fails.
         depth_fails: bool,
     },
     /// The stencil operation.
     StencilUpdate {
-        /// The operation.
+        /// The stencil operation by its name in case files.
         operation: String,
-        /// The write mask.
+        /// The bits that the operation can change.
         write_mask: u8,
         /// The stored value before.
         before: u8,
@@ -375,7 +375,7 @@ pub enum Step {
     DepthTest(DepthTest),
     /// Depth is stored.
     StoreDepth {
-        /// The depth.
+        /// The window depth before it is encoded.
         depth: ValueRange,
         /// The stored codes of the depth.
         codes: Codes,
@@ -387,37 +387,37 @@ pub enum Step {
     },
     /// An advanced blend operation.
     AdvancedBlend {
-        /// The operation.
+        /// The mode by its name in case files: `color-burn`.
         operation: String,
-        /// The source colour.
+        /// The premultiplied colour of the shader's output.
         src: [ValueRange; 4],
-        /// The destination colour.
+        /// The premultiplied colour of the attachment.
         dst: [ValueRange; 4],
-        /// The result.
+        /// The premultiplied colour before it is encoded.
         result: [ValueRange; 4],
     },
     /// Blending, channel by channel.
     Blend(Box<[BlendedChannel; 4]>),
     /// A logic operation.
     Logic {
-        /// The operation.
+        /// The logic operation by its name in case files.
         operation: String,
-        /// The stored contents.
+        /// The codes that the operation combines with those of the shader's output.
         stored: Contents,
     },
     /// Colour is stored.
     StoreColor {
         /// The contents afterwards.
         contents: Contents,
-        /// The write mask, if it excludes channels.
+        /// The written channels, bit 0 for red; `None` if all are written.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         write_mask: Option<u8>,
     },
     /// The write mask excludes all channels.
     KeepColor {
-        /// The contents.
+        /// The contents that stay.
         contents: Contents,
-        /// The write mask.
+        /// The written channels, bit 0 for red: none that the format has.
         write_mask: u8,
     },
     /// The shader writes the stencil reference.
@@ -436,12 +436,12 @@ pub enum Step {
     },
     /// There are too many worlds, so the sample becomes open.
     GiveUp {
-        /// The number of worlds.
+        /// The number of worlds, which is above the limit of the reference.
         worlds: usize,
     },
     /// An attachment is read back.
     ReadBack {
-        /// The attachment.
+        /// The attachment's name in the scene.
         attachment: String,
         /// The contents of all its aspects.
         contents: Vec<Contents>,
@@ -513,16 +513,16 @@ impl Coverage {
 pub enum DepthTest {
     /// Two depths are compared.
     Compared {
-        /// The compare function.
+        /// The compare function by its name in case files.
         compare: String,
-        /// The fragment's depth.
+        /// The fragment's depth, on the left of the comparison.
         incoming: ValueRange,
-        /// The stored depth.
+        /// The stored depth, on the right of the comparison.
         stored: ValueRange,
     },
     /// A depth is compared with itself.
     Same {
-        /// The compare function.
+        /// The compare function by its name in case files; equality decides it.
         compare: String,
     },
 }
@@ -531,16 +531,16 @@ pub enum DepthTest {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BlendedChannel {
-    /// The source value.
+    /// The value of the shader's output, which `src_factor` multiplies.
     pub src: ValueRange,
-    /// The source factor.
+    /// The source factor by its name in case files: `one-minus-src-alpha`.
     pub src_factor: String,
-    /// The blend operation.
+    /// The blend operation by its name in case files: `reverse-subtract`.
     pub operation: String,
-    /// The destination value.
+    /// The decoded value of the attachment, which `dst_factor` multiplies.
     pub dst: ValueRange,
-    /// The destination factor.
+    /// The destination factor by its name in case files.
     pub dst_factor: String,
-    /// The result.
+    /// The blended value before it is encoded.
     pub result: ValueRange,
 }

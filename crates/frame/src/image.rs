@@ -21,7 +21,7 @@ pub enum ReadPath {
 pub struct Image {
     /// The attachment's name in the scene.
     pub attachment: String,
-    /// The aspect.
+    /// The aspect that was read; depth and stencil of one attachment are two images.
     pub aspect: Aspect,
     /// Width and height in texels.
     pub size: [u32; 2],

@@ -91,9 +91,9 @@ pub struct Limits {
     pub max_size: u32,
     /// The maximum number of colour attachments in one pass.
     pub max_color_attachments: u32,
-    /// The supported formats.
+    /// The formats that attachments can have, with what can be done with each.
     pub formats: BTreeMap<TextureFormat, FormatSupport>,
-    /// Features.
+    /// The optional features that scenes can use.
     pub features: BTreeSet<Feature>,
     /// The supported ways to the driver other than the defaults; empty in older records.
     #[serde(default)]

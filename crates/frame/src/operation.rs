@@ -82,7 +82,7 @@ state_enum! {
 }
 
 impl Event {
-    /// Returns the operation.
+    /// Returns the operation that the event is part of. The effect decides if several operations share a step.
     pub fn operation(&self) -> Operation {
         match &self.step {
             Step::OtherAttachments { .. } => Operation::Attachments,

@@ -19,7 +19,7 @@ pub struct Story {
     /// The ruling on each of several scenes alone, in a story about two pictures that must be the same.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub alone: Vec<(SceneName, Ruling)>,
-    /// The operations.
+    /// The reference's operations on the sample, in the order of the pipeline; empty if only the ruling is known.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub events: Vec<Event>,
     /// True if later events were left out because the record was too long.
@@ -110,12 +110,12 @@ pub struct Ruling {
     /// The variant that was drawn; `None` for the case's own scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub variant: Option<String>,
-    /// The texel.
+    /// Column from the left and row from the top.
     pub texel: [u32; 2],
     /// The samples, if the attachments have several. Several listed samples share this ruling.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub samples: Vec<u32>,
-    /// The demand.
+    /// What the rules ask of the sample, and what came back instead.
     pub demand: Demand,
     /// The specification by which the sample is judged.
     pub rules: String,
@@ -187,7 +187,7 @@ fn is_zero(n: &usize) -> bool {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Allowed {
-    /// The value.
+    /// The codes that the aspect can have.
     pub contents: Contents,
     /// The source of the initial contents, if the value is still the initial one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
