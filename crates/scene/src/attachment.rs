@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 pub struct Attachment {
     /// Name in the case file.
     pub name: String,
-    /// Format.
+    /// The format, which decides the aspects and whether passes bind it as colour or as depth and stencil.
     pub format: TextureFormat,
     /// Width and height in texels.
     pub size: [u32; 2],

@@ -89,7 +89,7 @@ state_enum! {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BlendComponent {
-    /// The operation.
+    /// The operation that combines source and destination; `min` and `max` ignore the factors.
     pub operation: BlendOperation,
     /// The source's factor.
     pub src_factor: BlendFactor,
@@ -103,7 +103,7 @@ pub struct BlendComponent {
 pub struct BlendState {
     /// Red, green and blue.
     pub color: BlendComponent,
-    /// Alpha.
+    /// Alpha, which has operation and factors of its own.
     pub alpha: BlendComponent,
 }
 

@@ -12,11 +12,11 @@ use std::borrow::Cow;
 /// The buffers of a draw call and its arguments.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Call<'a> {
-    /// The vertex buffer.
+    /// The contents of the vertex buffer, with the unused vertices that the draw's fetch asks for.
     pub vertices: Cow<'a, [Vertex]>,
     /// The index buffer of an indexed draw, with [`RESTART`] for any index size.
     pub indices: Option<Cow<'a, [u32]>>,
-    /// The size of an index.
+    /// The size of an index in the buffer; unused if `indices` is `None`.
     pub index: IndexFormat,
     /// The first index, or the first vertex of a draw without indices.
     pub first: u32,
@@ -26,9 +26,9 @@ pub struct Call<'a> {
     pub base_vertex: i32,
     /// The colours in the buffer that advances once per instance; empty if colours come from vertices.
     pub colors: Vec<[f32; 4]>,
-    /// The index of the first instance.
+    /// The index of the first instance, and of its colour in `colors`.
     pub first_instance: u32,
-    /// The number of instances.
+    /// The number of instances that the call draws; 1 for draws that are not instanced.
     pub instances: u32,
 }
 

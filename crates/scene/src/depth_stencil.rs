@@ -52,7 +52,7 @@ impl DepthState {
 pub struct DepthBias {
     /// The constant term in least steps; WebGPU requires an integer.
     pub constant: i32,
-    /// The factor of the slope.
+    /// The factor of the polygon's slope.
     pub slope: f32,
     /// The upper limit of the bias if positive, the lower limit if negative.
     pub clamp: f32,
@@ -104,7 +104,7 @@ pub struct StencilFace {
     pub read_mask: u8,
     /// The bits that an operation can change.
     pub write_mask: u8,
-    /// The reference.
+    /// The value on the left of the comparison, which `replace` stores.
     pub reference: u8,
 }
 

@@ -16,11 +16,11 @@ use serde::{Deserialize, Serialize};
 /// One draw call with all its state.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Draw {
-    /// Vertices.
+    /// Vertices, and indices if there are any; draws of a scene can share them.
     pub mesh: SharedMesh,
     /// The route by which the mesh's vertices reach the pipeline.
     pub fetch: Fetch,
-    /// The topology.
+    /// The kind of primitives that the vertices form, in their order.
     pub topology: PrimitiveTopology,
     /// The tessellation of patches, which are the topology's triangles; `None` turns it off.
     #[serde(default)]
@@ -42,7 +42,7 @@ pub struct Draw {
     /// Indices of the scene's counters that this draw adds to: at most one of each kind, and at most one
     /// occlusion query.
     pub counters: Vec<usize>,
-    /// Culled faces.
+    /// The faces that are culled: front, back or none.
     pub cull: CullMode,
     /// The front face's winding.
     pub front_face: FrontFace,
@@ -50,14 +50,14 @@ pub struct Draw {
     pub polygon_mode: PolygonMode,
     /// True if primitives are discarded before rasterization.
     pub rasterizer_discard: bool,
-    /// The viewport.
+    /// The rectangle of the viewport in texels, and its range of window depths.
     pub viewport: Viewport,
     /// Left, top, width and height of the texels that can be written; `None` for all texels.
     pub scissor: Option<[u32; 4]>,
     /// Bit `i` enables the shader's clip distance `i`.
     #[serde(default = "all_clip_distances")]
     pub clip_distances: u8,
-    /// The depth bias of polygons.
+    /// The offset that is added to the depths of polygons; 0 by default.
     pub depth_bias: DepthBias,
     /// True if depths beyond the viewport's range are clamped instead of clipped.
     pub depth_clamp: bool,
@@ -166,7 +166,7 @@ fn all_clip_distances() -> u8 {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[repr(C)]
 pub struct Params {
-    /// A colour.
+    /// A colour, or four other numbers, as the shader uses them.
     pub color: [f32; 4],
     /// A second colour, for back faces.
     pub back_color: [f32; 4],

@@ -24,7 +24,7 @@ pub const RESTART_16: u16 = u16::MAX;
 /// first vertex and index, not instanced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Fetch {
-    /// The size of an index.
+    /// The size of an index in the index buffer; unused by draws without indices.
     pub index: IndexFormat,
     /// The number added to every index. The vertices (or, if the number is negative, the indices) are moved
     /// to match, so that the sums refer to the mesh's vertices.

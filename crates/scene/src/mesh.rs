@@ -28,7 +28,7 @@ pub const RESTART: u32 = u32::MAX;
 /// Vertices, and indices if the vertices are not drawn in their own order.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Mesh {
-    /// The vertices.
+    /// The distinct vertices; in the order of drawing if there are no indices.
     #[serde(with = "crate::pod_bytes")]
     pub vertices: Vec<Vertex>,
     /// Indices of the drawn vertices, in order; [`RESTART`] restarts a strip.

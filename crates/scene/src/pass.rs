@@ -32,7 +32,7 @@ pub struct Pass {
     /// Clear commands, in the order of the draws that they precede.
     #[serde(default)]
     pub clears: Vec<Clear>,
-    /// Draws, in order.
+    /// Draws in the order of submission, which the API keeps.
     pub draws: Vec<Draw>,
 }
 
@@ -71,10 +71,10 @@ pub struct PassOperations {
     /// stored.
     #[serde(default)]
     pub color: Vec<Operations<[f32; 4]>>,
-    /// The operations of depth.
+    /// The operations of depth; the default if the pass has no depth.
     #[serde(default)]
     pub depth: Operations<f32>,
-    /// The operations of stencil.
+    /// The operations of stencil; the default if the pass has no stencil.
     #[serde(default)]
     pub stencil: Operations<u8>,
 }

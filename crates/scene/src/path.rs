@@ -30,7 +30,7 @@ pub struct Path {
     pub draws: PathDraws,
     /// The route by which an attachment reaches the host.
     pub end: PathEnd,
-    /// The render area.
+    /// The render areas that cover the attachments: the whole at once, or half after half.
     pub area: PathArea,
     /// The calls that clear within passes.
     pub clears: PathClears,
@@ -40,7 +40,7 @@ pub struct Path {
     pub clip: PathClip,
     /// Viewports and scissor rectangles.
     pub viewport: PathViewport,
-    /// The layers of a pass.
+    /// The layers of the attachments, and the way in which draws reach them.
     pub layers: PathLayers,
     /// The tests of aspects that a pass does not have.
     pub tests: PathTests,

@@ -7,7 +7,7 @@ use etalon_frame::CounterKind;
 /// A query, by the draws that it encloses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Query {
-    /// The index of its counter.
+    /// The index of the counter that the query adds to, among the scene's.
     pub counter: usize,
     /// The indices of the pass and the draw before which it begins.
     pub first: (usize, usize),

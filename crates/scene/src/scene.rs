@@ -18,7 +18,7 @@ use std::collections::BTreeSet;
 pub struct Scene {
     /// The textures that passes draw to or read, with distinct names.
     pub attachments: Vec<Attachment>,
-    /// Passes, in order.
+    /// Passes in the order of submission; each sees what the earlier ones stored.
     pub passes: Vec<Pass>,
     /// Indices of the attachments to read back at the end: all aspects, depth before stencil.
     pub read: Vec<usize>,
@@ -40,7 +40,7 @@ pub struct Scene {
 pub struct Counter {
     /// Name in the case file.
     pub name: String,
-    /// The kind of count.
+    /// What is counted, and so the type of query that a backend uses.
     pub kind: CounterKind,
 }
 

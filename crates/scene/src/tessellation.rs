@@ -35,7 +35,7 @@ state_enum! {
 pub struct Tessellation {
     /// The order of each triangle's vertices in the domain, which the evaluation shader declares.
     pub order: FrontFace,
-    /// The domain's origin.
+    /// The corner of the domain's origin; with `order`, it decides whether the facing is reversed.
     pub origin: DomainOrigin,
 }
 
