@@ -24,7 +24,7 @@ pub struct WorkTimes<'a> {
 pub struct Slope {
     /// The seconds for one unit in each round, in order. Noise can make them 0 or negative.
     pub rounds: Vec<f64>,
-    /// The median of `rounds`.
+    /// The median of `rounds`, in seconds for one unit.
     pub median: f64,
     /// The interval of the median over all possible rounds, with confidence [`RATE_CONFIDENCE`]; `None` with
     /// fewer than 6 rounds, whose whole range is not that certain.

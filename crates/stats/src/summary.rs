@@ -15,7 +15,7 @@ const SEED: u128 = 0x6574_616c_6f6e;
 /// The summary of one bench of a case on an adapter. Times are in the unit of the samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Summary {
-    /// The number of rounds.
+    /// The number of rounds, each with at least one sample.
     pub rounds: usize,
     /// The number of samples in all rounds.
     pub samples: usize,

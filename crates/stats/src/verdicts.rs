@@ -46,7 +46,7 @@ impl VerdictEvent {
 /// An event, the run that shows it, and the previous run: the cause came between the two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Happening<K> {
-    /// The event.
+    /// The kind of change that the verdicts show.
     pub event: VerdictEvent,
     /// The last run without the event.
     pub after: K,
@@ -133,7 +133,7 @@ fn with_turns<K: Copy>(runs: &[(K, Standing)]) -> Vec<Standing> {
 /// The number of good cases in a set.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Score {
-    /// Good cases.
+    /// The number of cases whose standing is good; at most `of`.
     pub good: usize,
     /// Cases about which something is known.
     pub of: usize,

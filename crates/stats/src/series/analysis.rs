@@ -19,7 +19,7 @@ const VISITS: usize = 5;
 /// The changes of a series.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Changes {
-    /// The change points, in order.
+    /// The steps between levels, by their run.
     pub points: Vec<ChangePoint>,
     /// The stretches that drift, in order.
     pub drifts: Vec<Drift>,

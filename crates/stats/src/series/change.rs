@@ -18,7 +18,7 @@ pub struct ChangePoint {
     pub after: f64,
     /// The step as a ratio, after over before. On a line that drifts before and after, it is only the step.
     pub ratio: Ratio,
-    /// The same ratio in units of the ruler.
+    /// The same ratio in units of the ruler; `None` without a ruler.
     pub ruled: Option<Ratio>,
     /// The ruler's own step at that run.
     pub ruler: Option<Ratio>,
@@ -27,7 +27,7 @@ pub struct ChangePoint {
     /// The smallest step, as a ratio above 1, that is found with probability [`crate::POWER`] with as many
     /// runs before and after as here, and with their noise.
     pub visible: f64,
-    /// The cause.
+    /// The cause, by comparison with the step of the ruler.
     pub cause: Cause,
     /// True if the series alternates between the two levels at least four times: a machine with two speeds
     /// that the ruler does not feel, or a change that repeatedly came and went. Never true if the ruler
