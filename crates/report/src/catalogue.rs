@@ -22,13 +22,13 @@ const PICTURE_BYTES: usize = 1_000_000;
 /// A case, with its scene, shaders and reference picture.
 #[derive(Clone, Debug)]
 pub struct CatalogueCase {
-    /// The id.
+    /// The id, `axis=value` parts included.
     pub id: String,
     /// The path of its file below the folder of cases, without `.json`.
     pub file: String,
-    /// The scene as a list.
+    /// The scene in words, line by line.
     pub lines: Vec<String>,
-    /// The names of its shaders.
+    /// The names of the shaders of its draws, each once; keys of [`Catalogue::shaders`].
     pub shaders: Vec<&'static str>,
     /// The reference picture as a `data:` URL; empty if the case has no picture.
     pub picture: String,
@@ -41,7 +41,7 @@ pub struct Catalogue {
     pub files: BTreeMap<String, Value>,
     /// WGSL by the shader's name.
     pub shaders: BTreeMap<&'static str, &'static str>,
-    /// The cases.
+    /// The cases; each area of them has a script of its own.
     pub cases: Vec<CatalogueCase>,
 }
 

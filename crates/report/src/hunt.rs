@@ -21,9 +21,9 @@ pub const HUNT_PAGE: &str = "mutants.html";
 /// The files that [`write_hunt`] wrote.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrittenHunt {
-    /// The page.
+    /// The page, [`HUNT_PAGE`] in the folder.
     pub html: PathBuf,
-    /// The hunt as JSON.
+    /// The file that `etalon_record::Hunt::read` reads.
     pub json: PathBuf,
 }
 

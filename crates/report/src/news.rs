@@ -46,7 +46,7 @@ pub struct NewsEntry {
     pub case: String,
     /// The adapter's name.
     pub adapter: String,
-    /// The verdict of this run.
+    /// The verdict of this run, as recorded.
     pub verdict: Verdict,
     /// The previous verdict, or the reason why the record does not count.
     pub note: String,

@@ -25,7 +25,7 @@ pub struct WrittenFolder {
     pub html: PathBuf,
     /// The bytes of the start page.
     pub start: u64,
-    /// The number of files.
+    /// The number of files, the start page included.
     pub files: u64,
     /// The bytes of all files.
     pub bytes: u64,

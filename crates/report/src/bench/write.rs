@@ -18,7 +18,7 @@ const MATRIX_CSV: &str = "matrix.csv";
 /// The files that [`write_bench`] wrote.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrittenBench {
-    /// The page.
+    /// The page of the bench, `index.html`.
     pub html: PathBuf,
     /// Wall times in Bencher's metric format.
     pub bencher: PathBuf,

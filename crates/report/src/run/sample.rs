@@ -11,7 +11,7 @@ use serde::Serialize;
 pub struct RecordLine {
     /// The sign of the verdict.
     pub symbol: &'static str,
-    /// The verdict in words.
+    /// The verdict in words, and how it relates to expectations.
     pub word: String,
     /// The class that colours the verdict in the style of reports.
     pub class: &'static str,

@@ -19,7 +19,7 @@ const SUMMARY: &str = "summary.md";
 /// The reports that [`write()`] made.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RunReports {
-    /// The page.
+    /// The page of the run, `index.html`.
     pub html: PathBuf,
     /// The page of methods, if the run has any.
     pub methods: Option<PathBuf>,

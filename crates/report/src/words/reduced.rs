@@ -7,9 +7,9 @@ use etalon_record::Record;
 
 /// A reduced case and its symptom.
 pub struct ReducedCase<'a> {
-    /// The reduced case's record.
+    /// The record of the reduced case on the driver that fails it.
     pub record: &'a Record,
-    /// The reduced case's symptom.
+    /// What is wrong in that record.
     pub symptom: &'a Symptom,
     /// The states that are not the default.
     pub states: Vec<String>,

@@ -20,7 +20,7 @@ pub struct BenchDiff {
     pub level: f64,
     /// Changes up to this ratio are not reported.
     pub minimum: f64,
-    /// The first bench.
+    /// The first bench, the base of every ratio.
     pub before: BenchIdentity,
     /// The second bench.
     pub after: BenchIdentity,
@@ -45,9 +45,9 @@ pub struct BenchIdentity {
     pub etalon: String,
     /// The suite's commit, if it is known.
     pub commit: Option<String>,
-    /// The machine, in words.
+    /// System, processor and number of cores, in words.
     pub machine: String,
-    /// The command line.
+    /// The command line that recorded it, with a space between its arguments.
     pub command: String,
 }
 
@@ -66,9 +66,9 @@ pub struct TimeChange {
     /// The reason why the samples decide nothing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub why: Option<&'static str>,
-    /// The median before.
+    /// The median of the rounds of the first bench.
     pub before: f64,
-    /// The median after.
+    /// The median of the rounds of the second bench.
     pub after: f64,
     /// Rounds before and after.
     pub rounds: [usize; 2],
@@ -81,7 +81,7 @@ pub struct TimeChange {
     /// device.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ruled: Option<f64>,
-    /// The interval of `ruled`.
+    /// The interval of `ruled`, with the confidence of `interval`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ruled_interval: Option<[f64; 2]>,
     /// The smallest ratio that this comparison would have found with a probability of 0.9.
@@ -113,7 +113,7 @@ pub struct Untimed {
     /// True if the times are missing in the second bench, false if they are missing in the first.
     #[serde(rename = "from_after")]
     pub is_missing_after: bool,
-    /// The reason.
+    /// The reason why the other bench has no times.
     pub why: String,
     /// True if this is worse than before: a right picture with a time is now wrong or broken, or its adapter
     /// vanished.
@@ -129,7 +129,7 @@ pub struct OutcomeCounts {
     pub slower: usize,
     /// Faster in the second bench.
     pub faster: usize,
-    /// Undecided by the samples.
+    /// Neither: the rounds are too few, or differ too little for their noise.
     pub undecided: usize,
 }
 

@@ -29,11 +29,11 @@ pub struct InstructionChange {
     pub case: String,
     /// The adapter's name.
     pub adapter: String,
-    /// The result.
+    /// More, fewer or as many, by `ratio` and `visible`.
     pub outcome: InstructionOutcome,
-    /// The instructions of a frame before.
+    /// The instructions of one frame in the first bench.
     pub before: f64,
-    /// The instructions of a frame after.
+    /// The instructions of one frame in the second bench.
     pub after: f64,
     /// After over before.
     pub ratio: f64,

@@ -21,7 +21,7 @@ pub struct RunDiff {
     pub facts: Vec<Fact>,
     /// Adapters without a counterpart.
     pub unpaired: Vec<Unpaired>,
-    /// The adapters that are compared.
+    /// Each adapter of the first run that has a counterpart in the second.
     pub pairs: Vec<AdapterPair>,
     /// Cases that changed, in the order worse, better, other, and within each group the most serious first.
     pub changes: Vec<CaseChange>,
@@ -236,7 +236,7 @@ pub(super) fn both_names([before, after]: &[String; 2]) -> String {
 pub struct Transition {
     /// The verdict before and after.
     pub verdict: [Verdict; 2],
-    /// The number of records.
+    /// The number of record pairs of two adapters with this change.
     pub records: u64,
 }
 
@@ -249,7 +249,7 @@ pub struct CaseChange {
     pub case_file: String,
     /// The adapter in each run.
     pub adapter: [String; 2],
-    /// The direction of the change.
+    /// Worse, better or other: what the change of verdict and expectation means.
     pub direction: ChangeDirection,
     /// The parts that differ: `verdict`, `expectation`, `frame`, and the kinds of [`Detail::what`].
     pub what: Vec<&'static str>,
@@ -305,11 +305,11 @@ impl FrameChange {
 /// One image of two frames.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct ImageChange {
-    /// The name of the attachment.
+    /// The attachment's name in the scene.
     pub attachment: String,
-    /// The aspect of the attachment.
+    /// The aspect that was read; depth and stencil of one attachment are two images.
     pub aspect: Aspect,
-    /// The number of samples.
+    /// The number of samples that the image has in each frame.
     pub samples: u64,
     /// The number of samples that differ.
     pub differ: u64,
@@ -340,7 +340,7 @@ pub struct Only {
 pub struct AreaTime {
     /// The adapter in each run.
     pub adapter: [String; 2],
-    /// The area.
+    /// The first part of the cases' ids: `depth`.
     pub area: String,
     /// The number of cases that were drawn in both runs.
     pub cases: u64,
