@@ -45,11 +45,11 @@ pub struct BenchPlan<'a> {
     pub timeout: Duration,
     /// The program that counts the instructions of a frame on software adapters; `None` counts none.
     pub counter: Option<InstructionCounter>,
-    /// The known bad verdicts.
+    /// The bad verdicts that do not count against the bench.
     pub expectations: &'a Expectations,
     /// True to continue the bench in the folder by measuring its missing rounds.
     pub resume: bool,
-    /// The bench folder.
+    /// The bench folder, which the bench creates or, with `resume`, continues.
     pub folder: &'a Path,
     /// The header of the bench, with its number of rounds.
     pub header: BenchHeader,

@@ -19,7 +19,7 @@ pub const START_TIMEOUT: Duration = Duration::from_secs(60);
 pub struct Launch {
     /// The adapter's name.
     pub adapter: String,
-    /// The path of the program.
+    /// The path of the worker's program, usually that of the running one.
     pub program: PathBuf,
     /// The program's arguments.
     pub arguments: Vec<String>,

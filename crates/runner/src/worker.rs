@@ -153,7 +153,7 @@ pub struct Recorded {
     pub frame: Frame,
     /// Messages of validation layers and debug output.
     pub messages: Vec<String>,
-    /// The recorded calls.
+    /// The calls that the backend made; `None` if it records none.
     pub recording: Option<Recording>,
 }
 

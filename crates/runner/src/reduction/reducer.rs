@@ -25,7 +25,7 @@ const DRAWS: usize = 400;
 pub struct Looked {
     /// The reduced scene, or the whole scene if it was not reduced.
     pub scene: Candidate,
-    /// The record of that scene.
+    /// The record of `scene` on the driver.
     pub record: Record,
     /// The failure of the reduced scene.
     pub symptom: Symptom,

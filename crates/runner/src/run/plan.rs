@@ -26,11 +26,11 @@ pub struct Plan<'a> {
     pub dead: Vec<(AdapterRecord, String)>,
     /// The limits and repetitions of drawing.
     pub options: RunOptions,
-    /// The known bad verdicts.
+    /// The bad verdicts that do not count against the run.
     pub expectations: &'a Expectations,
-    /// The run folder.
+    /// The run folder, which the run creates or, with `resume`, continues.
     pub folder: &'a Path,
-    /// The header of the run.
+    /// The first line of the run; a run can only be resumed with the same selection and settings.
     pub header: Header,
     /// True to resume the run that the folder holds, false to replace it.
     pub resume: bool,
