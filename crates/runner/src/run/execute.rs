@@ -12,19 +12,51 @@ use etalon_frame::threads::share;
 use etalon_judge::{Judge, Truths, denials, pictured};
 use etalon_record::{LossKind, Record, RunWriter, beside, count_unexpected, selection_digest};
 use std::collections::{HashMap, HashSet};
+use std::path::Path;
 use std::sync::{Mutex, RwLock};
 use std::time::Duration;
 
 /// The time that a thread without work waits before it looks again.
 const WAITING: Duration = Duration::from_millis(5);
 
-/// Runs every case on every adapter. Several threads report events. The threads borrow what this function sets up.
+/// What the resumed run has recorded.
+#[derive(Default)]
+struct Resumed {
+    summary: RunSummary,
+    /// Adapter and case of each record.
+    done: HashSet<(String, String)>,
+    /// By adapter: the recorded round trips, with the number of their case.
+    round_trips: HashMap<String, Vec<(usize, Record)>>,
+    /// By adapter and reason: the cases that the run shows in full.
+    examples: HashMap<String, HashMap<String, String>>,
+    /// The records that are written beside those of the cases.
+    beside: Vec<Record>,
+}
+
+impl Resumed {
+    /// Adds a record, which is that of a round trip if its case has this number.
+    fn add(&mut self, record: Record, round_trip: Option<usize>) {
+        self.summary.count(&record);
+        let adapter = &record.adapter;
+        self.done.insert((adapter.clone(), record.case.clone()));
+        if let Some(reason) = record.excuse() {
+            let example = record.example.as_ref().unwrap_or(&record.case);
+            let of_adapter = self.examples.entry(adapter.clone()).or_default();
+            let entry = of_adapter.entry(reason.to_owned());
+            entry.or_insert_with(|| example.clone());
+        }
+        if let Some(number) = round_trip {
+            let records = self.round_trips.entry(adapter.clone()).or_default();
+            records.push((number, record));
+        }
+    }
+}
+
+/// Runs every case on every adapter. Several threads report events.
 ///
 /// # Errors
 /// If the run folder cannot be written to, or holds a run that differs from the one to resume.
 pub fn run(plan: Plan<'_>, events: &(dyn Fn(RunEvent) + Sync)) -> Result<RunSummary, RunError> {
-    let mut summary = RunSummary::default();
-    let mut done: HashSet<(String, String)> = HashSet::new();
     let selected: HashMap<&str, usize> = (0..).zip(plan.cases).map(|(n, c)| (&*c.id, n)).collect();
     let mut cases: Vec<&Case> = plan.cases.iter().collect();
     let mut first = Vec::new();
@@ -34,29 +66,14 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(RunEvent) + Sync)) -> Result<RunSumm
             cases.push(case);
         }
     }
-    // By adapter: the round trips that a resumed run has already recorded.
-    let mut drawn: HashMap<String, Vec<(usize, Record)>> = HashMap::new();
-    // By adapter and reason: the cases that the resumed run shows in full.
-    let mut examples: HashMap<String, HashMap<String, String>> = HashMap::new();
-    let mut beside = Vec::new();
+    let mut resumed = Resumed::default();
     let writer = if plan.resume {
         let (writer, run) =
             RunWriter::resume(plan.folder, &plan.header).map_err(RunError::Folder)?;
-        beside = run.beside;
+        resumed.beside = run.beside;
         for record in run.records {
-            summary.count(&record);
-            done.insert((record.adapter.clone(), record.case.clone()));
-            if let Some(reason) = record.excuse() {
-                let example = record.example.as_ref().unwrap_or(&record.case);
-                let of_adapter = examples.entry(record.adapter.clone()).or_default();
-                let entry = of_adapter.entry(reason.to_owned());
-                entry.or_insert_with(|| example.clone());
-            }
             let number = selected.get(&*record.case).copied();
-            if let Some(number) = number.filter(|n| first.contains(n)) {
-                let records = drawn.entry(record.adapter.clone()).or_default();
-                records.push((number, record));
-            }
+            resumed.add(record, number.filter(|n| first.contains(n)));
         }
         writer
     } else {
@@ -83,7 +100,7 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(RunEvent) + Sync)) -> Result<RunSumm
         writer: Mutex::new(writer),
         error: Mutex::new(None),
         stop: plan.stop,
-        summary: Mutex::new(summary),
+        summary: Mutex::new(resumed.summary),
         truths: Truths::default(),
         quiet: RwLock::new(()),
         pictures: pictured(plan.cases),
@@ -95,7 +112,11 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(RunEvent) + Sync)) -> Result<RunSumm
         drawn: plan.drawn,
     };
     let missing = |adapter: &str| -> Vec<usize> {
-        let done = |case: &Case| done.contains(&(adapter.to_owned(), case.id.clone()));
+        let done = |case: &Case| {
+            resumed
+                .done
+                .contains(&(adapter.to_owned(), case.id.clone()))
+        };
         (0..plan.cases.len())
             .filter(|n| !done(&plan.cases[*n]))
             .collect()
@@ -103,9 +124,9 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(RunEvent) + Sync)) -> Result<RunSumm
     let running = plan.adapters.into_iter().map(|(launch, worker)| {
         let name = &worker.hello.info.name;
         let numbers = missing(name);
-        let drawn = drawn.get(name).map_or(&[][..], Vec::as_slice);
-        let first = to_draw_first(&first, &shared.cases, plan.cases.len(), drawn);
-        let examples = examples.remove(name).unwrap_or_default();
+        let recorded = resumed.round_trips.get(name).map_or(&[][..], Vec::as_slice);
+        let first = to_draw_first(&first, &shared.cases, plan.cases.len(), recorded);
+        let examples = resumed.examples.remove(name).unwrap_or_default();
         AdapterQueue::new(numbers, first, launch, worker, plan.expectations).with_examples(examples)
     });
     let dead = plan.dead.into_iter();
@@ -127,6 +148,17 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(RunEvent) + Sync)) -> Result<RunSumm
             }
         }
     });
+    finish(plan.folder, &shared, &queues, &ids, resumed.beside)
+}
+
+/// Writes what is known only at the end of a run, and sums it up.
+fn finish(
+    folder: &Path,
+    shared: &Shared<'_>,
+    queues: &[AdapterQueue],
+    ids: &HashSet<&str>,
+    mut beside: Vec<Record>,
+) -> Result<RunSummary, RunError> {
     if let Some(error) = lock(&shared.error).take() {
         return Err(RunError::Write(error));
     }
@@ -134,7 +166,7 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(RunEvent) + Sync)) -> Result<RunSumm
         return Err(RunError::Write(error));
     }
     let mut summary = *lock(&shared.summary);
-    for queue in &queues {
+    for queue in queues {
         let (adapter, expectations) = (&queue.adapter, &queue.expectations);
         beside::add(&mut beside, queue.bad_ends.take(adapter, expectations));
         let denials = denials(adapter, expectations).into_iter();
@@ -142,9 +174,9 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(RunEvent) + Sync)) -> Result<RunSumm
         let unselected = denials.filter(|r| !ids.contains(r.case.as_str()));
         beside::add(&mut beside, unselected);
     }
-    beside::write(plan.folder, &beside).map_err(RunError::Write)?;
+    beside::write(folder, &beside).map_err(RunError::Write)?;
     summary.unexpected += count_unexpected(&beside);
-    for queue in &queues {
+    for queue in queues {
         let Rechecks { done, left } = queue.rechecks();
         summary.rechecks.done += done;
         summary.rechecks.left += left;
@@ -160,21 +192,22 @@ fn to_draw_first(
     first: &[usize],
     cases: &[&Case],
     selected: usize,
-    drawn: &[(usize, Record)],
+    recorded: &[(usize, Record)],
 ) -> LeadingRoundTrips {
     let mut result = LeadingRoundTrips::default();
     for number in first {
-        let recorded = drawn.iter().find(|(n, _)| n == number).map(|(_, r)| r);
+        let record = recorded.iter().find(|(n, _)| n == number);
+        let record = record.map(|(_, record)| record);
         let started = |r: &&Record| {
             let end = r.process.as_ref().map(|end| end.kind);
             end != Some(LossKind::NotStarted)
         };
-        if let Some(record) = recorded.filter(started) {
+        if let Some(record) = record.filter(started) {
             result.known.take(cases[*number], record);
             continue;
         }
         result.cases.push(*number);
-        if *number >= selected || recorded.is_some() {
+        if *number >= selected || record.is_some() {
             result.silent.insert(*number);
         }
     }
