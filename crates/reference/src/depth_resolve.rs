@@ -70,72 +70,55 @@ impl Walk<'_> {
         merge(worlds).then_some(())
     }
 
+    /// Returns each pair of depth and stencil that the worlds of the samples can resolve to.
     fn outcomes(
         &self,
         source: usize,
         resolve: &DepthStencilResolve,
-        each: &[Rc<Worlds>],
+        samples: &[Rc<Worlds>],
     ) -> BTreeSet<Resolved> {
-        let first = |mode| mode == ResolveMode::SampleZero;
-        let cells = each.first().into_iter().flat_map(|worlds| worlds.iter());
-        let cells = cells.map(|world| world.cells[source]);
-        if first(resolve.depth) && first(resolve.stencil) {
-            return cells
-                .map(|c| (Some(c.channel(0)), Some(c.stencil)))
+        if [resolve.depth, resolve.stencil] == [ResolveMode::SampleZero; 2] {
+            return first_cells(source, samples)
+                .map(|cell| (Some(cell.channel(0)), Some(cell.stencil)))
                 .collect();
         }
-        let depths: BTreeSet<Option<CodeInterval>> = match resolve.depth {
-            ResolveMode::None => [None].into(),
-            ResolveMode::SampleZero => cells.clone().map(|c| Some(c.channel(0))).collect(),
-            mode => {
-                let hulls = each.iter().filter_map(|worlds| {
-                    let codes = worlds.iter().map(|w| w.cells[source].channel(0));
-                    codes.reduce(CodeInterval::hull)
-                });
-                [self.depth_of(
-                    mode,
-                    self.depth_encoding(source),
-                    &hulls.collect::<Vec<_>>(),
-                )]
-                .into()
-            }
-        };
-        let stencils: BTreeSet<Option<u8>> = match resolve.stencil {
-            ResolveMode::None | ResolveMode::Average => [None].into(),
-            ResolveMode::SampleZero => cells.map(|c| Some(c.stencil)).collect(),
-            mode => {
-                let values = each.iter().map(|worlds| {
-                    let stencils = worlds.iter().map(|w| w.cells[source].stencil);
-                    stencils.collect::<BTreeSet<u8>>()
-                });
-                let values: Vec<BTreeSet<u8>> = values.collect();
-                extremes(mode, &values).into_iter().map(Some).collect()
-            }
-        };
+        let depths = self.depths(source, resolve.depth, samples);
+        let stencils = stencils(source, resolve.stencil, samples);
         let pairs = depths.iter();
         pairs
             .flat_map(|depth| stencils.iter().map(|stencil| (*depth, *stencil)))
             .collect()
     }
 
-    /// Returns the depth that samples in these intervals resolve to.
-    fn depth_of(
+    /// Returns the depths that the worlds of the samples can resolve to.
+    fn depths(
         &self,
+        source: usize,
         mode: ResolveMode,
-        encoding: ChannelEncoding,
-        samples: &[CodeInterval],
-    ) -> Option<CodeInterval> {
+        samples: &[Rc<Worlds>],
+    ) -> BTreeSet<Option<CodeInterval>> {
+        let hulls = samples.iter().filter_map(|worlds| {
+            let codes = worlds.iter().map(|w| w.cells[source].channel(0));
+            codes.reduce(CodeInterval::hull)
+        });
         let ends = |pick: fn(i64, i64) -> i64| {
-            let each = samples.iter().copied();
-            each.reduce(|a, b| CodeInterval::new(pick(a.low, b.low), pick(a.high, b.high)))
+            let ends = |a: CodeInterval, b: CodeInterval| {
+                CodeInterval::new(pick(a.low, b.low), pick(a.high, b.high))
+            };
+            [hulls.clone().reduce(ends)].into()
         };
         match mode {
-            ResolveMode::None | ResolveMode::SampleZero => samples.first().copied(),
+            ResolveMode::None => [None].into(),
+            ResolveMode::SampleZero => first_cells(source, samples)
+                .map(|cell| Some(cell.channel(0)))
+                .collect(),
             ResolveMode::Min => ends(i64::min),
             ResolveMode::Max => ends(i64::max),
             ResolveMode::Average => {
-                let between = samples.iter().copied().reduce(CodeInterval::hull)?;
-                Some(self.average(encoding, samples, between))
+                let hulls: Vec<CodeInterval> = hulls.collect();
+                let between = hulls.iter().copied().reduce(CodeInterval::hull);
+                let average = between.map(|b| self.average(self.depth_encoding(source), &hulls, b));
+                [average].into()
             }
         }
     }
@@ -211,7 +194,31 @@ impl Walk<'_> {
     }
 }
 
-/// Returns the least or greatest values that choosing one value of each sample can give.
+/// Returns the source's contents in the worlds of the first sample.
+fn first_cells(source: usize, samples: &[Rc<Worlds>]) -> impl Iterator<Item = SampleContents> {
+    let worlds = samples.first().into_iter().flat_map(|worlds| worlds.iter());
+    worlds.map(move |world| world.cells[source])
+}
+
+/// Returns the stencil values that the worlds of the samples can resolve to.
+fn stencils(source: usize, mode: ResolveMode, samples: &[Rc<Worlds>]) -> BTreeSet<Option<u8>> {
+    match mode {
+        ResolveMode::None | ResolveMode::Average => [None].into(),
+        ResolveMode::SampleZero => first_cells(source, samples)
+            .map(|cell| Some(cell.stencil))
+            .collect(),
+        ResolveMode::Min | ResolveMode::Max => {
+            let values = samples.iter().map(|worlds| {
+                let stencils = worlds.iter().map(|w| w.cells[source].stencil);
+                stencils.collect::<BTreeSet<u8>>()
+            });
+            let values: Vec<BTreeSet<u8>> = values.collect();
+            extremes(mode, &values).into_iter().map(Some).collect()
+        }
+    }
+}
+
+/// Returns the least or greatest stencil values that choosing one value of each sample can give.
 fn extremes(mode: ResolveMode, samples: &[BTreeSet<u8>]) -> BTreeSet<u8> {
     let beyond = |value: u8, other: u8| match mode {
         ResolveMode::Min => other >= value,
@@ -231,7 +238,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_extreme_depth_is_one_that_all_samples_leave_possible() {
+    fn an_extreme_stencil_value_is_one_that_all_samples_leave_possible() {
         let samples = [[1, 7].into(), [3, 4].into(), [4].into()];
         assert_eq!(extremes(ResolveMode::Min, &samples), [1, 3, 4].into());
         assert_eq!(extremes(ResolveMode::Max, &samples), [4, 7].into());
