@@ -16,6 +16,7 @@ pub(crate) enum Inputs {
     Pinned,
 }
 
+/// Returns a number as JSON. A wild one can be outside 0 to 1, if the inputs are not pinned.
 pub(crate) fn number(inputs: Inputs, wild: bool) -> BoxedStrategy<String> {
     let sharp = select(vec![0.0_f32, 1.0]);
     match inputs {
@@ -64,7 +65,7 @@ fn depths(inputs: Inputs) -> BoxedStrategy<String> {
 }
 
 /// A mesh, and whether it consists of loose vertices.
-fn mesh(inputs: Inputs, size: [u32; 2]) -> BoxedStrategy<String> {
+fn mesh(inputs: Inputs, size: [u32; 2]) -> BoxedStrategy<(String, bool)> {
     let [w, h] = size;
     let values = || four(inputs, false);
     let full = (values(), depths(inputs), winding())
@@ -87,8 +88,9 @@ fn mesh(inputs: Inputs, size: [u32; 2]) -> BoxedStrategy<String> {
         .prop_map(|(kind, v, z, f)| {
             format!(r#"{{"kind":"{kind}","values":{v},"z":{z},"windings":{f}}}"#)
         });
+    let whole = prop_oneof![1 => full, 2 => rect, 2 => bands].prop_map(|mesh| (mesh, false));
     if inputs == Inputs::Pinned {
-        return prop_oneof![full, rect, bands].boxed();
+        return whole.boxed();
     }
     // Texel corners and centres, snapping ties, and anything.
     let coordinate = prop_oneof![
@@ -101,7 +103,7 @@ fn mesh(inputs: Inputs, size: [u32; 2]) -> BoxedStrategy<String> {
         .boxed();
     let loose = (list(vertex, 3..=7), list(values(), 1..=3))
         .prop_map(|(p, v)| format!(r#"{{"kind":"vertices","positions":{p},"values":{v}}}"#));
-    prop_oneof![1 => full, 2 => rect, 2 => bands, 2 => loose].boxed()
+    prop_oneof![5 => whole, 2 => loose.prop_map(|mesh| (mesh, true))].boxed()
 }
 
 pub(crate) fn blend(inputs: Inputs) -> BoxedStrategy<String> {
@@ -181,9 +183,9 @@ fn draw(
     size: [u32; 2],
     has_depth: bool,
     has_stencil: bool,
-    several: bool,
+    writes_floats: bool,
 ) -> BoxedStrategy<String> {
-    let shaders = if several {
+    let shaders = if writes_floats {
         vec![("texel_color_all", r#","textures":["source"]"#)]
     } else {
         vec![
@@ -213,9 +215,9 @@ fn draw(
         (cull, select(FrontFace::ALL), any::<bool>()),
     )
         .prop_map(
-            |(mesh, (shader, textures), [color, back], depth, stencil, blend, mask, state)| {
+            |((mesh, is_loose), (shader, textures), [color, back], depth, stencil, blend, mask, state)| {
                 let (cull, front, strip) = state;
-                let topology = if strip && mesh.contains("\"vertices\"") {
+                let topology = if strip && is_loose {
                     "triangle-strip"
                 } else {
                     "triangle-list"
