@@ -15,6 +15,13 @@ pub(crate) fn biased(draw: &Draw, depth: f32, bias: f64) -> f32 {
     Faithful.held_to_range(depth, draw.viewport.depth, draw.depth_clamp)
 }
 
+/// Clamps a depth, without the assertion of [`f32::clamp`].
+#[inline(always)]
+fn clamped(depth: f32, [low, high]: [f32; 2]) -> f32 {
+    let depth = if depth < low { low } else { depth };
+    if depth > high { high } else { depth }
+}
+
 /// The number of doubles in a vector. The compiler does not vectorize larger loops well.
 const DOUBLE_LANES: usize = 8;
 
@@ -23,7 +30,7 @@ const DOUBLE_LANES: usize = 8;
 pub(crate) struct Depths {
     /// The place of `z`, in units of the grid.
     origin: [i32; 2],
-    /// The depth there, and its change per unit to the right and down.
+    /// The depth at `origin`, and its change per unit of the grid to the right and down.
     z: f64,
     across: f64,
     down: f64,
@@ -89,13 +96,10 @@ impl Depths {
     #[inline(always)]
     pub(crate) fn floats(&self, columns: &[f64], y: i32, sample: [i32; 2], codes: &mut [u32]) {
         let down = f64::from(y * UNITS as i32 + sample[1] - self.origin[1]) * self.down;
-        let [low, high] = self.ends;
         let pairs = codes.as_chunks_mut::<DOUBLE_LANES>().0.iter_mut();
         for (codes, columns) in pairs.zip(columns.as_chunks::<DOUBLE_LANES>().0) {
             for (code, column) in codes.iter_mut().zip(columns) {
-                let depth = (column + down) as f32;
-                let depth = if depth < low { low } else { depth };
-                let depth = if depth > high { high } else { depth };
+                let depth = clamped((column + down) as f32, self.ends);
                 // Adding 0 removes the sign of a negative zero.
                 *code = (depth + 0.0).to_bits();
             }
@@ -109,10 +113,6 @@ impl Depths {
         let down = f64::from(y * units + sample[1] - self.origin[1]) * self.down;
         let first = x * units + sample[0] - self.origin[0];
         let mut depths = [0.0_f32; LANES];
-        let held = |v: f32, [low, high]: [f32; 2]| {
-            let v = if v < low { low } else { v };
-            if v > high { high } else { v }
-        };
         for (part, depths) in depths
             .as_chunks_mut::<DOUBLE_LANES>()
             .0
@@ -122,8 +122,8 @@ impl Depths {
             let first = first + (part * DOUBLE_LANES) as i32 * units;
             for (lane, depth) in depths.iter_mut().enumerate() {
                 let across = f64::from(first + lane as i32 * units) * self.across;
-                let value = held((self.z + across + down) as f32, self.ends);
-                *depth = held((f64::from(value) + self.bias) as f32, self.range);
+                let value = clamped((self.z + across + down) as f32, self.ends);
+                *depth = clamped((f64::from(value) + self.bias) as f32, self.range);
             }
         }
         Faithful.depth_codes(self.encoding, depths)
