@@ -119,9 +119,12 @@ pub(crate) fn weighted_layers_are_summed_and_shown(s: &CheckedBackend) -> CheckE
                 "mesh": full(), "shader": "weighted_resolve", "textures": ["sum", "left"],
                 "blend": blend("add", "one-minus-src-alpha", "src-alpha") }] }],
     }))?;
+    // The weight is 0.5 * 3000 * 0.5^3 = 187.5, by alpha and depth. Each layer adds its colour times its alpha of 0.5,
+    // times the weight.
+    let weighted = 0.5 * 187.5;
     for (x, y) in texels([4, 4]) {
         let (green, left, shown) = if x < 2 && y < 3 {
-            (93.75, 0.25, [0.375, 0.375, 0.25])
+            (weighted, 0.25, [0.375, 0.375, 0.25])
         } else {
             (0.0, 0.5, [0.5, 0.0, 0.5])
         };
@@ -129,7 +132,7 @@ pub(crate) fn weighted_layers_are_summed_and_shown(s: &CheckedBackend) -> CheckE
             &frame,
             "sum",
             (x, y),
-            [93.75, green, 0.0, 93.75 + green],
+            [weighted, green, 0.0, weighted + green],
             0.2,
         );
         check_near(&values(color(&frame, "left"), x, y), &[left], 1.01 / 255.0);
@@ -144,9 +147,9 @@ pub(crate) fn weighted_layers_are_summed_and_shown(s: &CheckedBackend) -> CheckE
 
 /// Two layers at different depths, the farther one first. The moments give the light that reaches each of
 /// them.
-pub(crate) fn moments_of_layers_tell_what_is_in_front(s: &CheckedBackend) -> CheckEnd {
-    let float = || json!({ "format": "rgba32float", "size": [4, 4] });
-    let layers = |shader: &str, textures: &[&str]| {
+pub(crate) fn moments_give_the_light_that_reaches_each_layer(s: &CheckedBackend) -> CheckEnd {
+    let attachment = || json!({ "format": "rgba32float", "size": [4, 4] });
+    let two_layers = |shader: &str, textures: &[&str]| {
         let layer = |texels: [u32; 4], z: f64, color: [f64; 4]| {
             json!({ "mesh": { "kind": "rect", "texels": texels, "z": z, "value": color }, "shader": shader,
                     "textures": textures, "blend": blend("add", "one", "one") })
@@ -155,10 +158,10 @@ pub(crate) fn moments_of_layers_tell_what_is_in_front(s: &CheckedBackend) -> Che
         [far, layer([0, 0, 2, 3], 0.25, [0.0, 1.0, 0.0, 0.5])]
     };
     let frame = s.show(json!({
-        "attachments": { "absorbance": float(), "moments": float(), "sum": float(), "shown": blue() },
+        "attachments": { "absorbance": attachment(), "moments": attachment(), "sum": attachment(), "shown": blue() },
         "passes": [
-            { "color": ["absorbance", "moments"], "draws": layers("moment_absorbance", &[]) },
-            { "color": ["sum"], "draws": layers("moment_transmittance", &["absorbance", "moments"]) },
+            { "color": ["absorbance", "moments"], "draws": two_layers("moment_absorbance", &[]) },
+            { "color": ["sum"], "draws": two_layers("moment_transmittance", &["absorbance", "moments"]) },
             { "color": ["shown"], "draws": [{
                 "mesh": full(), "shader": "moment_resolve", "textures": ["sum", "absorbance"],
                 "blend": blend("add", "one-minus-src-alpha", "src-alpha") }] }],

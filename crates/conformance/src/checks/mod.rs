@@ -165,7 +165,7 @@ registry! {
     layers {
         layers_are_peeled_one_by_one layers_are_peeled_from_both_ends
         weighted_layers_are_summed_and_shown
-        moments_of_layers_tell_what_is_in_front samples_are_discarded_by_thresholds
+        moments_give_the_light_that_reaches_each_layer samples_are_discarded_by_thresholds
     }
     lists {
         fragments_are_listed_and_composed a_full_pool_drops_the_rest
