@@ -6,7 +6,7 @@ use crate::description::{Description, Resolved, Unresolved};
 use crate::devices::HardwareDevice;
 use crate::error::AdapterError;
 use crate::guard::guard;
-use crate::open::{FROM_INPUT, Open};
+use crate::open::{FROM_INPUT, OpenRequest};
 use crate::origin::Origin;
 use crate::query::Query;
 use crate::runtime_folder::default_runtime_folder;
@@ -35,7 +35,7 @@ pub(crate) enum Candidate {
     /// An entry of this file; `None` is the built-in one.
     Described(Box<Description>, Option<PathBuf>),
     /// A device that a backend enumerated.
-    Enumerated(Box<Open>),
+    Enumerated(Box<OpenRequest>),
 }
 
 /// A usable adapter.
@@ -57,8 +57,8 @@ pub(crate) enum NoStart {
     Wrong(AdapterError),
 }
 
-fn open(name: &str, backend: BackendName) -> Open {
-    Open {
+fn open(name: &str, backend: BackendName) -> OpenRequest {
+    OpenRequest {
         name: name.to_owned(),
         backend,
         device: None,
@@ -78,7 +78,7 @@ impl Candidate {
     }
 
     pub(crate) fn enumerated(device: HardwareDevice, backend: BackendName) -> Self {
-        Self::Enumerated(Box::new(Open {
+        Self::Enumerated(Box::new(OpenRequest {
             device: Some(device.device),
             ..open(&device.name, backend)
         }))
@@ -98,7 +98,7 @@ impl Candidate {
                 Some(Self::Described(description, file.clone()))
             }
             Self::Enumerated(open) if fits(fault, open.backend) => {
-                Some(Self::Enumerated(Box::new(Open {
+                Some(Self::Enumerated(Box::new(OpenRequest {
                     name: name.to_owned(),
                     fault: Some(fault),
                     ..(**open).clone()
@@ -228,9 +228,9 @@ impl Candidate {
         })
     }
 
-    fn open(&self, resolved: &Resolved, query: &Query<'_>) -> Open {
+    fn open(&self, resolved: &Resolved, query: &Query<'_>) -> OpenRequest {
         let mut open = match self {
-            Self::Described(description, _) => Open {
+            Self::Described(description, _) => OpenRequest {
                 device: description.device,
                 egl: resolved.egl.clone(),
                 browser: resolved.browser.clone(),

@@ -12,10 +12,10 @@ use std::path::PathBuf;
 /// The argument that stands for a request on standard input.
 pub const FROM_INPUT: &str = "-";
 
-/// The adapter that a worker opens.
+/// A request to open an adapter.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Open {
+pub struct OpenRequest {
     /// The adapter's name.
     pub name: String,
     /// The backend that opens it.

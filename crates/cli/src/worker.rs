@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use clap::Args;
-use etalon_adapters::{BackendName, FROM_INPUT, HardwareDevice, Open, guard};
+use etalon_adapters::{BackendName, FROM_INPUT, HardwareDevice, OpenRequest, guard};
 use etalon_backend::{Backend, Unavailable};
 use etalon_browser::PageSource;
 use etalon_cpu::CpuBackend;
@@ -67,15 +67,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let Some(text) = text else {
         return Err(Failure::usage("a worker needs --open or --enumerate"));
     };
-    let what: Open = parse(&text)?;
+    let request: OpenRequest = parse(&text)?;
     let input = BufReader::new(io::stdin());
     let pipe = output.try_clone()?;
     let mut output = BufWriter::new(output);
     // The server ends with this process.
     let mut server = None;
     let open = || {
-        server = started_server(&what)?;
-        let opened = open(&what, pipe);
+        server = started_server(&request)?;
+        let opened = open(&request, pipe);
         server.iter_mut().for_each(Served::connected);
         opened
     };
@@ -150,20 +150,20 @@ fn parse<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, Failure> {
     serde_json::from_str(text).map_err(|e| Failure::usage(format!("--open or --enumerate: {e}")))
 }
 
-fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
-    let name = &what.name;
-    let device = what.device.unwrap_or(0);
+fn open(request: &OpenRequest, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
+    let name = &request.name;
+    let device = request.device.unwrap_or(0);
     let gl = |profile| {
         let options = etalon_gl::GlOptions {
             profile,
-            platform: match what.device {
+            platform: match request.device {
                 None => etalon_gl::Platform::Surfaceless,
                 Some(index) => etalon_gl::Platform::Device(index),
             },
-            library: what.egl.clone(),
-            debug: what.validate,
-            fault: what.fault,
-            record: what.record,
+            library: request.egl.clone(),
+            debug: request.validate,
+            fault: request.fault,
+            record: request.record,
         };
         etalon_gl::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
     };
@@ -171,20 +171,20 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
         let options = etalon_wgpu::WgpuOptions {
             via,
             device,
-            validate: what.validate,
-            fault: what.fault,
-            record: what.record,
+            validate: request.validate,
+            fault: request.fault,
+            record: request.record,
         };
         etalon_wgpu::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
     };
-    match what.backend {
-        BackendName::Cpu => Ok(rasterizer(what, pipe)),
+    match request.backend {
+        BackendName::Cpu => Ok(rasterizer(request, pipe)),
         BackendName::Vulkan => {
             let options = etalon_vulkan::VulkanOptions {
                 device,
-                validate: what.validate,
-                fault: what.fault,
-                record: what.record,
+                validate: request.validate,
+                fault: request.fault,
+                record: request.record,
             };
             etalon_vulkan::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
         }
@@ -194,22 +194,22 @@ fn open(what: &Open, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
         BackendName::WgpuGl => wgpu(etalon_wgpu::Via::Gl),
         BackendName::WgpuDx12 => wgpu(etalon_wgpu::Via::Dx12),
         BackendName::WgpuMetal => wgpu(etalon_wgpu::Via::Metal),
-        BackendName::Webgpu => browser(what),
+        BackendName::Webgpu => browser(request),
     }
 }
 
 /// Opens the rasterizer. A planted fault can write to the pipe to the parent.
 #[cfg(feature = "faults")]
-fn rasterizer(what: &Open, pipe: File) -> Box<dyn Backend> {
-    match what.fault {
-        None => Box::new(CpuBackend::new(&what.name)),
-        Some(fault) => Box::new(crate::faulty::Faulty::new(&what.name, fault, pipe)),
+fn rasterizer(request: &OpenRequest, pipe: File) -> Box<dyn Backend> {
+    match request.fault {
+        None => Box::new(CpuBackend::new(&request.name)),
+        Some(fault) => Box::new(crate::faulty::Faulty::new(&request.name, fault, pipe)),
     }
 }
 
 #[cfg(not(feature = "faults"))]
-fn rasterizer(what: &Open, _pipe: File) -> Box<dyn Backend> {
-    Box::new(CpuBackend::new(&what.name))
+fn rasterizer(request: &OpenRequest, _pipe: File) -> Box<dyn Backend> {
+    Box::new(CpuBackend::new(&request.name))
 }
 
 /// Returns the command of a keeper.
@@ -226,8 +226,8 @@ fn keeper() -> Result<Command, Unavailable> {
 }
 
 /// Starts the server of an adapter's driver, if it has one.
-fn started_server(what: &Open) -> Result<Option<Served>, Unavailable> {
-    let Some(server) = &what.server else {
+fn started_server(request: &OpenRequest) -> Result<Option<Served>, Unavailable> {
+    let Some(server) = &request.server else {
         return Ok(None);
     };
     let served = server.start(keeper()?);
@@ -236,8 +236,8 @@ fn started_server(what: &Open) -> Result<Option<Served>, Unavailable> {
 }
 
 /// Starts the browser of an adapter, or waits for one.
-fn browser(what: &Open) -> Result<Box<dyn Backend>, Unavailable> {
-    let source = match (&what.browser, &what.listen) {
+fn browser(request: &OpenRequest) -> Result<Box<dyn Backend>, Unavailable> {
+    let source = match (&request.browser, &request.listen) {
         (Some(browser), _) => PageSource::Started(browser.clone(), keeper()?),
         (None, Some(listen)) => PageSource::Listening(listen.address, listen.token.clone()),
         (None, None) => {
@@ -249,11 +249,11 @@ fn browser(what: &Open) -> Result<Box<dyn Backend>, Unavailable> {
     };
     let options = etalon_browser::BrowserOptions {
         source,
-        validate: what.validate,
-        fault: what.fault,
-        record: what.record,
+        validate: request.validate,
+        fault: request.fault,
+        record: request.record,
     };
-    etalon_browser::open(&what.name, options).map(|b| Box::new(b) as Box<dyn Backend>)
+    etalon_browser::open(&request.name, options).map(|b| Box::new(b) as Box<dyn Backend>)
 }
 
 /// Returns the hardware devices; software drivers are described in the data file.
