@@ -63,7 +63,7 @@ fn discards<T>(operations: &Operations<T>) -> bool {
     operations.store == StoreOperation::Discard
 }
 
-/// Returns true if a pass ends with a discard.
+/// Returns true if a pass ends with a discard of this aspect, of any colour attachment for colours.
 pub(super) fn is_discarded(pass: &Pass, aspect: Aspect) -> bool {
     match aspect {
         Aspect::Color => pass.operations.color.iter().any(discards),

@@ -82,9 +82,9 @@ pub(super) fn again(from: u32, bug: impl Fn(&mut Scene) + Send + Sync + 'static)
 /// Changes every pass, given the original scene and the index of the pass.
 pub(super) fn passes(bug: impl Fn(&Scene, usize, &mut Pass) + Send + Sync + 'static) -> Plant {
     scene(move |scene| {
-        let asked = scene.clone();
+        let original = scene.clone();
         for (number, pass) in scene.passes.iter_mut().enumerate() {
-            bug(&asked, number, pass);
+            bug(&original, number, pass);
         }
     })
 }
@@ -108,7 +108,7 @@ pub(super) fn each<T: 'static>(
 }
 
 /// Returns a function that sets a field of a draw to a value.
-pub(super) fn put<T: Copy + Send + Sync + 'static>(
+pub(super) fn setter<T: Copy + Send + Sync + 'static>(
     field: FieldPlaces<T>,
     value: T,
 ) -> impl Fn(&mut Draw) + Copy + Send + Sync + 'static {
@@ -117,7 +117,7 @@ pub(super) fn put<T: Copy + Send + Sync + 'static>(
 
 /// Sets a field of every draw to a value.
 pub(super) fn set<T: Copy + Send + Sync + 'static>(field: FieldPlaces<T>, value: T) -> Plant {
-    draws(put(field, value))
+    draws(setter(field, value))
 }
 
 /// Makes one value of a field act as another.
@@ -153,8 +153,9 @@ pub(super) fn contents(bug: impl Fn(&mut Attachment) + Send + Sync + 'static) ->
 
 /// Changes the first draw of a scene, given the last draw of the previous scene.
 pub(super) fn from_case(bug: impl Fn(&Draw, &mut Draw) + Send + Sync + 'static) -> Plant {
-    Plant::Scene(Box::new(move |before, scene| {
-        let last = before.and_then(|before| before.passes.iter().flat_map(|p| &p.draws).last());
+    Plant::Scene(Box::new(move |previous, scene| {
+        let last =
+            previous.and_then(|previous| previous.passes.iter().flat_map(|p| &p.draws).last());
         if let (Some(last), Some(first)) = (last, all_draws(scene).next()) {
             bug(last, first);
         }
@@ -164,13 +165,13 @@ pub(super) fn from_case(bug: impl Fn(&Draw, &mut Draw) + Send + Sync + 'static) 
 /// Changes every draw except the first, given the unchanged previous draw.
 pub(super) fn from_draw(bug: impl Fn(&Draw, &mut Draw) + Send + Sync + 'static) -> Plant {
     scene(move |scene| {
-        let mut before: Option<Draw> = None;
+        let mut previous: Option<Draw> = None;
         for draw in all_draws(scene) {
-            let asked = draw.clone();
-            if let Some(before) = &before {
-                bug(before, draw);
+            let original = draw.clone();
+            if let Some(previous) = &previous {
+                bug(previous, draw);
             }
-            before = Some(asked);
+            previous = Some(original);
         }
     })
 }

@@ -2,7 +2,7 @@
 
 use crate::fields::{DEPTH, DEPTH_WRITE, PASS_OP, STENCIL_TEST};
 use crate::list::{CONFUSION, bugs};
-use crate::plant::{Plant, all_draws, passes, put, scene};
+use crate::plant::{Plant, all_draws, passes, scene, setter};
 use etalon_scene::{Draw, StencilOperation};
 
 /// Changes the draws of passes that come `behind` passes after a read-only pass.
@@ -18,13 +18,13 @@ pub(super) fn read_only(behind: usize, bug: impl Fn(&mut Draw) + Send + Sync + '
 bugs! {
     class "read-only", "depth";
     source "read-only attachments treated as writable";
-    "depth-still-written: Read-only depth is still written." => read_only(0, put(DEPTH_WRITE, true));
-    "depth-untested: Read-only depth is not tested." => read_only(0, put(DEPTH, None));
-    "stencil-still-written: Read-only stencil is replaced." => read_only(0, put(PASS_OP, StencilOperation::Replace));
-    "stencil-untested: Read-only stencil is not tested." => read_only(0, put(STENCIL_TEST, None));
+    "depth-still-written: Read-only depth is still written." => read_only(0, setter(DEPTH_WRITE, true));
+    "depth-untested: Read-only depth is not tested." => read_only(0, setter(DEPTH, None));
+    "stencil-still-written: Read-only stencil is replaced." => read_only(0, setter(PASS_OP, StencilOperation::Replace));
+    "stencil-untested: Read-only stencil is not tested." => read_only(0, setter(STENCIL_TEST, None));
     source CONFUSION;
     "from-the-start: A read-only attachment is not written by earlier passes either." =>
         scene(|scene| if scene.passes.iter().any(|p| p.depth_stencil_read_only) {
-            all_draws(scene).for_each(put(DEPTH_WRITE, false));
+            all_draws(scene).for_each(setter(DEPTH_WRITE, false));
         });
 }

@@ -3,7 +3,7 @@
 
 use crate::fields::{DEPTH, DEPTH_WRITE, STENCIL_OPERATIONS, STENCIL_WRITE_MASK};
 use crate::list::{CONFUSION, bugs};
-use crate::plant::{Plant, again, all_draws, passes, put, scene};
+use crate::plant::{Plant, again, all_draws, passes, scene, setter};
 use crate::read_only::read_only;
 use etalon_frame::TextureFormat;
 use etalon_scene::{Pass, Scene, StencilOperation};
@@ -71,9 +71,9 @@ bugs! {
             lose(move |pass, later, distance| distance >= least && share(pass, later));
     }
     "depth-lost-for-the-next-pass: Depth is lost where another pass follows." =>
-        earlier(|pass| pass.draws.iter_mut().for_each(put(DEPTH_WRITE, false)));
+        earlier(|pass| pass.draws.iter_mut().for_each(setter(DEPTH_WRITE, false)));
     "stencil-lost-for-the-next-pass: Stencil is lost where another pass follows." =>
-        earlier(|pass| pass.draws.iter_mut().for_each(put(STENCIL_WRITE_MASK, 0)));
+        earlier(|pass| pass.draws.iter_mut().for_each(setter(STENCIL_WRITE_MASK, 0)));
     "depth-and-stencil-lost-without-colour: Depth and stencil of a pass without colour are lost." =>
         emptied(|_, pass| pass.color.is_empty());
     "texture-as-first-sampled: A texture that was sampled keeps what it held then." =>
@@ -137,23 +137,23 @@ bugs! {
     source "ANGLE: read-only depth feedback loops";
     "read-only-stays: The pass behind a read-only one is read-only too." =>
         read_only(1, |draw| {
-            put(DEPTH_WRITE, false)(draw);
-            put(STENCIL_WRITE_MASK, 0)(draw);
+            setter(DEPTH_WRITE, false)(draw);
+            setter(STENCIL_WRITE_MASK, 0)(draw);
         });
     "read-only-first-draw: The first draw behind a read-only pass does not write depth." =>
         after(|before, pass| {
             let draws = pass.draws.iter_mut().take(usize::from(before.depth_stencil_read_only));
-            draws.for_each(put(DEPTH_WRITE, false));
+            draws.for_each(setter(DEPTH_WRITE, false));
         });
     source CONFUSION;
     "read-only-untested: A read-only pass does not test." =>
         read_only(0, |draw| (draw.depth, draw.stencil) = (None, None));
     "read-only-stencil-kept: A pass after a read-only one does not write stencil." =>
-        read_only(1, put(STENCIL_OPERATIONS, StencilOperation::Keep));
+        read_only(1, setter(STENCIL_OPERATIONS, StencilOperation::Keep));
     "depth-test-off-after-read-only: A pass after a read-only one does not test depth." =>
-        read_only(1, put(DEPTH, None));
+        read_only(1, setter(DEPTH, None));
     "depth-test-off-in-read-only: A read-only pass after another does not test depth." =>
-        after(|_, pass| if pass.depth_stencil_read_only { pass.draws.iter_mut().for_each(put(DEPTH, None)) });
+        after(|_, pass| if pass.depth_stencil_read_only { pass.draws.iter_mut().for_each(setter(DEPTH, None)) });
     "resolve-first-target: Only the first target of a pass is resolved." =>
         passes(|_, _, pass| pass.resolve.iter_mut().skip(1).for_each(|r| *r = None));
     "resolve-second-target: Of several targets, the second is not resolved." =>
