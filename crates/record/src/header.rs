@@ -9,7 +9,7 @@ use std::fmt;
 /// The format of run folders that this crate writes. It also reads earlier ones: format 5 has messages
 /// instead of reasons; format 4 states every number and keeps known failures in full; format 3 has stories as
 /// sentences; format 2 lacks the verdicts `required-by-cts`, `disputed` and `blocked`, and its limits lack
-/// version and properties.
+/// version and properties; format 1 also lacks settings, ends of processes, validation messages and repeats.
 pub const FORMAT: u32 = 6;
 
 /// The cases, adapters, machine and time of a run.
