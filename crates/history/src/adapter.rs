@@ -1,4 +1,4 @@
-//! An adapter as one run found it.
+//! An adapter's identity in the history.
 
 use etalon_frame::AdapterInfo;
 use etalon_record::{AdapterRecord, Release};

@@ -30,12 +30,12 @@ pub(super) fn by_triangle(glass: &GlassScene) -> Vec<Polygon> {
 }
 
 /// Blends the polygons in their order over the opaque ones.
-pub(super) fn blended(glass: &GlassScene, polygons: &[Polygon], write: bool) -> Scene {
+pub(super) fn blended(glass: &GlassScene, polygons: &[Polygon], writes_depth: bool) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
     let depth_stencil = depths(&mut stage, 1);
     let mut glassy = draw(Shader::FlatColor, mesh(SIZE, polygons));
-    glassy.depth = depth(CompareFunction::Less, write);
+    glassy.depth = depth(CompareFunction::Less, writes_depth);
     glassy.targets[0].blend = over();
     let draws = opaque(glass, Shader::FlatColor).into_iter().chain([glassy]);
     stage.pass(&[picture], Some(depth_stencil), draws.collect());

@@ -21,9 +21,9 @@ fn two_panes_come_in_the_order_of_their_depths() {
             vec![flat(0.2, BLUE), flat(0.6, RED)],
             vec![flat(0.6, RED), flat(0.2, BLUE)],
         ] {
-            let mut what = scene([16, 16], coverage, surfaces);
-            what.background = [0.0, 1.0, 0.0];
-            let picture = truth(&what);
+            let mut geometry = scene([16, 16], coverage, surfaces);
+            geometry.background = [0.0, 1.0, 0.0];
+            let picture = truth(&geometry);
             assert_eq!((picture.size, picture.rgb.len()), ([16, 16], 256));
             assert_eq!(picture.error, 0.0);
             for texel in picture.rgb {
@@ -39,9 +39,9 @@ fn three_panes_blend_only_in_the_part_that_they_cover() {
     for coverage in COVERAGES {
         let part = |depth, color| rectangle([1.0, 1.0], [3.0, 2.0], depth, color);
         let surfaces = vec![part(0.5, GREEN), part(-0.25, RED), part(0.75, BLUE)];
-        let mut what = scene([4, 3], coverage, surfaces);
-        what.background = [1.0; 3];
-        let picture = truth(&what);
+        let mut geometry = scene([4, 3], coverage, surfaces);
+        geometry.background = [1.0; 3];
+        let picture = truth(&geometry);
         // Blue over white: 0.75, 0.75, 1. Green over that: 0.1875, 0.5625, 0.25. Red over that.
         let inside = [0.59375, 0.28125, 0.125];
         for (i, texel) in picture.rgb.into_iter().enumerate() {
@@ -95,9 +95,9 @@ fn panes_a_hair_apart_keep_their_order() {
 fn the_coverage_of_equal_layers_is_a_power() {
     for (alpha, layers) in [(0.01, 500), (0.25, 16), (0.5, 64)] {
         let surfaces = (0..layers).map(|i| flat(f64::from(i), [1.0, 1.0, 1.0, alpha]));
-        let what = scene([4, 4], TexelCoverage::Area, surfaces.collect());
+        let geometry = scene([4, 4], TexelCoverage::Area, surfaces.collect());
         let expected = 1.0 - (1.0 - alpha).powi(layers);
-        assert_near(truth(&what).rgb[9], [expected; 3], 1e-12);
+        assert_near(truth(&geometry).rgb[9], [expected; 3], 1e-12);
     }
 }
 
