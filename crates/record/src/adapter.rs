@@ -56,9 +56,9 @@ impl AdapterRecord {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AbsentAdapter {
-    /// The adapter's name.
+    /// The adapter's name, by which it would have run.
     pub name: String,
-    /// The cause.
+    /// The reason why it cannot be used, in one sentence.
     pub reason: String,
     /// Instructions to make it usable.
     pub remedy: String,

@@ -6,7 +6,7 @@ use etalon_stats::Standing;
 /// The parts of a record that decide what a change means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CaseResult {
-    /// The raw verdict.
+    /// The verdict before expectations are applied.
     pub verdict: Verdict,
     /// True if the case is a selftest that must fail.
     pub due_fail: bool,

@@ -44,7 +44,7 @@ state_enum! {
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Dead {
-    /// The reason.
+    /// The reason why the expectation, or its part, has no effect.
     pub kind: DeadKind,
     /// The file, and the entry's number if the file is a list.
     pub place: String,
@@ -244,7 +244,7 @@ impl Expectations {
 /// The result of a search for dead expectations.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DeadSearch {
-    /// The dead expectations.
+    /// The dead expectations and parts, by kind.
     pub dead: Vec<Dead>,
     /// False if there were too many globs to compare all: others can be dead too.
     pub is_complete: bool,

@@ -20,11 +20,11 @@ state_enum! {
 /// The parts of a record that a symptom is compared with.
 #[derive(Clone, Copy, Debug)]
 pub struct SymptomParts<'a> {
-    /// The verdict.
+    /// The verdict, which an expectation compares with its own.
     pub verdict: Verdict,
     /// The wrong samples that the record lists.
     pub wrong: &'a [WrongTexel],
-    /// The counters of the record.
+    /// All counters of the record, wrong or not.
     pub counters: &'a [CounterOutcome],
 }
 
@@ -32,16 +32,16 @@ pub struct SymptomParts<'a> {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExpectedSymptom {
-    /// The attachment.
+    /// The attachment of all wrong channels; any attachment if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub attachment: Option<String>,
-    /// The aspect.
+    /// The aspect of all wrong channels; any aspect if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub aspect: Option<Aspect>,
     /// The codes of all wrong channels; any codes if empty.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub codes: Vec<u32>,
-    /// The side of the legal range on which the wrong values are.
+    /// The side of the legal range on which the wrong values are; either side if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub side: Option<Side>,
     /// The wrong counter, if all texels are right.

@@ -49,7 +49,7 @@ pub struct Finding {
     /// Labels that the run must have, as `key=value`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub labels: Vec<String>,
-    /// The grade of the evidence.
+    /// The strength of the evidence, which decides the verdict that is expected.
     pub grade: Grade,
     /// The document, version and section that the driver breaks; empty only while the grade is `unread`.
     #[serde(default, skip_serializing_if = "String::is_empty")]
@@ -76,7 +76,7 @@ pub struct Reading {
     pub date: String,
     /// The sections that were read, by document, version and number.
     pub clause: String,
-    /// The result.
+    /// The auditor's opinion of the grade.
     pub verdict: ReadingVerdict,
     /// The requirement in the text, and the permissions that were considered and do not excuse the driver.
     pub reason: String,
@@ -114,9 +114,9 @@ pub struct Seen {
     /// The sample; 0 if there is only one.
     #[serde(default)]
     pub sample: u32,
-    /// The value that came back.
+    /// The code or the value that came back, as text: `255`.
     pub value: String,
-    /// The legal set.
+    /// The legal codes or values, as text: `0`, or `0 to 3`.
     pub set: String,
 }
 

@@ -26,13 +26,13 @@ pub struct FrameFile {
 pub struct FrameImage {
     /// The attachment's name in the scene.
     pub attachment: String,
-    /// The aspect.
+    /// The aspect that was read; depth and stencil of one attachment are two images.
     pub aspect: Aspect,
     /// Width and height in texels.
     pub size: [u32; 2],
     /// Samples per texel.
     pub samples: u32,
-    /// The channels' encodings.
+    /// The encodings in which the codes of each channel are bit patterns.
     pub channels: Vec<ChannelEncoding>,
     /// Codes of the lowest legal values; for an open sample, the lowest codes of the encoding.
     pub low: Vec<u32>,

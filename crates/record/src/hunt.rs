@@ -54,7 +54,7 @@ state_enum! {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AreaTally {
-    /// The area.
+    /// The first part of the cases' ids: `depth`.
     pub area: String,
     /// Cases whose texels are all in the yardstick, or about which nothing is asserted.
     pub pass: u64,
@@ -70,7 +70,7 @@ pub struct AreaTally {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MutantRecord {
-    /// The bug.
+    /// The planted bug, described as in the registry.
     pub mutant: MutantInfo,
     /// The bug's outcome.
     pub outcome: Catch,
@@ -132,14 +132,14 @@ impl MutantRecord {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Hunt {
-    /// The format: [`HUNT_FORMAT`].
+    /// The format of the file; lower than [`HUNT_FORMAT`] if an earlier version wrote it.
     pub format: u32,
     /// The suite, machine, time and command.
     #[serde(flatten)]
     pub provenance: Provenance,
     /// Wall time in seconds.
     pub seconds: f64,
-    /// The number of cases.
+    /// The number of cases that were selected to be drawn with each bug.
     pub cases: u64,
     /// True if every case was drawn with every bug; otherwise drawing stopped in each area at the first
     /// `Fail`.

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct InnocentInfo {
-    /// The stable name.
+    /// The stable name, which the globs of `etalon mutants` match.
     pub name: String,
     /// The behaviour, in one sentence.
     pub about: String,
@@ -39,7 +39,7 @@ pub struct InnocentTally {
     /// The worst verdict that the rasterizer itself gets as well; such cases count for nothing else.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shared: Option<Verdict>,
-    /// The worst violation.
+    /// The most severe violation, and of equal ones the first; absent if there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub worst: Option<Sighting>,
 }
@@ -94,11 +94,11 @@ impl InnocentTally {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct InnocentRecord {
-    /// The innocent.
+    /// The innocent, described as in the registry.
     pub innocent: InnocentInfo,
     /// The number of cases whose frames differ from those of the rasterizer itself.
     pub changed: u64,
-    /// The verdicts, specification by specification.
+    /// One tally per specification, in the same order for every innocent.
     pub specifications: Vec<InnocentTally>,
 }
 

@@ -75,25 +75,25 @@ pub struct Known {
     pub adapters: Vec<String>,
     /// A glob over driver and version.
     pub driver: String,
-    /// A glob over the device's name.
+    /// A glob over the device's name; any device if `None`.
     pub device: Option<String>,
-    /// A range of driver versions.
+    /// A range of driver versions, such as `>=22.3, <25.1`; every version if `None`.
     pub version: Option<String>,
     /// Globs over case ids.
     pub cases: Vec<String>,
-    /// The expected verdict.
+    /// The verdict that is expected of every case that the expectation names.
     pub verdict: Verdict,
     /// The reason why the verdict is accepted; for a finding, its title.
     pub reason: String,
-    /// The last day on which the expectation applies.
+    /// The last day on which the expectation applies, as `2027-01-31`; it has no end if `None`.
     pub expires: Option<String>,
-    /// The symptom of the failure.
+    /// What the wrong values have in common; any wrong values if `None`.
     pub symptom: Option<ExpectedSymptom>,
-    /// A glob over the processor of the machine.
+    /// A glob over the processor of the machine; any processor if `None`.
     pub processor: Option<String>,
-    /// Labels that the run must have.
+    /// Labels that the run must have, as `key=value`.
     pub labels: Vec<String>,
-    /// The file.
+    /// The expectation file, as errors and reports name it.
     pub path: Arc<Path>,
     /// The number in a list, from 1; `None` for a finding.
     pub number: Option<usize>,

@@ -41,7 +41,7 @@ pub struct ListError {
     pub list: String,
     /// The line, from 1.
     pub line: usize,
-    /// The error, with its remedy.
+    /// What is wrong in the line, and how to correct it.
     pub message: String,
 }
 
@@ -67,7 +67,7 @@ pub struct About {
     pub version: Option<String>,
     /// The reason why the verdict is accepted.
     pub reason: String,
-    /// The evidence.
+    /// The evidence of the verdicts, as a text.
     pub evidence: String,
     /// The bug report's address.
     pub link: Option<String>,

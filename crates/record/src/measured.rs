@@ -7,11 +7,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measured {
-    /// The question: `transparency`.
+    /// The question that the method answers, such as `transparency`.
     pub question: String,
-    /// The scene: `windows`.
+    /// The scene that the method draws, such as `windows`.
     pub scene: String,
-    /// The method: `depth-peeling`.
+    /// The method, such as `depth-peeling`.
     pub method: String,
     /// The parameter of the family's stability curve, with this case's value.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -42,9 +42,9 @@ pub struct Measured {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Parameter {
-    /// The name of the axis.
+    /// The name of the axis, as in the case's id.
     pub name: String,
-    /// Its value in the case.
+    /// The axis's value in the case, in the unit of the case file.
     pub value: f64,
 }
 

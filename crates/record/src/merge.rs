@@ -34,7 +34,7 @@ pub struct Merge {
 /// The counts of a merge.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Merged {
-    /// Records written.
+    /// Records written, one per case and adapter.
     pub records: u64,
     /// Records that count against the run.
     pub unexpected: u64,

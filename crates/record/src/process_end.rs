@@ -29,10 +29,10 @@ pub enum LossKind {
 pub struct ProcessEnd {
     /// The way in which the process was lost.
     pub kind: LossKind,
-    /// The signal that ended the process.
+    /// The number of the signal that ended the process, if one did.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub signal: Option<i32>,
-    /// The process's exit status.
+    /// The exit status; on Windows, the code of an exception is a negative number.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub exit: Option<i32>,
     /// The end of the launcher between suite and process, which says nothing about the process itself.

@@ -11,7 +11,7 @@ pub struct Provenance {
     /// The commit that the suite was built from, if known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub commit: Option<String>,
-    /// The machine.
+    /// The machine on which the command ran.
     pub machine: Machine,
     /// When the command began, RFC 3339 in UTC.
     pub started: String,

@@ -136,11 +136,11 @@ pub enum Reason {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Denial {
-    /// The requirement that it denies.
+    /// The requirement that the adapter's limits do not meet.
     pub needed: Requirement,
-    /// The API.
+    /// The API whose specification demands it.
     pub api: Api,
-    /// The version of the API.
+    /// The version that the adapter reports, which requires it of every implementation.
     pub version: ApiVersion,
     /// The clause of the specification.
     pub citation: String,
@@ -150,11 +150,11 @@ pub struct Denial {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FailedRoundTrip {
-    /// The case.
+    /// The id of the round trip's case.
     pub case: String,
-    /// The verdict.
+    /// The verdict on it, which blocks the cases that lean on it.
     pub verdict: Verdict,
-    /// The first wrong texel.
+    /// The first wrong texel; `None` if no texel is wrong, or none was read back.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wrong: Option<WrongTexel>,
     /// The reasons, if no texel is wrong; of standard error only the last line.

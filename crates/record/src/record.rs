@@ -266,7 +266,7 @@ pub struct Expected {
 pub struct Seconds {
     /// Preparing, drawing and reading back.
     pub draw: f64,
-    /// Judging.
+    /// Computing the legal set, and comparing the frame with it.
     pub judge: f64,
 }
 
@@ -290,7 +290,7 @@ impl Seconds {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "WrittenAssertion", into = "WrittenAssertion")]
 pub struct Assertion {
-    /// The aspect.
+    /// The aspect, over all attachments that were read back.
     pub aspect: Aspect,
     /// Channels in all samples.
     pub channels: u64,

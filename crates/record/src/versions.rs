@@ -25,7 +25,7 @@ const MAX_LINE: u64 = 1 << 20;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct VersionsHeader {
-    /// The format: [`VERSIONS_FORMAT`].
+    /// The format of the file; the only one so far is [`VERSIONS_FORMAT`].
     pub format: u32,
     /// The suite, machine, time and command.
     #[serde(flatten)]
@@ -112,7 +112,7 @@ impl CaseVersions {
 /// The verdicts of cases across the releases of one driver.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Versions {
-    /// The header.
+    /// The releases, and the origin of their verdicts.
     pub header: VersionsHeader,
     /// The cases, in the order of their files.
     pub cases: Vec<CaseVersions>,

@@ -22,7 +22,7 @@ pub struct CountedInstructions {
     pub case: String,
     /// The adapter's name.
     pub adapter: String,
-    /// The program that counted.
+    /// The program that counted; figures of different programs are not comparable.
     pub counter: InstructionCounter,
     /// The frames and the instructions of each process; the frames increase.
     pub processes: Vec<[u64; 2]>,

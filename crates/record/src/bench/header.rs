@@ -14,7 +14,7 @@ pub const BENCH_FORMAT: u32 = 4;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BenchHeader {
-    /// The format of the bench folder: [`BENCH_FORMAT`].
+    /// The format of the bench folder; lower than [`BENCH_FORMAT`] if an earlier version wrote it.
     pub format: u32,
     /// The suite, machine, time and command.
     #[serde(flatten)]
@@ -33,7 +33,7 @@ pub struct BenchHeader {
     /// The limits of the processor, by number of threads; empty if they were not measured.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub limits: Vec<ProcessorLimits>,
-    /// The settings of the bench.
+    /// The settings; a bench is resumed only with the same ones.
     #[serde(default)]
     pub settings: BenchSettings,
     /// The adapters that were timed.
@@ -46,7 +46,7 @@ pub struct BenchHeader {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ProcessorLimits {
-    /// The number of threads.
+    /// The number of threads that worked at the same time.
     pub threads: u32,
     /// The bytes that a copy larger than the caches reads and writes in a second.
     pub bytes: f64,

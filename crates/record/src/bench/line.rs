@@ -150,6 +150,6 @@ pub struct Done {
     pub case: String,
     /// The adapter's name.
     pub adapter: String,
-    /// The reason.
+    /// The reason why the case needs no more rounds.
     pub enough: Enough,
 }
