@@ -214,10 +214,10 @@ fn rect(wire: &ClearCommandWire, size: [u32; 2]) -> Result<Option<[u32; 4]>, At>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{CaseFile, Profile};
+    use crate::{CaseError, CaseFile, Profile};
     use etalon_scene::{ResolveMode, Scene};
 
-    fn build(pass: &str) -> Result<Scene, String> {
+    fn build(pass: &str) -> Result<Scene, CaseError> {
         let text = format!(
             r#"{{"about":"t","spec":["t"],"scene":{{
             "attachments":{{"color":{{"format":"rgba8unorm","size":[4,4]}},
@@ -229,9 +229,7 @@ mod tests {
         );
         let file = CaseFile::parse("t.json", &text).expect("it builds");
         let case = file.cases(Profile::Full).next().expect("it builds");
-        case.build()
-            .map(|case| case.scene)
-            .map_err(|e| e.to_string())
+        case.build().map(|case| case.scene)
     }
 
     /// Returns a pass without draws, with these keys.
@@ -242,7 +240,10 @@ mod tests {
     #[track_caller]
     fn refused(pass: &str, expected: &str) {
         let error = build(pass).expect_err("it is refused");
-        assert!(error.contains(expected), "{error}");
+        assert_eq!(
+            format!("{}: {}", error.key, error.message),
+            format!("scene.passes[0].{expected}")
+        );
     }
 
     #[test]
@@ -316,16 +317,20 @@ mod tests {
     #[test]
     fn a_read_only_pass_neither_clears_nor_discards() {
         let read_only = |keys: &str| with(&format!(r#""depth_stencil_read_only":true,{keys}"#));
-        let message = "declares that it writes neither depth nor stencil";
+        let expected =
+            |key| format!("{key}: the pass declares that it writes neither depth nor stencil");
         refused(
             &read_only(r#""operations":{"depth":{"load":{"clear":1}}}"#),
-            message,
+            &expected("operations.depth"),
         );
         refused(
             &read_only(r#""operations":{"depth":{"store":"discard"}}"#),
-            message,
+            &expected("operations.depth"),
         );
-        refused(&read_only(r#""clears":[{"before":0,"depth":1}]"#), message);
+        refused(
+            &read_only(r#""clears":[{"before":0,"depth":1}]"#),
+            &expected("clears[0].depth"),
+        );
         let color = r#""clears":[{"before":0,"color":0,"value":[0,0,0,0]}]"#;
         assert!(build(&read_only(color)).is_ok());
     }
@@ -346,28 +351,32 @@ mod tests {
             (
                 "many",
                 r#""to":"d16","depth":"min""#,
-                "to: `d16` differs in format or size",
+                "depth_stencil_resolve.to: `d16` differs in format or size from `many`",
             ),
             (
                 "many",
                 r#""to":"many","depth":"min""#,
-                "to: a resolve goes from several samples to one",
+                "depth_stencil_resolve.to: a resolve goes from several samples to one",
             ),
             (
                 "depth",
                 r#""to":"depth","depth":"min""#,
-                "to: a resolve goes from several samples",
+                "depth_stencil_resolve.to: a resolve goes from several samples to one",
             ),
             (
                 "many",
                 r#""to":"depth","stencil":"average""#,
-                "stencil: stencil cannot be averaged",
+                "depth_stencil_resolve.stencil: stencil cannot be averaged",
             ),
-            ("many", r#""to":"depth""#, "a mode for `depth` or `stencil`"),
+            (
+                "many",
+                r#""to":"depth""#,
+                "depth_stencil_resolve: a resolve needs a mode for `depth` or `stencil`",
+            ),
             (
                 "many16",
                 r#""to":"d16","stencil":"min""#,
-                "stencil: the pass has no stencil",
+                "depth_stencil_resolve.stencil: the pass has no stencil",
             ),
         ] {
             refused(&resolve(from, keys), expected);
@@ -383,52 +392,54 @@ mod tests {
     #[test]
     fn values_places_and_order_of_clears_are_checked() {
         let clears = |clears: &str| with(&format!(r#""clears":[{clears}]"#));
+        let mask = "clears[0].write_mask: the mask of depth is true or false, and of stencil an 8-bit number, \
+                    that of both {\"depth\": …, \"stencil\": …}";
         for (list, expected) in [
-            (r#"{"before":1,"depth":1}"#, "before: the pass has 0 draws"),
+            (
+                r#"{"before":1,"depth":1}"#,
+                "clears[0].before: the pass has 0 draws",
+            ),
             (
                 r#"{"before":0}"#,
-                "a clear needs a `color`, `depth` or `stencil`",
+                "clears[0]: a clear needs a `color`, `depth` or `stencil`",
             ),
-            (r#"{"before":0,"color":0}"#, "needs a `value`"),
+            (
+                r#"{"before":0,"color":0}"#,
+                "clears[0].color: a cleared colour needs a `value`",
+            ),
             (
                 r#"{"before":0,"depth":1,"value":[0,0,0,0]}"#,
-                "`value` belongs to `color`",
+                "clears[0].value: `value` belongs to `color`",
             ),
             (
                 r#"{"before":0,"depth":2}"#,
-                "depth: a cleared depth must be between 0 and 1",
+                "clears[0].depth: a cleared depth must be between 0 and 1",
             ),
             (
                 r#"{"before":0,"color":1,"value":[0,0,0.5,0]}"#,
-                "value: integers must be from 0 to 255",
+                "clears[0].value: integers must be from 0 to 255",
             ),
             (
                 r#"{"before":0,"color":0,"value":[0,0,0,0],"depth":1}"#,
-                "separately from depth",
+                "clears[0].color: colour is cleared separately from depth and stencil",
             ),
             (
                 r#"{"before":0,"depth":1,"rect":[1,1,4,1]}"#,
-                "rect: the rectangle reaches beyond",
+                "clears[0].rect: the rectangle reaches beyond the attachments",
             ),
             (
                 r#"{"before":0,"depth":1,"rect":[1,1,0,1]}"#,
-                "rect: an empty rectangle",
+                "clears[0].rect: an empty rectangle clears nothing",
             ),
-            (
-                r#"{"before":0,"depth":1,"write_mask":3}"#,
-                "write_mask: the mask of depth",
-            ),
-            (
-                r#"{"before":0,"stencil":1,"write_mask":false}"#,
-                "write_mask: the mask of depth",
-            ),
+            (r#"{"before":0,"depth":1,"write_mask":3}"#, mask),
+            (r#"{"before":0,"stencil":1,"write_mask":false}"#, mask),
             (
                 r#"{"before":0,"color":0,"value":[0,0,0,0],"write_mask":1}"#,
-                "letters of rgba",
+                "clears[0].write_mask: the mask of colours consists of letters of rgba",
             ),
             (
                 r#"{"before":0,"color":0,"value":[0,0,0,0],"write_mask":"rx"}"#,
-                "write_mask",
+                "clears[0].write_mask: a write mask consists of the letters r, g, b, a, each at most once",
             ),
         ] {
             refused(&clears(list), expected);
@@ -438,7 +449,10 @@ mod tests {
             r#""color":["color"],"draws":[{draw}],"clears":[
                {{"before":1,"color":0,"value":[0,0,0,0]}},{{"before":0,"color":0,"value":[0,0,0,0]}}]"#
         );
-        refused(&turned, "clears[1].before: clears must be in the order");
+        refused(
+            &turned,
+            "clears[1].before: clears must be in the order of the draws that they precede",
+        );
         let operations = r#""operations":{"color":[{},{"load":{"clear":[0,0,256,0]}}]}"#;
         refused(
             &with(operations),
@@ -447,7 +461,7 @@ mod tests {
         let operations = r#""operations":{"depth":{"load":{"clear":-1}}}"#;
         refused(
             &with(operations),
-            "operations.depth.load.clear: a cleared depth must be",
+            "operations.depth.load.clear: a cleared depth must be between 0 and 1",
         );
     }
 }

@@ -136,11 +136,11 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
                     .iter()
                     .all(|p| p.resolve.iter().all(Option::is_none))
                 && any(&|i, a| read(i, a) && a.format.is_color()),
-            "a color is neither 0 nor 1, or no single-sample color attachment is read back",
+            "a colour is neither 0 nor 1, or no single-sample colour attachment is read back",
         ),
         PathValue::End(PathEnd::ReadBuffer) => (
             any(&|i, a| read(i, a) && a.format.is_color() && drawn(i)),
-            "no single-sample color attachment is drawn to and read back",
+            "no single-sample colour attachment is drawn to and read back",
         ),
         PathValue::End(PathEnd::ShaderRead) => (
             any(&|i, a| {
@@ -187,7 +187,7 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
                     scene.path.end,
                     PathEnd::Store | PathEnd::Copy | PathEnd::ShaderRead | PathEnd::Part
                 ),
-            "there is no color attachment, or it is blitted, which converts integers only to integers",
+            "there is no colour attachment, or it is blitted, which converts integers only to integers",
         ),
         PathValue::Pass(_)
         | PathValue::Target(_)
@@ -347,30 +347,50 @@ mod tests {
         let texels = json!({ "format": "rgba8unorm", "texels": { "kind": "codes" } });
         let float = json!({ "format": "rgba16float" });
         let grey = json!({ "format": "rgba8unorm", "clear": [0.5, 0.5, 0.5, 0.5] });
-        for (attachment, path, words) in [
+        for (attachment, path, message) in [
             (
                 &texels,
                 json!({ "start": "load-operation" }),
-                "start=load-operation",
+                "start=load-operation: no attachment is first drawn to, with a clear value that is stored exactly",
             ),
-            (&grey, json!({ "start": "draw" }), "stored exactly"),
-            (&several, json!({ "target": "mip-level" }), "single sample"),
-            (&several, json!({ "end": "blit" }), "single-sample"),
-            (&float, json!({ "views": "srgb" }), "sRGB conversion"),
-            (&float, json!({ "views": "uint", "end": "blit" }), "blitted"),
+            (
+                &grey,
+                json!({ "start": "draw" }),
+                "start=draw: no attachment is first drawn to, with a clear value that is stored exactly",
+            ),
+            (
+                &several,
+                json!({ "target": "mip-level" }),
+                "target=mip-level: no attachment has a single sample",
+            ),
+            (
+                &several,
+                json!({ "end": "blit" }),
+                "end=blit: no single-sample attachment of floats, integers, depth or stencil is read back",
+            ),
+            (
+                &float,
+                json!({ "views": "srgb" }),
+                "views=srgb: no attachment has a format with and without sRGB conversion",
+            ),
+            (
+                &float,
+                json!({ "views": "uint", "end": "blit" }),
+                "views=uint: there is no colour attachment, or it is blitted, which converts integers only to integers",
+            ),
             (
                 &grey,
                 json!({ "draws": "restart-unindexed" }),
-                "strip or fan",
+                "draws=restart-unindexed: no strip or fan is drawn without indices",
             ),
             (
                 &grey,
                 json!({ "colors": "gaps" }),
-                "every colour attachment is read",
+                "colors=gaps: every colour attachment is read, or its pass has no other that is",
             ),
         ] {
-            let error = parse_scene(&scene(attachment.clone(), path)).expect_err(words);
-            assert!(error.message.contains(words), "{}", error.message);
+            let error = parse_scene(&scene(attachment.clone(), path)).expect_err(message);
+            assert_eq!(error.message, message);
         }
     }
 }

@@ -67,25 +67,40 @@ mod tests {
         let single: &[&[&[&str]]] = &[&[&["a"], &["b"]]];
         let several: &[&[&[&str]]] = &[&[&["a"], &["a"], &["b"]]];
         let whole_passes: &[&[&[&str]]] = &[&[&["a"], &["a"]], &[], &[&["a"]]];
-        for (queries, path, passes, words) in [
-            ("pass", json!({}), single, "no query encloses"),
-            ("frame", json!({}), single, "no query encloses"),
-            ("frame", json!({}), several, "the same counters"),
+        for (queries, path, passes, message) in [
+            (
+                "pass",
+                json!({}),
+                single,
+                "no query encloses more than one draw",
+            ),
+            (
+                "frame",
+                json!({}),
+                single,
+                "no query encloses more than one draw",
+            ),
+            (
+                "frame",
+                json!({}),
+                several,
+                "the draws of a pass must use the same counters",
+            ),
             (
                 "frame",
                 json!({ "start": "draw" }),
                 whole_passes,
-                "the same counters",
+                "the draws of a pass must use the same counters",
             ),
             (
                 "frame",
                 json!({ "commands": "several" }),
                 whole_passes,
-                "command buffer",
+                "a query must end in the command buffer in which it began",
             ),
         ] {
-            let error = parse_scene(&scene(queries, path, passes)).expect_err(words);
-            assert!(error.message.contains(words), "{}", error.message);
+            let error = parse_scene(&scene(queries, path, passes)).expect_err(message);
+            assert_eq!(error.message, message);
         }
         for (queries, path, passes) in [
             ("draw", json!({}), single),
