@@ -551,10 +551,13 @@ mod tests {
         let out = OutputFolder::open(folder).unwrap();
         out.write("run.jsonl", b"{}\n").unwrap();
         fs::write(folder.join("index.html"), "mine").unwrap();
-        let refused = out.check(FolderKind::Run).unwrap_err();
-        assert!(refused.to_string().contains("index.html"), "{refused}");
-        let refused = out.write("index.html", b"ours").unwrap_err();
-        assert!(matches!(refused, RecordError::NotOurs { .. }), "{refused}");
+        let written = out.write("index.html", b"ours").map(|_| ());
+        for refused in [out.check(FolderKind::Run), written] {
+            match refused.unwrap_err() {
+                RecordError::NotOurs { path } => assert_eq!(path, folder.join("index.html")),
+                other => panic!("{other}"),
+            }
+        }
         assert_eq!(text(&folder.join("index.html")), "mine");
         assert!(out.write("../x", b"").is_err() && out.write("/tmp/x", b"").is_err());
     }

@@ -240,8 +240,13 @@ mod tests {
         let path = folder.path().join(VERSIONS_FILE);
         let text = std::fs::read_to_string(&path).unwrap();
         std::fs::write(&path, text.replace("[\"pass\",", "[")).unwrap();
-        let error = Versions::read(folder.path()).unwrap_err().to_string();
-        assert!(error.contains("one verdict per release"), "{error}");
+        match Versions::read(folder.path()).unwrap_err() {
+            RecordError::Parse { line, message, .. } => {
+                assert_eq!(line, 2);
+                assert_eq!(message, "the case has not one verdict per release");
+            }
+            other => panic!("{other}"),
+        }
         assert!(Versions::read(&folder.path().join("none")).is_err());
     }
 }

@@ -54,6 +54,31 @@ fn header() -> Header {
     }
 }
 
+/// Returns the name of the file that does not parse, the line and the message.
+#[track_caller]
+fn wrong_line(error: RecordError) -> (String, usize, String) {
+    match error {
+        RecordError::Parse {
+            path,
+            line,
+            message,
+            ..
+        } => {
+            let name = path.file_name().unwrap().to_str().unwrap();
+            (name.to_owned(), line, message)
+        }
+        other => panic!("{other}"),
+    }
+}
+
+/// Returns the line and the message of an error in `run.jsonl`.
+#[track_caller]
+fn wrong_in_run(folder: &Path) -> (usize, String) {
+    let (name, line, message) = wrong_line(Run::read(folder).unwrap_err());
+    assert_eq!(name, "run.jsonl");
+    (line, message)
+}
+
 fn wrong_texel(attachment: String, x: u32, code: u32) -> WrongTexel {
     WrongTexel {
         x,
@@ -285,20 +310,43 @@ fn only_the_same_run_is_resumed() {
     let refused = |change: &dyn Fn(&mut Header)| {
         let mut other = header();
         change(&mut other);
-        let error = RunWriter::resume(folder.path(), &other).unwrap_err();
-        assert!(matches!(error, RecordError::Another { .. }), "{error}");
-        error.to_string()
+        match RunWriter::resume(folder.path(), &other).unwrap_err() {
+            RecordError::Another { reason, .. } => reason,
+            other => panic!("{other}"),
+        }
     };
-    assert!(refused(&|h| h.settings.selection = "1-0".to_owned()).contains("selection"));
-    assert!(refused(&|h| h.settings.shard = Some(Shard { index: 2, count: 3 })).contains("2/3"));
-    assert!(
-        refused(&|h| h.settings.shuffle = Some(7)).contains("--shuffle was none there and is 7")
+    assert_eq!(
+        refused(&|h| h.settings.selection = "1-0".to_owned()),
+        "the selection of cases was  there and is 1-0 here"
     );
-    assert!(refused(&|h| h.settings.validate = true).contains("--validate"));
-    assert!(refused(&|h| h.adapters[0].info.driver_version = "26".to_owned()).contains("Mesa 26"));
-    assert!(refused(&|h| h.adapters[0].limits.sub_pixel_bits = 4).contains("limits"));
-    assert!(refused(&|h| h.adapters.clear()).contains("is not here"));
-    assert!(refused(&|h| h.provenance.etalon = "0.2.0".to_owned()).contains("0.2.0"));
+    assert_eq!(
+        refused(&|h| h.settings.shard = Some(Shard { index: 2, count: 3 })),
+        "it is not sharded and not shard 2/3"
+    );
+    assert_eq!(
+        refused(&|h| h.settings.shuffle = Some(7)),
+        "--shuffle was none there and is 7 here"
+    );
+    assert_eq!(
+        refused(&|h| h.settings.validate = true),
+        "--validate was false there and is true here"
+    );
+    assert_eq!(
+        refused(&|h| h.adapters[0].info.driver_version = "26".to_owned()),
+        "gl:es:soft was d, Mesa 25, 3.2 there and is d, Mesa 26, 3.2 here"
+    );
+    assert_eq!(
+        refused(&|h| h.adapters[0].limits.sub_pixel_bits = 4),
+        "the limits of gl:es:soft have changed"
+    );
+    assert_eq!(
+        refused(&|h| h.adapters.clear()),
+        "gl:es:soft was there and is not here"
+    );
+    assert_eq!(
+        refused(&|h| h.provenance.etalon = "0.2.0".to_owned()),
+        "the version of etalon was 0.1.0 there and is 0.2.0 here"
+    );
     let mut later = header();
     later.provenance.started = "2027-01-01T00:00:00Z".to_owned();
     later.settings.timeout = Some(1.0);
@@ -316,8 +364,8 @@ fn a_line_without_end_is_refused_before_it_is_read() {
         format!("{text}{long}\n{long}"),
     )
     .unwrap();
-    let error = Run::read(folder.path()).unwrap_err().to_string();
-    assert!(error.contains("run.jsonl:3: the line is longer"), "{error}");
+    let message = format!("the line is longer than {MAX_LINE} bytes");
+    assert_eq!(wrong_in_run(folder.path()), (3, message));
 }
 
 #[test]
@@ -331,8 +379,9 @@ fn a_list_of_cases_must_match_the_digest_in_the_header() {
     let ids = read_cases(folder.path(), &header).unwrap().unwrap();
     assert_eq!(ids, ["a/2", "a/1"]);
     writer.write_cases(["a/2"]).unwrap();
-    let error = read_cases(folder.path(), &header).unwrap_err().to_string();
-    assert!(error.contains("cases.txt:1: "), "{error}");
+    let (name, line, message) = wrong_line(read_cases(folder.path(), &header).unwrap_err());
+    assert_eq!((&*name, line), ("cases.txt", 1));
+    assert_eq!(message, "these are not the cases that run.jsonl names");
 }
 
 fn written(folder: &Path, verdicts: &[Verdict]) -> String {
@@ -367,8 +416,7 @@ fn damage_in_the_middle_names_file_and_line() {
     for damage in ["{\"case\":", "", "null", "\u{0}\u{0}"] {
         let broken = [lines[0], lines[1], damage, lines[3], ""].join("\n");
         fs::write(&path, broken).unwrap();
-        let error = Run::read(folder.path()).unwrap_err().to_string();
-        assert!(error.contains("run.jsonl:3: "), "{error}");
+        assert_eq!(wrong_in_run(folder.path()).0, 3);
     }
 }
 
@@ -378,11 +426,9 @@ fn a_last_line_of_another_shape_is_an_error_and_a_cut_one_is_not() {
     let path = folder.path().join("run.jsonl");
     let text = written(folder.path(), &[Verdict::Pass]);
     fs::write(&path, format!("{text}{{\"case\":\"a/1\",\"colour\":1}}\n")).unwrap();
-    let error = Run::read(folder.path()).unwrap_err().to_string();
-    assert!(
-        error.contains("run.jsonl:3: ") && error.contains("colour"),
-        "{error}"
-    );
+    let (line, message) = wrong_in_run(folder.path());
+    assert_eq!(line, 3);
+    assert!(message.starts_with("unknown field `colour`"), "{message}");
     fs::write(&path, format!("{text}{{\"case\":\"a/1\",\"ad")).unwrap();
     let run = Run::read(folder.path()).unwrap();
     assert_eq!((run.records.len(), run.truncated), (1, true));
@@ -397,18 +443,18 @@ fn folders_without_a_readable_header_are_refused() {
         Err(RecordError::NoRun { .. })
     ));
     fs::write(&path, "").unwrap();
-    let error = Run::read(folder.path()).unwrap_err().to_string();
-    assert!(error.contains("run.jsonl:1: "), "{error}");
+    assert_eq!(wrong_in_run(folder.path()).0, 1);
     // A newer format may have other fields; the message says what to do.
     for newer in [FORMAT + 1, 99] {
         fs::write(&path, format!("{{\"format\":{newer},\"new\":true}}\n")).unwrap();
         let error = Run::read(folder.path()).unwrap_err();
-        assert!(matches!(error, RecordError::Format { found, .. } if found == newer));
-        let said = error.to_string();
-        assert!(said.contains(&format!("format {newer}")), "{said}");
-        assert!(
-            said.contains("read it with the version that wrote it"),
-            "{said}"
+        assert_eq!(
+            error.to_string(),
+            format!(
+                "{} is in format {newer}, but this etalon reads formats up to {FORMAT}; \
+                 read it with the version that wrote it, or record the run again",
+                path.display()
+            )
         );
     }
 }
@@ -454,9 +500,13 @@ fn runs_of_every_older_format_are_read_but_not_resumed() {
         // Records of this format must not follow a header of another.
         let mut now = run.header.clone();
         now.format = FORMAT;
-        let refused = RunWriter::resume(folder.path(), &now).unwrap_err();
-        let said = refused.to_string();
-        assert!(said.contains(&format!("format is {format}")), "{said}");
+        match RunWriter::resume(folder.path(), &now).unwrap_err() {
+            RecordError::Another { reason, .. } => assert_eq!(
+                reason,
+                format!("its format is {format}, and {FORMAT} is written now")
+            ),
+            other => panic!("{other}"),
+        }
     }
 }
 
@@ -571,15 +621,17 @@ fn frames_read_back_and_stay_in_the_folder() {
         ));
     }
     fs::write(folder.path().join(&path), "{").unwrap();
-    let error = Run::read_frame(folder.path(), &path).unwrap_err();
-    assert!(error.to_string().contains("b=1.json.gz"), "{error}");
+    match Run::read_frame(folder.path(), &path).unwrap_err() {
+        RecordError::Frame { path: named, .. } => assert_eq!(named, folder.path().join(&path)),
+        other => panic!("{other}"),
+    }
     // As earlier versions wrote them.
     let text = serde_json::to_vec(&frame).unwrap();
     fs::write(folder.path().join("plain.json"), text).unwrap();
     assert_eq!(Run::read_frame(folder.path(), "plain.json").unwrap(), frame);
     fs::write(folder.path().join("plain.json"), "{").unwrap();
-    let error = Run::read_frame(folder.path(), "plain.json").unwrap_err();
-    assert!(error.to_string().contains("plain.json:1: "), "{error}");
+    let (name, line, _) = wrong_line(Run::read_frame(folder.path(), "plain.json").unwrap_err());
+    assert_eq!((&*name, line), ("plain.json", 1));
 }
 
 #[test]
@@ -688,18 +740,15 @@ fn a_broken_header_is_no_damaged_record() {
     let path = folder.path().join("run.jsonl");
     let text = fs::read_to_string(&path).unwrap();
     fs::write(&path, &text[5..]).unwrap();
-    let error = Run::read(folder.path()).unwrap_err().to_string();
-    assert!(
-        error.contains("run.jsonl:1: ") && error.contains("header"),
-        "{error}"
-    );
-    assert!(!error.contains("remove the line"), "{error}");
+    let damage = || match Run::read(folder.path()).unwrap_err() {
+        RecordError::Parse { line, remedy, .. } => (line, remedy),
+        other => panic!("{other}"),
+    };
+    let (line, remedy) = damage();
+    assert_eq!(line, 1);
+    assert!(remedy.starts_with("the file cannot be read without its header; "));
     fs::write(&path, text.replacen("\"verdict\"", "\"verdct\"", 1)).unwrap();
-    let error = Run::read(folder.path()).unwrap_err().to_string();
-    assert!(
-        error.contains("run.jsonl:2: ") && error.contains("remove the line"),
-        "{error}"
-    );
+    assert_eq!(damage(), (2, "remove the line, or record the run again"));
 }
 
 /// A link in a folder from somebody else can lead to any file of the machine.
@@ -721,15 +770,16 @@ fn an_unknown_key_is_refused_anywhere_in_a_header() {
         let mut changed = parsed.clone();
         changed.pointer_mut(place).unwrap()["later"] = true.into();
         fs::write(&path, format!("{changed}\n")).unwrap();
-        let error = Run::read(folder.path()).unwrap_err().to_string();
-        assert!(error.contains("later"), "{place}: {error}");
+        let (line, message) = wrong_in_run(folder.path());
+        assert_eq!(line, 1, "{place}");
+        assert!(message.starts_with("unknown field `later`"), "{message}");
     }
     for key in ["etalon", "machine", "started", "command"] {
         let mut changed = parsed.clone();
         changed.as_object_mut().unwrap().remove(key);
         fs::write(&path, format!("{changed}\n")).unwrap();
-        let error = Run::read(folder.path()).unwrap_err().to_string();
-        assert!(error.contains(key), "{key}: {error}");
+        let missing = (1, format!("missing field `{key}`"));
+        assert_eq!(wrong_in_run(folder.path()), missing);
     }
 }
 
@@ -756,14 +806,11 @@ fn no_file_of_a_folder_is_read_through_a_link() {
             if let Some(text) = text {
                 fs::write(&secret, text).unwrap();
             }
-            let refused = read(&folder).unwrap();
-            let said = refused.to_string();
-            let is_named =
-                matches!(&refused, RecordError::Irregular { path: named } if *named == path);
-            assert!(
-                is_named && said.contains("put the file itself there"),
-                "{name}: {said}"
+            let message = format!(
+                "{} is a link or no regular file, so it is not read; put the file itself there",
+                path.display()
             );
+            assert_eq!(read(&folder).unwrap().to_string(), message);
         }
         // Neither is its folder recognized as one of etalon, but the link is what is named.
         if let Some(kind) = FolderKind::of(&folder) {
