@@ -14,7 +14,7 @@ use std::num::NonZeroU32;
 pub struct Case {
     /// The file's path without its ending, then each axis with its value: `cull/lines/mode=back`.
     pub id: String,
-    /// The purpose, in a sentence.
+    /// The purpose, in a sentence, as the case file states it.
     pub about: String,
     /// The clauses that bind the cases.
     pub spec: Vec<String>,

@@ -23,7 +23,7 @@ pub struct Accuracy {
     pub encoding: Option<ChannelEncoding>,
     /// The number of channel values about which the yardstick asserts something.
     pub channels: u64,
-    /// The mean distance of the channels.
+    /// The mean distance over `channels`, in codes.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub mean: f64,
     /// The largest distance; a code that stands for no finite value counts as 2^32 away.

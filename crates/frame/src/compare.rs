@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 pub struct ChannelMismatch {
     /// The attachment's name in the scene.
     pub attachment: String,
-    /// The aspect of the attachment that has the channel.
+    /// The aspect to which the channel belongs.
     pub aspect: Aspect,
     /// The channel's position: red is 0.
     pub channel: u8,

@@ -30,7 +30,7 @@ impl CounterKind {
 /// The legal values of one counter, both ends included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct CountRange {
-    /// The least legal count.
+    /// The least legal count; 0 permits that nothing is counted.
     pub low: u64,
     /// The greatest legal count; `None` if there is no limit.
     pub high: Option<u64>,

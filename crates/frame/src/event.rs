@@ -16,9 +16,9 @@ pub struct Event {
     pub scene: Option<SceneName>,
     /// The part of the scene that causes the operation.
     pub origin: Origin,
-    /// The operation with its values.
+    /// The operation, with the operands and results that it had.
     pub step: Step,
-    /// The effect on the sample.
+    /// The rejection, or the stored or kept contents, that the operation causes.
     #[serde(default, skip_serializing_if = "Effect::is_none")]
     pub effect: Effect,
     /// The section of the specification that permits or demands the outcome.

@@ -162,7 +162,7 @@ pub struct Values {
     pub yardstick: bool,
     /// The first outcomes; each lists the values of the aspects that the ruling is about.
     pub allowed: Vec<Vec<Allowed>>,
-    /// The number of further outcomes.
+    /// The number of legal outcomes that `allowed` leaves out.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub more_outcomes: usize,
     /// The operations that decide, in order.

@@ -8,13 +8,13 @@ use serde::{Deserialize, Deserializer, Serialize};
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AdapterRecord {
-    /// The adapter's identity.
+    /// The adapter's name, device, driver and API, as the driver reports them.
     #[serde(flatten)]
     pub info: AdapterInfo,
     /// The release of the driver, if the adapter's description states it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub release: Option<Release>,
-    /// The adapter's limits and features.
+    /// The limits and features that decide which cases are drawn and how they are judged.
     #[serde(deserialize_with = "checked_limits")]
     pub limits: Limits,
 }

@@ -72,7 +72,7 @@ pub struct AreaTally {
 pub struct MutantRecord {
     /// The planted bug, described as in the registry.
     pub mutant: MutantInfo,
-    /// The bug's outcome.
+    /// The outcome over all areas: a violation in one of them is enough.
     pub outcome: Catch,
     /// The verdicts of each area, in the order of the cases.
     pub areas: Vec<AreaTally>,

@@ -97,7 +97,7 @@ pub struct Known {
     pub path: Arc<Path>,
     /// The number in a list, from 1; `None` for a finding.
     pub number: Option<usize>,
-    /// The file form.
+    /// The form of the file, with what only this form has.
     pub source: KnownSource,
 }
 

@@ -63,7 +63,7 @@ pub struct About {
     pub adapter: String,
     /// A glob over driver and version.
     pub driver: String,
-    /// A range of driver versions.
+    /// A range of driver versions; every version if `None`.
     pub version: Option<String>,
     /// The reason why the verdict is accepted.
     pub reason: String,
@@ -71,7 +71,7 @@ pub struct About {
     pub evidence: String,
     /// The bug report's address.
     pub link: Option<String>,
-    /// The last day on which the entries apply.
+    /// The last day on which the entries apply; they have no end if `None`.
     pub expires: Option<String>,
 }
 

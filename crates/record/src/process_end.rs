@@ -41,7 +41,7 @@ pub struct ProcessEnd {
     /// The limit that the process broke: seconds for `Timeout`, MiB for `Memory`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub limit: Option<f64>,
-    /// The memory that the process held, in MiB.
+    /// The memory that the process held when it was stopped, in MiB; only for `Memory`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub held: Option<u64>,
     /// The fault of the message for `Garbage`, and the error for `NotStarted`.

@@ -292,7 +292,7 @@ impl Seconds {
 pub struct Assertion {
     /// The aspect, over all attachments that were read back.
     pub aspect: Aspect,
-    /// Channels in all samples.
+    /// Channels in all samples, whether anything is asserted about them or not.
     pub channels: u64,
     /// Channels that the legal set asserts something about.
     pub asserted: u64,

@@ -42,7 +42,7 @@ pub struct VersionsHeader {
 pub struct ReleaseRecord {
     /// The version within the line.
     pub version: String,
-    /// The adapter's name.
+    /// The name of the adapter that drew the release's cases.
     pub adapter: String,
     /// Driver and version as the driver reports them.
     pub driver: String,

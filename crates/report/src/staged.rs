@@ -23,11 +23,11 @@ pub(crate) struct PagesKind {
 pub struct WrittenFolder {
     /// The start page.
     pub html: PathBuf,
-    /// The bytes of the start page.
+    /// The size of the start page in bytes.
     pub start: u64,
     /// The number of files, the start page included.
     pub files: u64,
-    /// The bytes of all files.
+    /// The size of all files together in bytes.
     pub bytes: u64,
 }
 

@@ -15,11 +15,11 @@ use std::time::{Duration, Instant};
 pub struct HuntPlan<'a> {
     /// The cases. Selftests are left out: they fail on every backend.
     pub cases: &'a [Case],
-    /// The planted bugs.
+    /// The planted bugs, in the order of their records.
     pub mutants: &'a [MutantInfo],
     /// True to draw every case with every bug; otherwise an area ends at a bug's first `Fail` there.
     pub full: bool,
-    /// The number of threads.
+    /// The number of threads that draw and judge.
     pub jobs: usize,
 }
 
@@ -35,7 +35,7 @@ pub struct Hunted {
 /// The bugs that one case caught.
 #[derive(Clone, Debug, Default)]
 pub struct Catches {
-    /// The indices of the bugs that failed.
+    /// The indices of the bugs, in the order of the plan, on which the case failed.
     pub bugs: Vec<usize>,
     /// The time to draw and judge the case with one bug; zero if none was drawn.
     pub cost: Duration,

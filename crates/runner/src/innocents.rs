@@ -28,7 +28,7 @@ pub struct InnocentPlan<'a> {
     pub cases: &'a [Case],
     /// The innocents; those that combine several behaviours are drawn with all cases.
     pub innocents: &'a [PlannedInnocent],
-    /// The number of threads.
+    /// The number of threads that draw and judge.
     pub jobs: usize,
 }
 

@@ -50,7 +50,7 @@ pub struct Launcher {
 /// The first message to a worker that a launcher started.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Setup {
-    /// The adapter that the worker opens.
+    /// The adapter that the worker opens, as the text after `--open` would name it.
     pub open: String,
     /// The environment variables that the worker needs; `None` means that a variable must not be set.
     pub environment: Vec<(String, Option<String>)>,

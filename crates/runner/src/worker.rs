@@ -149,7 +149,7 @@ fn checked(hello: Hello) -> Result<Hello, StartError> {
 
 /// A scene that was drawn once.
 pub struct Recorded {
-    /// The scene's frame.
+    /// The frame that came back.
     pub frame: Frame,
     /// Messages of validation layers and debug output.
     pub messages: Vec<String>,

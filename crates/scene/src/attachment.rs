@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// A texture that passes draw to or read from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Attachment {
-    /// Name in the case file.
+    /// Name in the case file, by which images and errors refer to it.
     pub name: String,
     /// The format, which decides the aspects and whether passes bind it as colour or as depth and stencil.
     pub format: TextureFormat,

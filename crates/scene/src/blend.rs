@@ -91,9 +91,9 @@ state_enum! {
 pub struct BlendComponent {
     /// The operation that combines source and destination; `min` and `max` ignore the factors.
     pub operation: BlendOperation,
-    /// The source's factor.
+    /// The factor of the shader's output.
     pub src_factor: BlendFactor,
-    /// The destination's factor.
+    /// The factor of the attachment's value.
     pub dst_factor: BlendFactor,
 }
 

@@ -100,7 +100,7 @@ pub struct StencilFace {
     pub depth_fail_op: StencilOperation,
     /// The operation if both pass.
     pub pass_op: StencilOperation,
-    /// The bits that are compared.
+    /// The bits of reference and stored value that are compared.
     pub read_mask: u8,
     /// The bits that an operation can change.
     pub write_mask: u8,

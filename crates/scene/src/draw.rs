@@ -28,7 +28,7 @@ pub struct Draw {
     /// The vertex whose attributes are flat over a primitive; `None` leaves it open.
     #[serde(default)]
     pub provoking: Option<ProvokingVertex>,
-    /// Vertex and fragment shader.
+    /// The pair of vertex and fragment shader; some have no fragment shader.
     pub shader: Shader,
     /// The shader's parameters.
     pub params: Params,
@@ -44,7 +44,7 @@ pub struct Draw {
     pub counters: Vec<usize>,
     /// The faces that are culled: front, back or none.
     pub cull: CullMode,
-    /// The front face's winding.
+    /// The winding that makes a face a front face, as seen in the window.
     pub front_face: FrontFace,
     /// The part of a polygon that is drawn.
     pub polygon_mode: PolygonMode,
@@ -71,7 +71,7 @@ pub struct Draw {
     pub targets: Vec<ColorTarget>,
     /// The logic operation of all targets, in place of blending; `None` turns it off.
     pub logic: Option<LogicOperation>,
-    /// The samples that are drawn.
+    /// The state that decides which samples of a fragment are drawn.
     pub multisample: Multisample,
     /// The blend constant in red, green, blue, alpha.
     pub blend_constant: [f32; 4],

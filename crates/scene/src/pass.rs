@@ -19,14 +19,14 @@ pub struct Pass {
     /// The attachment to which each colour attachment is resolved at the end of the pass: a single-sample
     /// attachment of the same format and size. Has the same length as `color`.
     pub resolve: Vec<Option<usize>>,
-    /// Index of the depth-stencil attachment.
+    /// Index of the depth-stencil attachment; `None` if the pass has neither depth nor stencil.
     pub depth_stencil: Option<usize>,
     /// True if the pass declares that it writes neither depth nor stencil.
     pub depth_stencil_read_only: bool,
-    /// The resolve of depth and stencil at the end of the pass.
+    /// The resolve of depth and stencil at the end of the pass; `None` if there is none.
     #[serde(default)]
     pub depth_stencil_resolve: Option<DepthStencilResolve>,
-    /// Load and store operations.
+    /// Load and store operations; by default, all contents are loaded and stored.
     #[serde(default)]
     pub operations: PassOperations,
     /// Clear commands, in the order of the draws that they precede.

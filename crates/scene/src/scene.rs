@@ -38,7 +38,7 @@ pub struct Scene {
 /// A count over some of the scene's draws.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counter {
-    /// Name in the case file.
+    /// Name in the case file, by which draws and records refer to it.
     pub name: String,
     /// What is counted, and so the type of query that a backend uses.
     pub kind: CounterKind,

@@ -21,9 +21,9 @@ pub const BEYOND_RULER: f64 = 2.0;
 pub struct Ratio {
     /// The estimate: the median over all pairs of rounds.
     pub estimate: f64,
-    /// Lower bound.
+    /// The lower end of the interval.
     pub low: f64,
-    /// Upper bound.
+    /// The upper end of the interval.
     pub high: f64,
 }
 

@@ -13,9 +13,9 @@ pub const RATE_CONFIDENCE: f64 = 0.95;
 /// The times of two amounts of work in one round, in seconds.
 #[derive(Clone, Copy, Debug)]
 pub struct WorkTimes<'a> {
-    /// The times of the smaller amount.
+    /// The times of the smaller amount of work, in seconds.
     pub less: &'a [f64],
-    /// The times of the larger amount.
+    /// The times of the larger amount of work, in seconds.
     pub more: &'a [f64],
 }
 

@@ -69,7 +69,7 @@ impl Measure {
 /// The rate of a cell on an adapter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CellRate {
-    /// The unit of work.
+    /// The unit in which the work is counted.
     pub measure: Measure,
     /// The difference of the two cases' work.
     pub work: u64,

@@ -21,7 +21,7 @@ pub struct BenchHeader {
     pub provenance: Provenance,
     /// The profile of the cases: `quick` or `full`.
     pub profile: String,
-    /// The number of selected cases.
+    /// The number of selected cases; a complete bench has a picture of each on every adapter.
     pub cases: u64,
     /// The number of rounds that each case has on each adapter in a complete bench.
     pub rounds: u32,

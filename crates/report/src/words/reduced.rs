@@ -11,7 +11,7 @@ pub struct ReducedCase<'a> {
     pub record: &'a Record,
     /// What is wrong in that record.
     pub symptom: &'a Symptom,
-    /// The states that are not the default.
+    /// The states of the reduced scene that are not the default.
     pub states: Vec<String>,
 }
 

@@ -16,13 +16,13 @@ use std::time::{Duration, Instant};
 pub struct Smallest {
     /// The reduced case, and what the reduction cost.
     pub reduction: Reduction,
-    /// The record of the reduced case.
+    /// The record of the reduced case, from its last drawing.
     pub record: Record,
     /// The symptom of the case that was reduced.
     pub first: Symptom,
     /// The symptom of the reduced case.
     pub symptom: Symptom,
-    /// The time of the reduction.
+    /// The wall time of the reduction, in seconds.
     pub seconds: f64,
 }
 

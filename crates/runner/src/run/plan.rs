@@ -85,7 +85,7 @@ pub struct RunOptions {
     /// The number of unexpected bad verdicts per kind and adapter that are checked again in a fresh process
     /// and confirmed; 0 checks none.
     pub recheck: u32,
-    /// The failures whose frames are kept.
+    /// The failures whose frames the run folder keeps.
     pub frames: KeptFrames,
     /// The time after which no further case is drawn. Adapters share it equally, and adapters that begin later
     /// also get what others left. The cases left out become `Skipped`.

@@ -87,7 +87,7 @@ impl Cause {
 /// A stretch without a step whose times slowly rise or fall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drift {
-    /// The first run.
+    /// The first run of the stretch, from 0.
     pub from: usize,
     /// The run after the last.
     pub to: usize,

@@ -70,7 +70,7 @@ pub struct TimeChange {
     pub before: f64,
     /// The median of the rounds of the second bench.
     pub after: f64,
-    /// Rounds before and after.
+    /// The number of rounds in the first and in the second bench.
     pub rounds: [usize; 2],
     /// The median ratio of all pairs of rounds, which differs slightly from the ratio of the medians.
     pub ratio: f64,

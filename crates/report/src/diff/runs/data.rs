@@ -148,7 +148,7 @@ pub struct Unpaired {
 /// Two adapters that are compared.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct AdapterPair {
-    /// The names of the two adapters.
+    /// The adapter of the first run, and its counterpart in the second.
     pub adapter: [String; 2],
     /// The facts of both adapters, side by side.
     pub facts: Vec<Fact>,
@@ -234,7 +234,7 @@ pub(super) fn both_names([before, after]: &[String; 2]) -> String {
 /// Records with the same change of verdict.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Transition {
-    /// The verdict before and after.
+    /// The verdict in the first run, and in the second.
     pub verdict: [Verdict; 2],
     /// The number of record pairs of two adapters with this change.
     pub records: u64,
@@ -247,19 +247,19 @@ pub struct CaseChange {
     pub case: String,
     /// The case's id without axis values.
     pub case_file: String,
-    /// The adapter in each run.
+    /// The adapter's name in the first run, and in the second.
     pub adapter: [String; 2],
     /// Worse, better or other: what the change of verdict and expectation means.
     pub direction: ChangeDirection,
     /// The parts that differ: `verdict`, `expectation`, `frame`, and the kinds of [`Detail::what`].
     pub what: Vec<&'static str>,
-    /// The verdict in each run.
+    /// The verdict in the first run, and in the second.
     pub verdict: [Verdict; 2],
     /// True for each record that is unexpected.
     pub unexpected: [bool; 2],
     /// The most informative line of each record.
     pub headline: [String; 2],
-    /// Figures that differ.
+    /// Figures that differ, by kind and name.
     pub details: Vec<Detail>,
     /// The frames, if both runs keep one.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -311,7 +311,7 @@ pub struct ImageChange {
     pub aspect: Aspect,
     /// The number of samples that the image has in each frame.
     pub samples: u64,
-    /// The number of samples that differ.
+    /// The number of samples with a code that differs in any channel.
     pub differ: u64,
     /// The largest distance in any channel, in codes (for floats, in units in the last place).
     pub largest: u64,
