@@ -8,7 +8,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AdapterRecord {
-    /// The adapter's name, device, driver and API, as the driver reports them.
+    /// The adapter's name, and the device, driver and API that the driver reports.
     #[serde(flatten)]
     pub info: AdapterInfo,
     /// The release of the driver, if the adapter's description states it.

@@ -39,7 +39,7 @@ pub struct InnocentTally {
     /// The worst verdict that the rasterizer itself gets as well; such cases count for nothing else.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shared: Option<Verdict>,
-    /// The most severe violation, and of equal ones the first; absent if there is none.
+    /// The most severe violation, and of equal ones the first; absent if no case has one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub worst: Option<Sighting>,
 }

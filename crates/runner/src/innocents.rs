@@ -26,7 +26,7 @@ pub struct PlannedInnocent {
 pub struct InnocentPlan<'a> {
     /// The cases. Selftests are left out: they fail on every backend.
     pub cases: &'a [Case],
-    /// The innocents; those that combine several behaviours are drawn with all cases.
+    /// The innocents; profiles and the rasterizer itself are drawn with all cases.
     pub innocents: &'a [PlannedInnocent],
     /// The number of threads that draw and judge.
     pub jobs: usize,

@@ -23,7 +23,7 @@ pub struct Pass {
     pub depth_stencil: Option<usize>,
     /// True if the pass declares that it writes neither depth nor stencil.
     pub depth_stencil_read_only: bool,
-    /// The resolve of depth and stencil at the end of the pass; `None` if there is none.
+    /// The resolve of depth and stencil at the end of the pass; `None` keeps the target.
     #[serde(default)]
     pub depth_stencil_resolve: Option<DepthStencilResolve>,
     /// Load and store operations; by default, all contents are loaded and stored.
