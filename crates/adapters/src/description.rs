@@ -579,9 +579,9 @@ mod tests {
             .map(|n| format!(r#"{{"name":"n{n}","backend":"cpu"}}"#))
             .collect();
         let long = format!("[{}]", long.join(","));
-        for (text, word) in [
-            ("", "EOF"),
-            ("{}", "expected a sequence"),
+        for (text, start) in [
+            ("", "EOF while parsing a value"),
+            ("{}", "invalid type: map, expected a sequence"),
             (
                 r#"[{"name":"a","backend":"cpu","colour":1}]"#,
                 "unknown field `colour`",
@@ -591,75 +591,85 @@ mod tests {
                 "unknown variant `metal`",
             ),
             (r#"[{"backend":"cpu"}]"#, "missing field `name`"),
+        ] {
+            let message = parse(text, "mine.json").unwrap_err().to_string();
+            assert!(
+                message.starts_with(&format!("mine.json: {start}")),
+                "{message}"
+            );
+            let remedy = "; a file of adapters is a JSON array of objects with name and backend";
+            assert!(message.ends_with(remedy), "{message}");
+        }
+        for (text, message) in [
             (
                 r#"[{"name":"a","backend":"cpu"},{"name":"a","backend":"gl"}]"#,
-                "entry 2 (`a`)",
+                "entry 2 (`a`): an entry before it has the same name; rename one",
             ),
             (
                 "[{\"name\":\"\\u001b[31m\",\"backend\":\"cpu\"}]",
-                r"`\u{1b}[31m`",
+                "entry 1 (`\\u{1b}[31m`): a name starts with an ASCII letter or digit and continues with letters, \
+                 digits, `:`, `-`, `_`, `.` and `@`, at most 64 in all",
             ),
             (
                 r#"[{"name":"a","backend":"gl","environment":{"A=B":"c"}}]"#,
-                "environment variable",
+                "entry 1 (`a`): `A=B` and its value cannot be an environment variable",
             ),
             (
                 r#"[{"name":"a","backend":"gl","environment":{"A":"\u0000"}}]"#,
-                "environment variable",
+                "entry 1 (`a`): `A` and its value cannot be an environment variable",
             ),
             (
                 r#"[{"name":"a","backend":"gl","library_path":[""]}]"#,
-                "a path is empty",
+                "entry 1 (`a`): a path is empty or contains a zero byte",
             ),
             (
                 r#"[{"name":"a","backend":"vulkan","egl":"x.so"}]"#,
-                "gl and gl-es",
+                "entry 1 (`a`): `egl` is for the backends gl and gl-es; name its folder in `library_path`",
             ),
             (
                 r#"[{"name":"a","backend":"cpu","device":0}]"#,
-                "backend cpu",
+                "entry 1 (`a`): the backend cpu has no `device` and no `manifests`; remove them",
             ),
             (
                 r#"[{"name":"a","backend":"gl","launcher":[""]}]"#,
-                "no command",
+                "entry 1 (`a`): `launcher` or `program` contains a zero byte, or no command",
             ),
             (
                 r#"[{"name":"a","backend":"gl","program":"/x"}]"#,
-                "entries with a `launcher`",
+                "entry 1 (`a`): `program` is for entries with a `launcher`; remove it",
             ),
             (
                 r#"[{"name":"a","backend":"vulkan","launcher":["env"],"manifests":["x.json"]}]"#,
-                "the path there",
+                "entry 1 (`a`): with a `launcher`, manifests are not searched; give the path there",
             ),
             (
                 r#"[{"name":"a","backend":"gl","server":{"command":[],"socket":"/s"}}]"#,
-                "no command",
+                "entry 1 (`a`): `server` names no command",
             ),
             (
                 r#"[{"name":"a","backend":"gl","server":{"command":["x"],"socket":"/s"}}]"#,
-                "needs a word with `{socket}`",
+                "entry 1 (`a`): `server` needs a word with `{socket}`, the path at which it listens",
             ),
             (
                 r#"[{"name":"a","backend":"gl","server":{"command":["x","{socket}"],"socket":"s"}}]"#,
-                "a path from the root",
+                "entry 1 (`a`): the `socket` of a `server` is a path from the root",
             ),
             (
                 r#"[{"name":"a","backend":"gl","line":"mesa"}]"#,
-                "belong together",
+                "entry 1 (`a`): `line` and `version` belong together; give both or none",
             ),
             (
                 r#"[{"name":"a","backend":"gl","line":"mesa","version":"22-rc1"}]"#,
-                "numbers with dots",
+                "entry 1 (`a`): the version `22-rc1` is not made of numbers with dots",
             ),
             (
                 r#"[{"name":"a","backend":"gl","line":"me sa","version":"22"}]"#,
-                "the rules of adapter names",
+                "entry 1 (`a`): the name of a line follows the rules of adapter names",
             ),
-            (&long, "at most 64"),
+            (&long, "65 entries, at most 64 are allowed; split the file"),
         ] {
-            let message = parse(text, "mine.json").unwrap_err().to_string();
-            assert!(message.contains(word), "{text}: {message}");
-            assert!(message.contains("mine.json"), "{message}");
+            let error = parse(text, "mine.json").unwrap_err().to_string();
+            assert_eq!(error, format!("mine.json: {message}"), "{text}");
         }
     }
 
@@ -685,12 +695,19 @@ mod tests {
                 ..Resolved::default()
             }
         );
-        for (key, word) in [
-            (r#""egl":"./none.so""#, "none.so does not exist"),
-            (r#""library_path":["none"]"#, "none does not exist"),
+        let below = |name: &str| folder.path().join(name).display().to_string();
+        for (key, message) in [
+            (
+                r#""egl":"./none.so""#,
+                format!("the library {} does not exist", below("./none.so")),
+            ),
+            (
+                r#""library_path":["none"]"#,
+                format!("the folder {} does not exist", below("none")),
+            ),
             (
                 r#""manifests":["nobody_has_this.json"]"#,
-                "no Vulkan driver manifest",
+                "no Vulkan driver manifest nobody_has_this.json found".to_owned(),
             ),
         ] {
             let text = format!(r#"[{{"name":"a","backend":"gl",{key}}}]"#);
@@ -698,7 +715,7 @@ mod tests {
                 .resolve(folder.path(), &variable)
                 .unwrap_err();
             assert!(matches!(error, Unresolved::Missing(_)), "{error}");
-            assert!(error.to_string().contains(word), "{error}");
+            assert_eq!(error.to_string(), message);
         }
     }
 }
