@@ -169,21 +169,32 @@ fn behind(mut launch: Launch, script: &str) -> Launch {
 
 #[test]
 fn a_launcher_that_prints_or_starts_no_worker_is_not_taken_for_a_driver() {
-    for (script, word) in [
+    for (script, end) in [
         (
             "echo Welcome to the machine",
-            "`Welcome to the machine` in place of a greeting",
+            ": the worker wrote garbage: `Welcome to the machine` in place of a greeting; a launcher must not print \
+             anything itself: its standard output is the worker's",
         ),
         (
             "echo etalon worker 0.0.9, protocol 1; cat",
-            "the same program",
+            ": start the same program there",
         ),
-        ("echo no such host >&2; exit 255", "no such host"),
-        ("exit 0", "its launcher ended with exit status 0"),
-        ("kill -SEGV $$", "its launcher died of signal 11"),
+        (
+            "echo no such host >&2; exit 255",
+            ", and its launcher ended with exit status 255; stderr ends with: no such host",
+        ),
+        ("exit 0", ", and its launcher ended with exit status 0"),
+        (
+            "kill -SEGV $$",
+            ", and its launcher died of signal 11 (SIGSEGV)",
+        ),
     ] {
         match Worker::start(&behind(launch("none"), script)) {
-            Err(StartError::Launcher(text)) => assert!(text.contains(word), "{script}: {text}"),
+            Err(StartError::Launcher(text)) => {
+                let start = "no worker answers behind the launcher: ";
+                assert!(text.starts_with(start), "{script}: {text}");
+                assert!(text.ends_with(end), "{script}: {text}");
+            }
             Err(other) => panic!("{script}: {other}"),
             Ok(_) => panic!("{script}: started"),
         }
@@ -230,26 +241,31 @@ fn a_launcher_hides_how_its_worker_ended() {
 
 #[test]
 fn a_worker_that_does_not_greet_is_broken_and_says_how() {
-    let quiet = broken(&script("exit 0"));
-    assert!(quiet.contains("exit status 0"), "{quiet}");
-    let words = broken(&script("echo famous words >&2; exit 3"));
-    assert!(words.contains("exit status 3"), "{words}");
-    assert!(words.contains("famous words"), "{words}");
-    let killed = broken(&script("kill -SEGV $$"));
-    assert!(killed.contains("signal 11 (SIGSEGV)"), "{killed}");
+    for (words, end) in [
+        ("exit 0", "ended with exit status 0"),
+        (
+            "echo famous words >&2; exit 3",
+            "ended with exit status 3; stderr ends with: famous words",
+        ),
+        ("kill -SEGV $$", "died of signal 11 (SIGSEGV)"),
+    ] {
+        let text = format!("the driver did not start: the worker {end}");
+        assert_eq!(broken(&script(words)), text);
+    }
     for garbage in [
         "printf 'Hello, I am no driver'",
         "printf '\\003\\0\\0\\0abc'",
+        "printf '\\100\\0\\0\\0half'",
     ] {
         let text = broken(&script(garbage));
-        assert!(text.contains("garbage"), "{text}");
+        let start = "the driver did not start: the worker wrote garbage: ";
+        assert!(text.starts_with(start), "{text}");
     }
-    let half = broken(&script("printf '\\100\\0\\0\\0half'"));
-    assert!(half.contains("garbage"), "{half}");
     let mut nowhere = script("");
     nowhere.program = "/nowhere/etalon".into();
     let text = broken(&nowhere);
-    assert!(text.contains("cannot be started"), "{text}");
+    let start = "the worker cannot be started: ";
+    assert!(text.starts_with(start), "{text}");
     let panic = broken(&launch("panic"));
     assert!(panic.contains("planted panic"), "{panic}");
 }
@@ -257,7 +273,7 @@ fn a_worker_that_does_not_greet_is_broken_and_says_how() {
 #[test]
 fn a_worker_that_closes_its_pipe_is_waited_for_a_limited_time() {
     let text = broken(&script("exec sleep 100 >&-"));
-    assert!(text.contains("closed its pipe"), "{text}");
+    assert_eq!(text, "the driver did not start: the worker closed its pipe");
 }
 
 #[test]
@@ -436,7 +452,10 @@ fn a_worker_that_never_comes_back_leaves_a_record_for_every_case() {
         if number > MARKED {
             let end = record.process.as_ref().unwrap();
             assert_eq!(end.kind, LossKind::NotStarted, "{record:?}");
-            assert!(end.error.contains("exit status 9"), "{record:?}");
+            // Standard error has the output of the test itself.
+            let error = "the worker could not be started again: the driver did not start: the worker ended with \
+                         exit status 9; ";
+            assert!(end.error.starts_with(error), "{record:?}");
         }
     }
     assert_eq!(summary.unexpected, u64::from(CASES + 1 - MARKED));
