@@ -1,9 +1,10 @@
 //! Sites: the folders that they accept and refuse, and that no link is broken.
 
 use crate::browser::made;
-use etalon_report::{SITE_FILE, write_site};
+use etalon_report::{ReportError, SITE_FILE, write_site};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Component, Path, PathBuf};
 
 /// The files below a folder, by path below it.
@@ -120,37 +121,37 @@ fn a_site_replaces_nothing_but_a_site() {
     let to = folder.path().join("site");
     let write = |to: &Path, from: &Path, force| {
         write_site(to, &[from.to_owned()], None, &|_, _| None, force)
-            .map_err(|error| error.to_string())
     };
     fs::create_dir(&to).unwrap();
     write(&to, &run, false).expect("an empty folder may be filled");
     let before = files(&to);
-    assert!(
-        write(&to, &run, false)
-            .unwrap_err()
-            .contains("--force replaces it")
-    );
+    let error = write(&to, &run, false).unwrap_err().to_string();
+    let replaces = format!("{} holds a site; --force replaces it", to.display());
+    assert_eq!(error, replaces);
     write(&to, &run, true).expect("a site may be replaced");
     fs::write(to.join("CNAME"), "example.org").unwrap();
-    let error = write(&to, &run, true).unwrap_err();
-    assert!(
-        error.contains("CNAME") && error.contains("would be lost"),
-        "{error}"
-    );
-    fs::remove_file(to.join("CNAME")).unwrap();
-    for (from, words) in [
-        (to.join("runs/run"), "must not contain each other"),
-        (folder.path().join("none"), "No such file"),
-    ] {
-        let error = write(&to, &from, true).unwrap_err();
-        assert!(error.contains(words), "{error}");
+    match write(&to, &run, true).unwrap_err() {
+        ReportError::Foreign { path, .. } => assert_eq!(path, to.join("CNAME")),
+        other => panic!("{other}"),
     }
-    let error = write(&run, &to, true).unwrap_err();
-    assert!(error.contains("holds no site"), "{error}");
+    fs::remove_file(to.join("CNAME")).unwrap();
+    let refused = |from: &Path| write(&to, from, true).unwrap_err();
+    let within = refused(&to.join("runs/run"));
+    assert!(matches!(within, ReportError::Within { .. }), "{within}");
+    match refused(&folder.path().join("none")) {
+        ReportError::Unread { source, .. } => assert_eq!(source.kind(), ErrorKind::NotFound),
+        other => panic!("{other}"),
+    }
+    match write(&run, &to, true).unwrap_err() {
+        ReportError::Occupied { path, .. } => assert_eq!(path, run),
+        other => panic!("{other}"),
+    }
     let empty = folder.path().join("empty");
     fs::create_dir(&empty).unwrap();
-    let error = write(&to, &empty, true).unwrap_err();
-    assert!(error.contains("holds no page"), "{error}");
+    match refused(&empty) {
+        ReportError::NoPage { path } => assert_eq!(path, empty),
+        other => panic!("{other}"),
+    }
     assert_eq!(files(&to), before, "a refusal changes nothing");
     let beside = fs::read_dir(folder.path()).unwrap().count();
     assert_eq!(beside, 3, "nothing is left beside the site");
@@ -169,8 +170,8 @@ fn leftovers_of_a_killed_process_do_not_block_a_site() {
     let pid = std::process::id().to_string();
     // Killed before the new site was renamed.
     fs::rename(&site, &old).unwrap();
-    let refused = write(false).unwrap_err().to_string();
-    assert!(refused.contains("--force replaces it"), "{refused}");
+    let refused = write(false).unwrap_err();
+    assert!(matches!(refused, ReportError::HasPages { .. }), "{refused}");
     assert_eq!(files(&site), whole);
     // Killed while the old site was removed; an unfinished site of a process with the same id.
     copy(&site, &old);
