@@ -11,7 +11,11 @@ impl Header {
     pub fn conflict(&self, other: &Self) -> Option<String> {
         let (a, b) = (&self.settings, &other.settings);
         let differ = |what: &str, x: String, y: String| {
-            (x != y).then(|| format!("{what} was {x} there and is {y} here"))
+            let [there, here] = [&x, &y].map(|value| match &value[..] {
+                "" => "unknown",
+                value => value,
+            });
+            (x != y).then(|| format!("{what} was {there} there and is {here} here"))
         };
         let text = |n: Option<u64>| n.map_or_else(|| "none".to_owned(), |n| n.to_string());
         differ(

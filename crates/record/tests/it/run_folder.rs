@@ -317,7 +317,7 @@ fn only_the_same_run_is_resumed() {
     };
     assert_eq!(
         refused(&|h| h.settings.selection = "1-0".to_owned()),
-        "the selection of cases was  there and is 1-0 here"
+        "the selection of cases was unknown there and is 1-0 here"
     );
     assert_eq!(
         refused(&|h| h.settings.shard = Some(Shard { index: 2, count: 3 })),
