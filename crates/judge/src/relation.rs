@@ -67,7 +67,7 @@ pub(crate) struct Compared {
     pub(crate) sample: u32,
 }
 
-/// Compares the colours of a frame's samples that come from the same operands.
+/// Compares the colours of a frame's samples with the same number in their texels that come from the same operands.
 pub(crate) fn check_operands(frame: &Frame, scene: usize, legal: &LegalSet) -> Differences {
     let mut found = Differences::default();
     for (number, group) in legal.groups.iter().enumerate() {
@@ -75,21 +75,27 @@ pub(crate) fn check_operands(frame: &Frame, scene: usize, legal: &LegalSet) -> D
         let colors =
             images.filter(|(info, _)| info.group == number && info.aspect == Aspect::Color);
         let colors: Vec<&Image> = colors.map(|(_, image)| image).collect();
-        let mut firsts: HashMap<NonZeroU64, [u32; 3]> = HashMap::new();
+        let mut firsts: HashMap<(NonZeroU64, u32), [u32; 3]> = HashMap::new();
         let mut start = 0;
         for (end, set) in group.runs() {
-            if let Some(operands) = set.operands {
-                let first = *firsts
-                    .entry(operands)
-                    .or_insert_with(|| group.position(start));
-                for place in (start..end).map(|index| group.position(index)) {
+            let indices = std::mem::replace(&mut start, end)..end;
+            let Some(operands) = set.operands else {
+                continue;
+            };
+            for sample in 0..group.samples {
+                let all = indices.clone().map(|index| group.position(index));
+                let places: Vec<[u32; 3]> = all.filter(|place| place[2] == sample).collect();
+                let Some(place) = places.first() else {
+                    continue;
+                };
+                let first = *firsts.entry((operands, sample)).or_insert(*place);
+                for place in places {
                     for image in &colors {
                         let sides = [(*image, scene, first), (*image, scene, place)];
                         found.compare_samples(sides, 0b1111, &ComparedPair::Operands);
                     }
                 }
             }
-            start = end;
         }
     }
     found

@@ -122,14 +122,22 @@ fn ruling_sentence(ruling: &Ruling) -> String {
             ..
         } => {
             let [first, second] = sides.each_ref().map(side_name);
-            let same = if *texel == ruling.texel {
-                format!("{first} and {second}")
+            let other = texel_name(*texel, &ruling.samples);
+            if sides[0] == sides[1] {
+                let there = format!("in {other}");
+                let differences = differences(channels, ["here", &there]);
+                format!(
+                    "must have the colour of {other}, which has the same source and destination: {differences}"
+                )
             } else {
-                let moved = texel_name(*texel, &ruling.samples);
-                format!("{first} and, as {moved}, {second}")
-            };
-            let differences = differences(channels, [&first, &second]);
-            format!("must be the same {same}: {differences}")
+                let same = if *texel == ruling.texel {
+                    format!("{first} and {second}")
+                } else {
+                    format!("{first} and, as {other}, {second}")
+                };
+                let differences = differences(channels, [&first, &second]);
+                format!("must be the same {same}: {differences}")
+            }
         }
     };
     let mut sentence = format!("{subject} {predicate}");
