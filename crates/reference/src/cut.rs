@@ -23,7 +23,7 @@ use etalon_scene::{Draw, Interpolation};
 
 /// The number of roundings in a clipped vertex's coordinates: two products and their sum, the quotient by w,
 /// and the viewport's product and sum; all doubled, since two planes can cut an edge.
-const ROUNDINGS: f64 = 8.0;
+const ROUNDINGS: f64 = 12.0;
 
 /// The distance beyond a viewport up to which a primitive is tracked, in texels. Nothing farther out can reach
 /// into the viewport.
@@ -385,6 +385,8 @@ impl CutLine {
         for t in both.into_iter().flatten().flatten() {
             seen.grow(&line, &[1.0 - t, t]);
         }
+        // Near the viewport, w is 0 only where x and y are 0 too. All of such a line is at one place, and covers
+        // nothing.
         if !seen.off.iter().all(|off| off.is_finite()) {
             return None;
         }
