@@ -30,16 +30,18 @@ pub(crate) struct Grades {
     proven: Forbidden,
     /// Forbidden by "must" clauses or by the CTS.
     required: Forbidden,
-    /// Forbidden by all evidence, if every representation that a reading permits is tried.
-    disputed: Forbidden,
+    /// Forbidden by all evidence, if every representation that a reading permits is tried; `None` if stronger evidence
+    /// forbids as many samples.
+    disputed: Option<Forbidden>,
 }
 
 impl Grades {
-    /// Grades a frame that is illegal by all evidence; `None` if every violation in it is proven.
+    /// Grades a frame with this number of samples that are illegal by all evidence; `None` if every violation in it is
+    /// proven.
     pub(crate) fn of(
         scene: &Scene,
         limits: &Limits,
-        frame: &Frame,
+        (frame, wrong): (&Frame, u64),
         sets: &Sets<'_>,
     ) -> Option<Self> {
         let rules = Rules::of(limits);
@@ -47,22 +49,24 @@ impl Grades {
         if rules.bound_by(Grade::Proven) == rules {
             return None;
         }
+        let required = forbidden_by(Grade::RequiredByCts);
+        let disputed = (required.count < wrong).then(|| {
+            let mut rules = rules.clone();
+            if rules.blend.value() == BlendPrecision::DestinationCodes {
+                rules.blend.set(BlendPrecision::UniformSteps);
+            }
+            forbidden(scene, limits, frame, &rules, sets)
+        });
         Some(Self {
             proven: forbidden_by(Grade::Proven),
-            required: forbidden_by(Grade::RequiredByCts),
-            disputed: {
-                let mut rules = rules.clone();
-                if rules.blend.value() == BlendPrecision::DestinationCodes {
-                    rules.blend.set(BlendPrecision::UniformSteps);
-                }
-                forbidden(scene, limits, frame, &rules, sets)
-            },
+            required,
+            disputed,
         })
     }
 
-    /// Returns the number of samples that violate.
-    pub(crate) fn violations(&self) -> u64 {
-        self.disputed.count
+    /// Returns the number of samples that violate, if it is lower than by all evidence.
+    pub(crate) fn violations(&self) -> Option<u64> {
+        self.disputed.as_ref().map(|disputed| disputed.count)
     }
 
     /// Returns the band of the whole frame.
@@ -81,13 +85,16 @@ impl Grades {
     }
 
     fn band(&self, forbids: impl Fn(&Forbidden) -> bool) -> Band {
-        let grades = [
-            (&self.proven, Grade::Proven),
-            (&self.required, Grade::RequiredByCts),
-            (&self.disputed, Grade::Disputed),
-        ];
-        let grade = grades.into_iter().find(|(forbidden, _)| forbids(forbidden));
-        grade.map_or(Band::Imprecise, |(_, grade)| grade.band())
+        let grade = if forbids(&self.proven) {
+            Grade::Proven
+        } else if forbids(&self.required) {
+            Grade::RequiredByCts
+        } else if self.disputed.as_ref().is_none_or(forbids) {
+            Grade::Disputed
+        } else {
+            return Band::Imprecise;
+        };
+        grade.band()
     }
 }
 

@@ -184,7 +184,12 @@ fn judge_scene(case: &Case, adapter: &str, limits: &Limits, compared: ComparedFr
     record.due_fail = is_due_to_fail(case, limits);
     let mut worst = comparison.worst();
     if worst == Some(Band::Fail)
-        && let Some(grades) = Grades::of(judged_scene(case, index), limits, frame, sets)
+        && let Some(grades) = Grades::of(
+            judged_scene(case, index),
+            limits,
+            (frame, comparison.texels.wrong),
+            sets,
+        )
     {
         worst = Some(grades.frame());
         regrade(&mut comparison, &grades);
@@ -271,8 +276,10 @@ pub(crate) fn regrade(comparison: &mut Comparison, grades: &Grades) {
     }
     comparison.wrong.sort_by_key(|w| Reverse(w.band));
     let texels = &mut comparison.texels;
-    texels.imprecise += texels.wrong.saturating_sub(grades.violations());
-    texels.wrong = texels.wrong.min(grades.violations());
+    if let Some(violations) = grades.violations() {
+        texels.imprecise += texels.wrong.saturating_sub(violations);
+        texels.wrong = texels.wrong.min(violations);
+    }
     for (index, counter) in comparison.counters.iter_mut().enumerate() {
         if counter.band == Some(Band::Fail) {
             counter.band = Some(grades.counter(index));

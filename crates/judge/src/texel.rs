@@ -38,7 +38,7 @@ pub fn judge_texel(
     let found = compare(frame, &judgement.legal, &judgement.yardstick, usize::MAX);
     let mut comparison = found.map_err(|e| e.to_string())?;
     if comparison.worst() == Some(Band::Fail)
-        && let Some(grades) = Grades::of(scene, limits, frame, &sets)
+        && let Some(grades) = Grades::of(scene, limits, (frame, comparison.texels.wrong), &sets)
     {
         regrade(&mut comparison, &grades);
     }
