@@ -18,7 +18,7 @@ const LOGARITHMIC_SPAN: f64 = 20.0;
 /// Passes that a method can need beside its parameter's count, such as a first and a last one.
 const FURTHER_PASSES: u32 = 2;
 
-/// The distance from a half level up to which a parameter, which comes from a decimal text, is on it.
+/// The tolerance for a parameter on a half level, in half levels: parameters are read from decimal texts.
 const ON_LEVEL: f64 = 1e-6;
 
 /// The largest error of a value on a level, 1.3 codes of 8 bits, and the factor by which errors between levels
@@ -214,15 +214,18 @@ impl<'a> ClaimCheck<'_, 'a> {
         }
     }
 
+    /// Returns the settings that the claim is about.
+    fn claimed_settings(&self) -> impl Iterator<Item = SceneSetting<'a>> {
+        let settings = self.scene.settings().into_iter();
+        settings.filter(|s| self.is_claimed_value(s.parameter.map(|(_, value)| value)))
+    }
+
     /// Returns the figure at each setting that the claim is about, if it has one.
     fn at_settings(
         &self,
         figure: impl Fn(&SceneSetting<'a>) -> Option<(Unit, Estimate, FigureCondition)>,
     ) -> Vec<SettingFigure<'a>> {
-        let settings = self.scene.settings().into_iter();
-        let claimed =
-            settings.filter(|s| self.is_claimed_value(s.parameter.map(|(_, value)| value)));
-        let figures = claimed.filter_map(|s| {
+        let figures = self.claimed_settings().filter_map(|s| {
             let (unit, estimate, condition) = figure(&s)?;
             estimate.is_finite().then(|| {
                 let figure = self.figure(&s.text(), unit, estimate, condition);
@@ -311,9 +314,9 @@ impl<'a> ClaimCheck<'_, 'a> {
             .collect()
     }
 
+    /// Compares the errors of two methods at each setting that the claim is about.
     fn same(&self, a: &str, b: &str) -> Vec<SettingFigure<'a>> {
-        let settings = self.scene.settings().into_iter();
-        let figures = settings.filter_map(|s| {
+        let figures = self.claimed_settings().filter_map(|s| {
             let [first, other] = [a, b].map(|method| {
                 let distance = self.point(&s, method)?.measured.distance;
                 Some((distance.rmse, distance.max))
@@ -330,10 +333,10 @@ impl<'a> ClaimCheck<'_, 'a> {
         figures.collect()
     }
 
-    /// Compares two methods at each value at which both were measured.
+    /// Compares two methods at each setting that the claim is about and at which both were measured.
     fn unlike(&self, right: &str, wrong: &str) -> Vec<SettingFigure<'a>> {
-        let settings = self.scene.settings().into_iter();
-        let pairs: Vec<(f64, f64)> = settings
+        let pairs: Vec<(f64, f64)> = self
+            .claimed_settings()
             .filter_map(|s| {
                 let [a, b] = [right, wrong].map(|m| self.quantity(&s, m, Quantity::Rmse));
                 Some((a?.value, b?.value))
@@ -354,7 +357,7 @@ impl<'a> ClaimCheck<'_, 'a> {
         )]
     }
 
-    /// Compares each value of one method with twice the value of the other.
+    /// Compares a method at each value of the parameter with another method at twice the value.
     fn halves(&self, method: &str, over: &str) -> Vec<SettingFigure<'a>> {
         let curve = |method: &str| -> Vec<(f64, f64, u32)> {
             let series = self.scene.series.iter().filter(|s| s.method == method);
@@ -415,10 +418,15 @@ impl<'a> ClaimCheck<'_, 'a> {
                 let (Some(a), Some(b)) = (self.resolved(other), self.resolved(base)) else {
                     continue;
                 };
+                // A method that resolves nothing counts as infinitely wide.
                 let figure = match (a, b) {
                     (Nothing, Nothing) => continue,
                     (From(a), From(b)) => {
-                        self.figure("", Unit::Factor, Estimate::exact(a / b), condition)
+                        let ratio = Estimate::exact(a / b);
+                        if !ratio.is_finite() {
+                            continue;
+                        }
+                        self.figure("", Unit::Factor, ratio, condition)
                     }
                     (From(a), Nothing) => {
                         let text = format!("{} against none", digits(a, 2));
@@ -437,16 +445,16 @@ impl<'a> ClaimCheck<'_, 'a> {
 
     fn levels(&self, series: &MethodSeries<'a>, samples: u32) -> Option<CaseFigure> {
         let curve = series.curve(self.adapter);
-        let range = |halves: bool| {
-            let among = move |v: f64| {
+        let errors_at = |halves: bool| {
+            let is_at = move |v: f64| {
                 let steps = v * f64::from(2 * samples);
                 (steps - steps.round()).abs() < ON_LEVEL && (steps.round() % 2.0 == 1.0) == halves
             };
-            let values = curve.iter().filter(move |(v, _)| among(*v));
+            let values = curve.iter().filter(move |(v, _)| is_at(*v));
             values.map(|(_, e)| *e)
         };
-        let worst_on_levels = range(false).reduce(f64::max)?;
-        let best_between = range(true).reduce(f64::min)?;
+        let worst_on_levels = errors_at(false).reduce(f64::max)?;
+        let best_between = errors_at(true).reduce(f64::min)?;
         let text = format!(
             "at most {} on levels, at least {} between",
             share(worst_on_levels),

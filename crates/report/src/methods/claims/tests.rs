@@ -81,7 +81,13 @@ fn with(made: Made, quantity: Quantity, figure: f64) -> Made {
 
 /// Returns records that meet a claim, or that refute it.
 fn made(claim: &Claim, good: bool) -> Vec<Made> {
-    let (scene, values) = place(claim);
+    let (_, values) = place(claim);
+    made_at(claim, good, values)
+}
+
+/// Returns records at two values of the parameter that meet a claim, or that refute it.
+fn made_at(claim: &Claim, good: bool, values: [f64; 2]) -> Vec<Made> {
+    let (scene, _) = place(claim);
     let setting =
         |method: &str, value: f64| Made::new(&format!("{scene}/method={method}")).at("p", value);
     let pick = |condition| figures(condition)[usize::from(!good)];
@@ -200,6 +206,42 @@ fn every_claim_has_figures_that_reproduce_and_figures_that_refute_it() {
         );
         assert!(!claim.source.is_empty());
     }
+}
+
+#[test]
+fn values_that_a_claim_excludes_neither_confirm_nor_refute_it() {
+    let mut restricted = 0;
+    for claim in claims() {
+        let ClaimedValues::Between(low, high) = claim.values else {
+            continue;
+        };
+        restricted += 1;
+        let title = claim.title;
+        // These tests read whole curves.
+        assert!(
+            !matches!(
+                claim.test,
+                Test::Halves { .. } | Test::Narrowest { .. } | Test::Levels { .. }
+            ),
+            "{title}"
+        );
+        let inside = made(claim, true);
+        let (reproduction, figures, _) = of(claim, &inside);
+        assert_eq!(reproduction, Reproduction::Reproduced, "{title}");
+        let mut excluded = vec![[low / 4.0, low / 2.0]];
+        if high.is_finite() {
+            excluded.push([high * 2.0, high * 4.0]);
+        }
+        for values in excluded {
+            let outside = made_at(claim, false, values);
+            let (alone, ..) = of(claim, &outside);
+            assert_eq!(alone, Reproduction::NotMeasured, "{title}");
+            let (together, all, _) = of(claim, &[inside.clone(), outside].concat());
+            assert_eq!(together, Reproduction::Reproduced, "{title}");
+            assert_eq!(told(&all), told(&figures), "{title}");
+        }
+    }
+    assert!(restricted >= 8, "{restricted}");
 }
 
 /// A comparison needs all of its methods at the same setting.
