@@ -39,11 +39,11 @@ pub(super) fn trimmed(calls: &[RecordedCall], trim: Trim) -> Vec<&RecordedCall> 
                 active: setter.initial.into_iter().collect(),
                 pending: Vec::new(),
             });
-            if setter.whole {
+            if is_whole(&setter.value) {
                 slot.pending.clear();
             }
             slot.pending.push((index, setter.value));
-        } else if let Some(replaced) = replaced(&call.function) {
+        } else if let Some(replaced) = replaced_family(&call.function) {
             for (key, slot) in &mut slots {
                 if matches!(key, StateKey::State(family, _) if *family == replaced) {
                     for index in slot.flush() {
@@ -130,8 +130,6 @@ impl StateSlot {
 struct Setter {
     key: StateKey,
     value: Value,
-    /// True if the call replaces the whole state that was set before.
-    whole: bool,
     /// The call that would set the initial value.
     initial: Option<Value>,
     /// The capabilities that enable reading the state; empty if it is always read.
@@ -148,9 +146,18 @@ const SAMPLE_COVERAGE: u32 = 0x80A0;
 const SAMPLE_MASK: u32 = 0x8E51;
 const SAMPLE_SHADING: u32 = 0x8C36;
 const COLOR_LOGIC_OP: u32 = 0x0BF2;
-const OFFSETS: &[u32] = &[0x8037, 0x2A02, 0x2A01];
+const DITHER: u32 = 0x0BD0;
+const MULTISAMPLE: u32 = 0x809D;
+const POLYGON_OFFSET_POINT: u32 = 0x2A01;
+const POLYGON_OFFSET_LINE: u32 = 0x2A02;
+const POLYGON_OFFSET_FILL: u32 = 0x8037;
+const OFFSETS: &[u32] = &[
+    POLYGON_OFFSET_FILL,
+    POLYGON_OFFSET_LINE,
+    POLYGON_OFFSET_POINT,
+];
 /// The capabilities that are on initially.
-const ON: [u32; 2] = [0x0BD0, 0x809D];
+const INITIALLY_ON: [u32; 2] = [DITHER, MULTISAMPLE];
 
 /// A function that sets state.
 struct StateFunction {
@@ -193,11 +200,12 @@ const fn by_target(function: &'static str, initial: Option<&'static [u64]>) -> S
     }
 }
 
-/// The number 1, as the bits of an `f32` and of an `f64`.
+/// The bits of 1 as an `f32`.
 const F1: u64 = 0x3f80_0000;
+/// The bits of 1 as an `f64`.
 const D1: u64 = 0x3ff0_0000_0000_0000;
 
-/// The functions, with the initial values of OpenGL 4.6, tables 23.
+/// The functions, with the initial values of the tables of OpenGL 4.6, chapter 23.
 const KNOWN: [StateFunction; 39] = [
     known(
         "glCullFace",
@@ -360,8 +368,10 @@ fn known_of(function: &str) -> Option<&'static StateFunction> {
     known.find(|k| k.function == function || core(k.function))
 }
 
+/// Returns true if a call replaces the whole state that was set before.
 fn is_whole((function, _): &Value) -> bool {
-    known_of(function).is_none_or(|known| known.whole)
+    !matches!(function.as_str(), "glEnablei" | "glDisablei")
+        && known_of(function).is_none_or(|known| known.whole)
 }
 
 /// Returns a call as a setter of state; `None` if it does anything else.
@@ -374,7 +384,7 @@ fn setter(call: &RecordedCall) -> Option<Setter> {
     let function = call.function.as_str();
     if let ("glEnable" | "glDisable", [capability]) = (function, arguments.as_slice()) {
         let capability = u32::try_from(*capability).ok()?;
-        let initial = if ON.contains(&capability) {
+        let initial = if INITIALLY_ON.contains(&capability) {
             "glEnable"
         } else {
             "glDisable"
@@ -383,7 +393,6 @@ fn setter(call: &RecordedCall) -> Option<Setter> {
             key: StateKey::Capability(capability),
             initial: Some((initial.to_owned(), arguments.clone())),
             value: (function.to_owned(), arguments),
-            whole: true,
             guards: &[],
         });
     }
@@ -392,7 +401,6 @@ fn setter(call: &RecordedCall) -> Option<Setter> {
             key: StateKey::Capability(u32::try_from(*capability).ok()?),
             initial: None,
             value: (function.to_owned(), arguments),
-            whole: false,
             guards: &[],
         });
     }
@@ -413,13 +421,12 @@ fn setter(call: &RecordedCall) -> Option<Setter> {
         key: StateKey::State(known.family, target),
         initial: initial.map(|values| (function.to_owned(), with_target(values))),
         value: (function.to_owned(), arguments),
-        whole: known.whole,
         guards: known.guards,
     })
 }
 
 /// Returns the family whose state a function replaces in a way that is not tracked.
-fn replaced(function: &str) -> Option<&'static str> {
+fn replaced_family(function: &str) -> Option<&'static str> {
     match function {
         "glScissorArrayv" => Some("scissor"),
         "glDepthRangeArrayv" => Some("depth_range"),
@@ -581,6 +588,29 @@ mod tests {
                 "glDisable[3042]",
                 "glEnablei[3042, 1]",
                 "glDrawArrays[]"
+            ]
+        );
+    }
+
+    #[test]
+    fn a_target_that_is_disabled_alone_leaves_the_parameters_of_the_others_read() {
+        let calls: [(&str, &[u32]); 6] = [
+            ("glEnable", &[BLEND]),
+            ("glBlendFunc", &[0, 1]),
+            ("glDrawArrays", &[]),
+            ("glDisablei", &[BLEND, 1]),
+            ("glBlendFunc", &[1, 1]),
+            ("glDrawArrays", &[]),
+        ];
+        assert_eq!(
+            left(&calls, Trim::Idle),
+            [
+                "glEnable[3042]",
+                "glBlendFunc[0, 1]",
+                "glDrawArrays[]",
+                "glDisablei[3042, 1]",
+                "glBlendFunc[1, 1]",
+                "glDrawArrays[]",
             ]
         );
     }
