@@ -42,7 +42,7 @@ fn header() -> Header {
             },
             release: None,
             limits: Limits {
-                version: etalon_frame::ApiVersion::new(3, 2),
+                version: ApiVersion::new(3, 2),
                 sub_pixel_bits: 8,
                 max_size: 4096,
                 max_color_attachments: 8,
@@ -477,7 +477,7 @@ fn runs_of_every_older_format_are_read_but_not_resumed() {
         assert_eq!(run.records.len(), text.lines().count() - 1);
         assert!(!run.truncated);
         for adapter in &run.header.adapters {
-            let unknown = etalon_frame::ApiVersion::default();
+            let unknown = ApiVersion::default();
             assert_eq!(adapter.limits.version == unknown, format < 3);
         }
         for story in run.records.iter().filter_map(|r| r.story.as_ref()) {
@@ -751,8 +751,6 @@ fn a_broken_header_is_no_damaged_record() {
     assert_eq!(damage(), (2, "remove the line, or record the run again"));
 }
 
-/// A link in a folder from somebody else can lead to any file of the machine.
-#[cfg(unix)]
 #[test]
 fn an_unknown_key_is_refused_anywhere_in_a_header() {
     let folder = tempfile::tempdir().unwrap();
@@ -783,9 +781,12 @@ fn an_unknown_key_is_refused_anywhere_in_a_header() {
     }
 }
 
+/// A link in a folder from somebody else can lead to any file of the machine.
+#[cfg(unix)]
 #[test]
 fn no_file_of_a_folder_is_read_through_a_link() {
     type Reading = fn(&Path) -> Option<RecordError>;
+    // The list of random scenes is only written.
     let readings: [(&str, Reading); 7] = [
         ("run.jsonl", |folder| Run::read(folder).err()),
         ("bench.jsonl", |folder| Bench::read(folder).err()),
@@ -797,6 +798,7 @@ fn no_file_of_a_folder_is_read_through_a_link() {
     ];
     let work = tempfile::tempdir().unwrap();
     let secret = work.path().join("secret");
+    let mut recognized = 0;
     for (name, read) in readings {
         let folder = work.path().join(format!("folder-{name}"));
         fs::create_dir(&folder).unwrap();
@@ -812,12 +814,14 @@ fn no_file_of_a_folder_is_read_through_a_link() {
             );
             assert_eq!(read(&folder).unwrap().to_string(), message);
         }
-        // Neither is its folder recognized as one of etalon, but the link is what is named.
+        // If the name marks a folder of etalon, writing into the folder is refused, and the error names the link.
         if let Some(kind) = FolderKind::of(&folder) {
+            recognized += 1;
             assert_eq!(kind.file(), name);
             let refused = Content::writable(&folder).unwrap_err();
             assert!(matches!(refused, RecordError::Link { .. }), "{refused}");
         }
         fs::remove_file(&secret).unwrap();
     }
+    assert_eq!(recognized, 4, "run, bench, versions and hunt");
 }
