@@ -449,12 +449,12 @@ impl Prepared for VulkanScene<'_> {
         record::initial_contents(device, commands, &self.plan, input.raw);
         slot.timestamp(device, 0);
         let kind = self.kind;
-        let kept = self.keeps_state.then(RefCell::default);
+        let current_state = self.keeps_state.then(RefCell::default);
         let over_passes = self.plan.passes.iter().any(|pass| !pass.queries.is_empty());
         let mut recorder = CommandRecorder {
             slot,
             kind,
-            kept,
+            current_state,
             over_passes,
         };
         record::passes(device, &mut recorder, &self.plan, input.raw)?;
@@ -477,7 +477,7 @@ impl Prepared for VulkanScene<'_> {
             Progress::Drawn => {
                 let start = Instant::now();
                 let commands = slot.begin(device)?;
-                record::reads(device, commands, &self.plan, output.raw);
+                record::reads(device, commands, &self.plan, output.raw)?;
                 self.progress = Progress::NotDrawn;
                 slot.submit(device, start)?;
                 self.progress = Progress::Read;

@@ -4,7 +4,7 @@ use crate::attached::DepthStencilPlan;
 use crate::blits;
 use crate::clear::Ends;
 use crate::device::{Device, MOST_COUNTED};
-use crate::error::Check;
+use crate::error::{Check, internal};
 use crate::image::ImagePlace;
 use crate::image_state::{
     COLOR, COMPUTE, DEPTH_STENCIL, DEPTH_STENCIL_READ_ONLY, DEPTH_STENCIL_RESOLVE, FETCHED,
@@ -193,7 +193,7 @@ fn clear_view(
 /// Records all passes. Attachments change state between passes and end in their initial state.
 ///
 /// # Errors
-/// If the driver fails to create command buffers.
+/// If the driver fails to create or end command buffers, or if a pass names an attachment that does not exist.
 pub(crate) fn passes(
     device: &Device,
     recorder: &mut CommandRecorder<'_>,
@@ -217,7 +217,7 @@ pub(crate) fn passes(
             plan,
             &mut roles,
             pass.roles.iter().copied(),
-        );
+        )?;
         self::pass(device, recorder, pass, input)?;
         let commands = recorder.slot.commands();
         for resolve in &pass.resolves {
@@ -228,23 +228,25 @@ pub(crate) fn passes(
     }
     let first = plan.attachments.iter().map(|a| a.role).enumerate();
     let commands = recorder.next_pass(device)?;
-    change_roles(device, commands, plan, &mut roles, first);
-    Ok(())
+    change_roles(device, commands, plan, &mut roles, first)
 }
 
 /// Records the transitions to these roles. An attachment that keeps its role needs only [`between_passes`].
+///
+/// # Errors
+/// If an attachment does not exist.
 fn change_roles(
     device: &Device,
     commands: vk::CommandBuffer,
     plan: &ScenePlan,
     roles: &mut [Role],
     new_roles: impl Iterator<Item = (usize, Role)>,
-) {
+) -> Result<(), BackendError> {
     let mut moved = Vec::new();
     for (index, role) in new_roles {
         let (Some(attachment), Some(now)) = (plan.attachments.get(index), roles.get_mut(index))
         else {
-            continue;
+            return Err(internal("a role of an attachment that is not in the plan"));
         };
         if *now != role {
             moved.push(attachment.barrier(now.state(), role.state()));
@@ -252,6 +254,7 @@ fn change_roles(
         }
     }
     barriers(device, commands, &moved);
+    Ok(())
 }
 
 /// Makes the writes of a pass visible to the next.
@@ -290,8 +293,8 @@ fn before_advanced(device: &Device, commands: vk::CommandBuffer) {
 pub(crate) struct CommandRecorder<'a> {
     pub(crate) slot: &'a mut Slot,
     pub(crate) kind: PathCommands,
-    /// The state that is set, as text, if state that does not change is set only once.
-    pub(crate) kept: Option<RefCell<String>>,
+    /// The dynamic state that the command buffer has, as text; `None` if every draw sets all state.
+    pub(crate) current_state: Option<RefCell<String>>,
     /// True if queries enclose passes.
     pub(crate) over_passes: bool,
 }
@@ -301,8 +304,8 @@ impl CommandRecorder<'_> {
     fn next_pass(&mut self, device: &Device) -> Result<vk::CommandBuffer, BackendError> {
         match self.kind {
             PathCommands::Several => {
-                if let Some(kept) = &self.kept {
-                    kept.borrow_mut().clear();
+                if let Some(current_state) = &self.current_state {
+                    current_state.borrow_mut().clear();
                 }
                 self.slot.next_primary(device)
             }
@@ -318,7 +321,7 @@ impl CommandRecorder<'_> {
         record: impl Fn(vk::CommandBuffer, Option<&RefCell<String>>),
     ) -> Result<(), BackendError> {
         if self.kind != PathCommands::Secondary {
-            record(self.slot.commands(), self.kept.as_ref());
+            record(self.slot.commands(), self.current_state.as_ref());
             return Ok(());
         }
         let mut rendering = vk::CommandBufferInheritanceRenderingInfo::default()
@@ -377,6 +380,7 @@ fn inherited_queries(device: &Device) -> vk::CommandBufferInheritanceInfo<'stati
     inheritance
 }
 
+/// Records a whole pass with the queries that enclose it. The attachments are in the layouts of their roles.
 fn pass(
     device: &Device,
     recorder: &mut CommandRecorder<'_>,
@@ -398,9 +402,9 @@ fn pass(
             None => begin_rendering(device, recorder, pass),
         }
     }
-    recorder.within(device, pass, |commands, kept| {
+    recorder.within(device, pass, |commands, current_state| {
         // SAFETY: `commands` is being recorded, inside the pass.
-        unsafe { draws(device, commands, pass, input, kept) };
+        unsafe { draws(device, commands, pass, input, current_state) };
     })?;
     // SAFETY: `commands` is being recorded, inside the pass.
     unsafe {
@@ -456,15 +460,15 @@ unsafe fn begin_rendering(device: &Device, recorder: &CommandRecorder<'_>, pass:
             .store_op(ends.store)
             .clear_value(ends.value)
     };
-    let drawn = COLOR.layout;
+    let layout = COLOR.layout;
     let mut color = Vec::with_capacity(pass.color.len());
     for target in &pass.color {
-        let mut info = attachment(target.view, drawn, &target.ends);
+        let mut info = attachment(target.view, layout, &target.ends);
         if let Some((resolve, mode)) = target.resolve {
             info = info
                 .resolve_mode(mode)
                 .resolve_image_view(resolve)
-                .resolve_image_layout(drawn);
+                .resolve_image_layout(layout);
         }
         color.push(info);
     }
@@ -519,7 +523,7 @@ unsafe fn draws(
     commands: vk::CommandBuffer,
     pass: &PassPlan,
     input: vk::Buffer,
-    kept: Option<&RefCell<String>>,
+    current_state: Option<&RefCell<String>>,
 ) {
     let api = &device.raw;
     // SAFETY: upheld by the caller; pipelines live as long as the scene.
@@ -534,6 +538,11 @@ unsafe fn draws(
                 clear.record(device, commands);
             }
             let pipeline = &*draw.pipeline;
+            // The path decides the order of pipeline and state:
+            // - the pipeline, then the state;
+            // - the state, then the pipeline, with `before_pipeline`;
+            // - another pipeline, the state, then the pipeline, with `before_pipeline` and `other`;
+            // - the pipeline, the state, another pipeline, then the pipeline again, with `other`.
             if let Some(single) = draw.single {
                 single.set(device, commands);
                 bound = None;
@@ -548,12 +557,12 @@ unsafe fn draws(
             if draw.overwritten {
                 draw.dynamic.opposite().set(device, commands);
             }
-            let text = kept.map(|_| draw.dynamic.text());
-            if kept.is_none_or(|kept| Some(&*kept.borrow()) != text.as_ref()) {
+            let text = current_state.map(|_| draw.dynamic.text());
+            if current_state.is_none_or(|current| Some(&*current.borrow()) != text.as_ref()) {
                 draw.dynamic.set(device, commands);
             }
-            if let (Some(kept), Some(text)) = (kept, text) {
-                *kept.borrow_mut() = text;
+            if let (Some(current), Some(text)) = (current_state, text) {
+                *current.borrow_mut() = text;
             }
             if let Some(values) = &draw.beyond {
                 values.record(device, commands);
@@ -578,6 +587,8 @@ unsafe fn draws(
     }
 }
 
+/// Records the bindings of a draw's data, its queries and its call.
+///
 /// # Safety
 /// `commands` is being recorded, inside a render pass, with the draw's pipeline bound and its state set.
 unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, input: vk::Buffer) {
@@ -745,12 +756,15 @@ fn copies(device: &Device, commands: vk::CommandBuffer, plan: &ScenePlan) {
 }
 
 /// Records the copies into the output buffer of everything that is read back.
+///
+/// # Errors
+/// If a read names an attachment that does not exist.
 pub(crate) fn reads(
     device: &Device,
     commands: vk::CommandBuffer,
     plan: &ScenePlan,
     output: vk::Buffer,
-) {
+) -> Result<(), BackendError> {
     copies(device, commands, plan);
     let into: Vec<_> = plan
         .attachments
@@ -760,9 +774,10 @@ pub(crate) fn reads(
         .collect();
     barriers(device, commands, &into);
     for read in &plan.reads {
-        let Some(attachment) = plan.attachments.get(read.attachment) else {
-            continue;
-        };
+        let attachment = plan
+            .attachments
+            .get(read.attachment)
+            .ok_or_else(|| internal("a read of an attachment that is not in the plan"))?;
         if let Some((reader, set)) = read.reader {
             let point = vk::PipelineBindPoint::COMPUTE;
             let [x, y] = attachment.size.map(|side| side.div_ceil(TILE));
@@ -812,6 +827,7 @@ pub(crate) fn reads(
     let info = vk::DependencyInfo::default().memory_barriers(&barriers);
     // SAFETY: `commands` is being recorded, outside a render pass.
     unsafe { device.raw.cmd_pipeline_barrier2(commands, &info) };
+    Ok(())
 }
 
 fn barriers(
