@@ -5,7 +5,8 @@
 //! ```
 //!
 //! `--series` prints the series instead, one a line with commas between times, for other tools;
-//! `--found FILE` prints the table of their answers: a line per series, the first run of each change.
+//! `--found FILE` reads their answers and prints the table: a line per series, with the first run of each change,
+//! separated by commas.
 
 #[path = "../tests/it/nightly.rs"]
 mod nightly;
@@ -45,13 +46,16 @@ fn main() -> ExitCode {
                     return ExitCode::FAILURE;
                 }
             };
-            let mut lines = text.lines();
-            print(|_| {
-                let places = lines.next().unwrap_or_default().split(',');
-                places
-                    .filter_map(|place| place.trim().parse().ok())
-                    .collect()
-            });
+            match answers(&text) {
+                Ok(answers) => {
+                    let mut answers = answers.into_iter();
+                    print(|_| answers.next().unwrap_or_default());
+                }
+                Err(error) => {
+                    eprintln!("{file}: {error}");
+                    return ExitCode::FAILURE;
+                }
+            }
         }
         _ => {
             eprintln!("usage: change_points [--series | --found FILE]");
@@ -59,6 +63,25 @@ fn main() -> ExitCode {
         }
     }
     ExitCode::SUCCESS
+}
+
+/// Returns the first runs of the changes in each series.
+fn answers(text: &str) -> Result<Vec<Vec<usize>>, String> {
+    let run = |number: usize, word: &str| match word.trim().parse() {
+        Ok(run) if run < RUNS => Ok(run),
+        _ => Err(format!("line {number}: `{word}` is not a run below {RUNS}")),
+    };
+    let lines = text.lines().zip(1..).map(|(line, number)| {
+        // A series without changes has an empty line.
+        let words = line.split(',').filter(|_| !line.trim().is_empty());
+        words.map(|word| run(number, word)).collect()
+    });
+    let answers: Vec<Vec<usize>> = lines.collect::<Result<_, String>>()?;
+    let expected = MACHINES.len() * SIZES.len() * SERIES;
+    if answers.len() != expected {
+        return Err(format!("{} lines instead of {expected}", answers.len()));
+    }
+    Ok(answers)
 }
 
 /// The series of a machine and a size, the same each time.
