@@ -9,10 +9,11 @@ use crate::relation::{self, Differences, Equality};
 use crate::story;
 use etalon_case::{Case, Relation};
 use etalon_frame::{
-    Aspect, AspectStatistics, Band, Comparison, CounterOutcome, Frame, Limits, WrongTexel, compare,
+    Aspect, AspectStatistics, Band, Comparison, CounterOutcome, Frame, Grade, Limits, WrongTexel,
+    compare,
 };
 use etalon_record::{Assertion, FrameFile, MAX_WRONG_TEXELS, Reason, Record, Verdict};
-use etalon_reference::{Judgement, Rules, Sample, Sets};
+use etalon_reference::{Judgement, Rules, Sample, Sets, set_by};
 use etalon_scene::Scene;
 use std::borrow::Cow;
 use std::cmp::Reverse;
@@ -117,7 +118,12 @@ impl Judge {
             let judged = (frame, compared.comparison.worst());
             let gap = proven_line_gap(scene, limits, judged, legal);
             let gap = gap.map(|gap| (Some(Band::Fail), gap.wrong));
-            let operands = relation::check_operands(frame, compared.index, legal);
+            let operands = unequal_operands(
+                scene,
+                (frame, compared.index),
+                compared.judgement,
+                compared.sets,
+            );
             let band = Equality::of_operands(limits).band;
             let operands = (operands.differing > 0).then_some((Some(band), operands.wrong));
             let own = (judged.1, compared.comparison.wrong);
@@ -238,7 +244,7 @@ fn judge_scene(case: &Case, adapter: &str, limits: &Limits, compared: ComparedFr
         expected_values(case, frame, &judgement.legal, &mut record);
     }
     if worst < Some(Band::Fail) {
-        let found = relation::check_operands(frame, index, &judgement.legal);
+        let found = unequal_operands(scene, (frame, index), judgement, sets);
         let equality = Equality::of_operands(limits);
         note_differences(&mut record, case, &equality, limits, (frames, found));
     }
@@ -265,6 +271,23 @@ fn judge_scene(case: &Case, adapter: &str, limits: &Limits, compared: ComparedFr
         record,
         frame: file,
     }
+}
+
+/// Compares the colours of a frame that come from the same operands by the "must" clauses alone: weaker evidence can
+/// decide which draws reach a sample.
+fn unequal_operands(
+    scene: &Scene,
+    (frame, index): (&Frame, usize),
+    judgement: &Judgement,
+    sets: &Sets<'_>,
+) -> Differences {
+    let found = relation::check_operands(frame, index, &judgement.legal);
+    let proven = judgement.rules.bound_by(Grade::Proven);
+    if found.differing == 0 || proven == judgement.rules {
+        return found;
+    }
+    let legal = set_by(scene, &judgement.limits, &proven, sets);
+    relation::check_operands(frame, index, &legal)
 }
 
 /// Gives a comparison's violations the bands of the evidence that forbids them, the strongest first.
