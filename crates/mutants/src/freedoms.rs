@@ -313,7 +313,7 @@ bugs! {
                 }
             }
         }), source "copies that convert",
-        permitted vec![under!(copies: Copies::SameNumbers)];
+        permitted vec![under!(copies: Copies::SameNumbers, or flushes_small_floats: FlushedFloats::Half | FlushedFloats::All)];
 
     class "freedom", "depth";
     source "depth tests before the conversion";

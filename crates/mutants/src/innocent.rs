@@ -7,7 +7,7 @@ use etalon_backend::Backend;
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Api, ApiVersion, Feature, Grade, Limits, Property};
 use etalon_reference::Rules;
-use etalon_reference::rules::{ConstantClamp, MaskOfOne, SignedClamp, SrgbLogic};
+use etalon_reference::rules::{ConstantClamp, DepthRange, MaskOfOne, SignedClamp, SrgbLogic};
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
@@ -137,6 +137,7 @@ pub fn innocents() -> &'static [Innocent] {
             parts: &[],
             // OpenGL's shader masks do nothing to a single sample, and 3.3 clamps and applies more than later versions.
             own: vec![
+                under!(depth_range: DepthRange::Undefined | DepthRange::Either | DepthRange::ViewportIfWritten),
                 under!(mask_of_one: MaskOfOne::Acts | MaskOfOne::Either),
                 under!(signed_clamp: SignedClamp::Signed | SignedClamp::Either),
                 under!(constant_clamp: ConstantClamp::Never | ConstantClamp::Either),

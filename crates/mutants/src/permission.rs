@@ -19,8 +19,8 @@ impl UsedPermission {
     }
 }
 
-/// Returns a permission that is granted where the value of a field of [`Rules`] matches a pattern, or where one of two
-/// fields is false.
+/// Returns a permission that is granted where the value of a field of [`Rules`] matches a pattern, or where that of
+/// another one does.
 macro_rules! under {
     ($field:ident: true) => {
         $crate::permission::UsedPermission {
@@ -28,10 +28,16 @@ macro_rules! under {
             granted: |rules| rules.$field.value(),
         }
     };
-    ($field:ident: false $(, or $other:ident: false)?) => {
+    ($field:ident: false) => {
         $crate::permission::UsedPermission {
             name: stringify!($field),
-            granted: |rules| !rules.$field.value() $(|| !rules.$other.value())?,
+            granted: |rules| !rules.$field.value(),
+        }
+    };
+    ($field:ident: $granted:pat, or $other:ident: $also:pat) => {
+        $crate::permission::UsedPermission {
+            name: stringify!($field),
+            granted: |rules| matches!(rules.$field.value(), $granted) || matches!(rules.$other.value(), $also),
         }
     };
     ($field:ident: $($pattern:tt)+) => {
