@@ -18,8 +18,8 @@ use serde_json::{Map, Value, json};
 /// again, with its attachments in ascending order of their names.
 ///
 /// # Errors
-/// If a case file cannot express it: a number that is not finite, or a texel's code whose value has a second
-/// code.
+/// If an attachment's clear value or texel is not finite, or if a texel's code is not the only one of its value.
+/// All other numbers must be finite, as the scenes of case files are.
 pub fn scene_json(scene: &Scene) -> Result<Value, &'static str> {
     let mut attachments = Map::new();
     for attachment in &scene.attachments {
@@ -71,7 +71,7 @@ impl Keys {
 
 /// Returns plain data as JSON. Numbers are written as short as 32-bit floats allow.
 fn plain(value: &impl Serialize) -> Value {
-    shortened(serde_json::to_value(value).unwrap_or_default())
+    shortened(serde_json::to_value(value).expect("states without maps are JSON"))
 }
 
 fn shortened(value: Value) -> Value {
@@ -97,7 +97,7 @@ fn short(value: f32) -> Value {
     json!(same.unwrap_or(f64::from(value)))
 }
 
-fn shorts(values: &[f32]) -> Value {
+fn numbers(values: &[f32]) -> Value {
     values.iter().copied().map(short).collect()
 }
 
@@ -107,7 +107,7 @@ fn splat(values: [f32; 4]) -> Value {
     if bits.iter().all(|b| *b == bits[0]) {
         short(values[0])
     } else {
-        shorts(&values)
+        numbers(&values)
     }
 }
 
@@ -128,9 +128,12 @@ fn attachment(attachment: &Attachment) -> Result<Value, &'static str> {
         AttachmentContents::Color(color) if !color.iter().all(|v| v.is_finite()) => {
             return Err("a clear value is not finite");
         }
-        AttachmentContents::Color(color) => keys.add("clear", shorts(color)),
+        AttachmentContents::Color(color) => keys.add("clear", numbers(color)),
         // A part that the format lacks keeps its default, which cannot be written.
         AttachmentContents::DepthStencil { depth, stencil } => {
+            if !depth.is_finite() {
+                return Err("a clear value is not finite");
+            }
             if (depth.to_bits(), *stencil) != (1.0_f32.to_bits(), 0) {
                 let clear = match (format.has_depth(), format.has_stencil()) {
                     (true, true) => json!({ "depth": short(*depth), "stencil": stencil }),
@@ -150,7 +153,10 @@ fn texels(attachment: &Attachment, codes: &[u32]) -> Result<Value, &'static str>
     let encodings = attachment.format.color_channels();
     let value = |(encoding, code): (&ChannelEncoding, &u32)| {
         let order = encoding.order_of_code(*code);
-        if encoding.code_of_order(order) != *code || encoding.is_nan(*code) {
+        if encoding.is_nan(*code) {
+            return Err("a texel is not finite");
+        }
+        if encoding.code_of_order(order) != *code {
             return Err("two codes decode to the same value");
         }
         Ok(match encoding {
@@ -255,7 +261,7 @@ fn clear(clear: &Clear) -> Value {
             write_mask,
         } => {
             keys.add("color", location);
-            keys.add("value", shorts(&value));
+            keys.add("value", numbers(&value));
             if write_mask != 0b1111 {
                 keys.add("write_mask", letters(write_mask));
             }
@@ -428,39 +434,41 @@ fn mesh(draw: &Draw, keys: &mut Keys) {
     let Mesh { vertices, indices } = &*draw.mesh;
     let parts = instances.max(1) as usize;
     let count = vertices.len() / parts;
-    let first_copy = &vertices[..count];
+    let one_instance = &vertices[..count];
     let mut mesh = Keys::default();
     mesh.add("kind", "vertices");
-    let positions = first_copy.iter().map(|v| {
+    let positions = one_instance.iter().map(|v| {
         let flat = v.position[3].to_bits() == 1.0_f32.to_bits();
-        shorts(&v.position[..if flat { 3 } else { 4 }])
+        numbers(&v.position[..if flat { 3 } else { 4 }])
     });
     mesh.add("positions", positions.collect::<Vec<_>>());
-    let color = first_copy.first().map_or([0.0; 4], |v| v.color);
-    let alike = first_copy
+    let color = one_instance.first().map_or([0.0; 4], |v| v.color);
+    let alike = one_instance
         .iter()
         .all(|v| v.color.map(f32::to_bits) == color.map(f32::to_bits));
     if instances > 0 {
         // Instances have colours of their own.
     } else if !alike {
-        let colors = first_copy.iter().map(|v| splat(v.color));
+        let colors = one_instance.iter().map(|v| splat(v.color));
         mesh.add("values", colors.collect::<Vec<_>>());
     } else if color.map(f32::to_bits) != [0; 4] {
         mesh.add("values", vec![splat(color)]);
     }
-    if first_copy.iter().any(|v| v.uv.map(f32::to_bits) != [0; 2]) {
-        let uv = first_copy.iter().map(|v| shorts(&v.uv));
+    if one_instance
+        .iter()
+        .any(|v| v.uv.map(f32::to_bits) != [0; 2])
+    {
+        let uv = one_instance.iter().map(|v| numbers(&v.uv));
         mesh.add("uv", uv.collect::<Vec<_>>());
     }
-    if let Some(repeated) = indices {
-        // Restart indices separate the instances.
-        let length = (repeated.len() + 1) / parts - usize::from(instances > 0);
+    if let Some(all_indices) = indices {
+        // Between two instances is one restart index.
         let length = if instances == 0 {
-            repeated.len()
+            all_indices.len()
         } else {
-            length
+            (all_indices.len() + 1) / parts - 1
         };
-        let indices = repeated[..length].iter().map(|i| match *i {
+        let indices = all_indices[..length].iter().map(|i| match *i {
             RESTART => Value::Null,
             i => json!(i),
         });
