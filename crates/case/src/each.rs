@@ -9,7 +9,7 @@ use serde_json::{Map, Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The maximum number of items that a file's lists can unroll to.
-const MOST: usize = 1 << 16;
+const MAX_ITEMS: usize = 1 << 16;
 
 /// Replaces each list item that has the key `each` by one item per value.
 pub(crate) fn unroll(file: &mut Value) -> Result<(), At> {
@@ -43,7 +43,7 @@ impl Unrolling {
     fn list(&mut self, list: &mut Vec<Value>) -> Result<(), At> {
         let mut unrolled = Vec::with_capacity(list.len());
         for mut item in list.drain(..) {
-            let around = self.taken.len();
+            let outer_names = self.taken.len();
             let each = item.as_object_mut().and_then(|map| map.remove(EACH));
             let items = match each {
                 Some(each) => self
@@ -55,7 +55,7 @@ impl Unrolling {
                 self.value(&mut item).map_err(|e| e.index(unrolled.len()))?;
                 unrolled.push(item);
             }
-            self.taken.truncate(around);
+            self.taken.truncate(outer_names);
         }
         *list = unrolled;
         Ok(())
@@ -83,8 +83,8 @@ impl Unrolling {
             return Err(At::new(message).key(name).key(EACH));
         }
         self.items += count;
-        if self.items > MOST {
-            let message = format!("the lists of a file can unroll to at most {MOST} items");
+        if self.items > MAX_ITEMS {
+            let message = format!("the lists of a file can unroll to at most {MAX_ITEMS} items");
             return Err(At::new(message).key(EACH));
         }
         let mut used = BTreeSet::new();
