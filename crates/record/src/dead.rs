@@ -71,9 +71,8 @@ impl Dead {
     }
 }
 
-/// The most comparisons of a glob with an id, or of one expectation with another, that the search for dead expectations
-/// makes: about as many as a second takes.
-const MOST_COMPARISONS: u64 = 1_000_000;
+/// The maximum number of comparisons of a glob with an id, or of two expectations: a search takes about a second.
+const MAX_COMPARISONS: u64 = 1_000_000;
 
 impl Expectations {
     /// Returns the dead expectations, sorted by kind and then in the order of their files. `ids` returns all
@@ -81,7 +80,7 @@ impl Expectations {
     /// that are described, whether or not the run used them. The globs of `sound` expectations are known to
     /// match something, and none of these covers another one.
     ///
-    /// Many thousands of globs that can match anything are not all compared.
+    /// Stops after a million comparisons; [`DeadSearch::is_complete`] is false then.
     pub fn dead(
         &self,
         run: &Run,
@@ -92,8 +91,7 @@ impl Expectations {
         let used = run.header.adapters.iter().map(|a| &a.info.name);
         let mut names = SortedNames::new(used.chain(described));
         let ids = LazyCell::new(|| Ids::new(&ids()));
-        let left = Cell::new(MOST_COMPARISONS);
-        let mut dead = Vec::new();
+        let left = Cell::new(MAX_COMPARISONS);
         let all_sound = self.all().iter().all(|known| sound(known));
         let prepare = || {
             if !all_sound && self.all().len() >= MANY {
@@ -101,11 +99,35 @@ impl Expectations {
             }
         };
         let (excuses, ()) = join(|| Excuses::of(self, run), prepare);
-        let mut reaches = Vec::new();
+        let mut dead = self.unmatched_and_expired(&ids, &mut names, &left, sound);
+        let reaches = self.reaches((&ids, &left), &mut names, run, &excuses, all_sound);
+        // Without entries that can be dead, the ids are not needed.
+        if reaches.iter().any(Option::is_some) {
+            let names = &names.sorted;
+            dead.extend(self.covered_or_never_matched(
+                (&ids, &left),
+                names,
+                run,
+                &excuses,
+                &reaches,
+            ));
+        }
+        DeadSearch::of(dead, &left)
+    }
+
+    /// Returns the globs that match nothing, and the expectations that have expired.
+    fn unmatched_and_expired(
+        &self,
+        ids: &LazyCell<Ids, impl FnOnce() -> Ids>,
+        names: &mut SortedNames,
+        left: &Cell<u64>,
+        sound: impl Fn(&Known) -> bool,
+    ) -> Vec<Dead> {
+        let mut dead = Vec::new();
         for (number, known) in self.all().iter().enumerate() {
             let mut parts = Vec::new();
             if !sound(known) {
-                parts = self.unmatched(number, &ids, &mut names, &left);
+                parts = self.unmatched(number, ids, names, left);
             }
             if self.expired(known) {
                 let last = known.expires.as_deref().unwrap_or_default();
@@ -116,29 +138,54 @@ impl Expectations {
                 place: known.place(),
                 about,
             }));
+        }
+        dead
+    }
+
+    /// Returns what each expectation names; `None` if it cannot be covered and cannot have failed to match.
+    fn reaches(
+        &self,
+        (ids, left): (&LazyCell<Ids, impl FnOnce() -> Ids>, &Cell<u64>),
+        names: &mut SortedNames,
+        run: &Run,
+        excuses: &Excuses<'_>,
+        all_sound: bool,
+    ) -> Vec<Option<NamedPairs>> {
+        let mut reaches = Vec::new();
+        for (number, known) in self.all().iter().enumerate() {
+            // An expectation for another machine or run can name cases and adapters that are missing here. An
+            // expectation for other adapters can only be covered, and no sound one is.
             if !self.applies(number) || all_sound && excuses.adapters(number).is_empty() {
-                // An expectation for another machine or run can name cases and adapters that are missing
-                // here. One for other adapters can only cover one.
                 reaches.push(None);
                 continue;
             }
             let adapters = names.reach(&known.adapters);
             // Reading the ids of all cases takes longer than a short run.
-            let reach = if all_sound && !excuses.none(number, &adapters, run, &names.sorted) {
+            let is_alive =
+                all_sound && !excuses.excused_nothing(number, &adapters, run, &names.sorted);
+            let reach = if is_alive {
                 None
             } else {
-                let first =
-                    (self.case_globs(number).iter()).find_map(|glob| ids.first(glob, &left));
+                let first = (self.case_globs(number).iter()).find_map(|glob| ids.first(glob, left));
                 let first = first.filter(|_| !adapters.is_empty());
                 first.map(|first| NamedPairs { first, adapters })
             };
             reaches.push(reach);
         }
-        if reaches.iter().all(Option::is_none) {
-            // No entry needs the ids.
-            return DeadSearch::of(dead, &left);
-        }
-        let naming = self.naming_first(&ids, &reaches, &left);
+        reaches
+    }
+
+    /// Returns the expectations that another one covers, and those that never matched.
+    fn covered_or_never_matched(
+        &self,
+        (ids, left): (&Ids, &Cell<u64>),
+        names: &[String],
+        run: &Run,
+        excuses: &Excuses<'_>,
+        reaches: &[Option<NamedPairs>],
+    ) -> Vec<Dead> {
+        let mut dead = Vec::new();
+        let naming = self.naming_first(ids, reaches, left);
         for (number, known) in self.all().iter().enumerate() {
             let Some(reach) = &reaches[number] else {
                 continue;
@@ -150,7 +197,7 @@ impl Expectations {
                 within.adapters.is_subset(&around.adapters)
                     && (self.all()[one].cases == self.all()[other].cases
                         || self.case_globs(one).iter().all(|glob| {
-                            ids.matching(glob, &left)
+                            ids.matching(glob, left)
                                 .all(|id| self.names(other, &ids.sorted[id]))
                         }))
             };
@@ -158,7 +205,7 @@ impl Expectations {
             let cover = others.copied().find(|other| {
                 let by = &self.all()[*other];
                 *other != number
-                    && spend(&left)
+                    && spend(left)
                     && covers(by, known)
                     && is_within(number, *other)
                     // Of two equal expectations, the second is dead.
@@ -166,19 +213,19 @@ impl Expectations {
             });
             let drawn = |adapter: &BTreeSet<&str>| {
                 self.case_globs(number).iter().all(|glob| {
-                    ids.matching(glob, &left)
+                    ids.matching(glob, left)
                         .all(|id| adapter.contains(ids.sorted[id].as_str()))
                 })
             };
             let kind = if let Some(other) = cover {
                 Some((DeadKind::Covered, self.all()[other].place()))
             } else {
-                let is_none = excuses.none(number, &reach.adapters, run, &names.sorted);
+                let excused_nothing = excuses.excused_nothing(number, &reach.adapters, run, names);
                 let mut cases = excuses
                     .adapters(number)
                     .iter()
                     .map(|n| &excuses.recorded[*n]);
-                let never = is_none && cases.all(drawn);
+                let never = excused_nothing && cases.all(drawn);
                 never.then(|| (DeadKind::NeverMatched, known.reason.clone()))
             };
             // Without a comparison left, nothing is certain.
@@ -191,7 +238,7 @@ impl Expectations {
                 about,
             }));
         }
-        DeadSearch::of(dead, &left)
+        dead
     }
 
     /// Returns the globs of an expectation, or their alternatives, that match nothing.
@@ -215,7 +262,8 @@ impl Expectations {
         parts
     }
 
-    /// Returns the expectations that name the first case of one, by this case, as long as comparisons are left.
+    /// Returns, for the first case of each expectation, the expectations that name this case. Incomplete if no
+    /// comparisons are left.
     fn naming_first(
         &self,
         ids: &Ids,
@@ -280,7 +328,7 @@ struct Excuses<'r> {
 #[derive(Clone, Copy, Default)]
 struct DrawnOutcome {
     /// True if a run can show whether the expectation is needed.
-    tells: bool,
+    can_be_judged: bool,
     /// True if it excused a verdict.
     excused: bool,
     /// True if a case was drawn.
@@ -303,10 +351,10 @@ impl<'r> Excuses<'r> {
             let about = adapters.filter(|(_, a)| expectations.is_about(number, a));
             excuses.adapters.push(about.map(|(n, _)| n).collect());
             // A flaky case can pass every time, and a skipped case has no verdict.
-            let tells = !expectations.expired(known)
+            let can_be_judged = !expectations.expired(known)
                 && !matches!(known.verdict, Verdict::Flaky | Verdict::Skipped);
             excuses.outcomes.push(DrawnOutcome {
-                tells,
+                can_be_judged,
                 ..DrawnOutcome::default()
             });
         }
@@ -321,7 +369,10 @@ impl<'r> Excuses<'r> {
             );
             for number in expectations.naming(&record.case) {
                 let outcome = &mut excuses.outcomes[number];
-                if outcome.tells && !outcome.excused && excuses.adapters[number].contains(adapter) {
+                if outcome.can_be_judged
+                    && !outcome.excused
+                    && excuses.adapters[number].contains(adapter)
+                {
                     outcome.excused = expectations.excuses(number, record.shown());
                     outcome.drawn |= is_drawn;
                 }
@@ -336,14 +387,20 @@ impl<'r> Excuses<'r> {
     }
 
     /// Returns true if a run drew cases of an expectation on all its adapters, and it excused no verdict.
-    fn none(&self, number: usize, adapters: &BTreeSet<usize>, run: &Run, names: &[String]) -> bool {
+    fn excused_nothing(
+        &self,
+        number: usize,
+        adapters: &BTreeSet<usize>,
+        run: &Run,
+        names: &[String],
+    ) -> bool {
         let about = &self.adapters[number];
         let is_used = |name: &String| {
             let mut used = about.iter().map(|n| &run.header.adapters[*n].info.name);
             used.any(|used| used == name)
         };
         let outcome = self.outcomes[number];
-        outcome.tells
+        outcome.can_be_judged
             && !outcome.excused
             && outcome.drawn
             && adapters.iter().all(|index| is_used(&names[*index]))
@@ -464,10 +521,10 @@ struct Ids {
     parts: OnceCell<Parts>,
 }
 
-/// The number of expectations whose ids are certainly looked up.
+/// With this many expectations, the index of ids is built in advance, beside the records.
 const MANY: usize = 1000;
 
-/// The number of ids that are compared rather than looked up.
+/// Up to this many ids are compared one by one, without the index.
 const FEW: usize = 64;
 
 impl Ids {
@@ -555,7 +612,6 @@ mod tests {
     use super::*;
     use crate::adapter::AdapterRecord;
     use crate::header::Header;
-
     use crate::record::Record;
 
     const IDS: [&str; 4] = ["a/x=1/y=1", "a/x=1/y=2", "a/x=2/y=1", "b"];
@@ -619,7 +675,7 @@ mod tests {
             let dead = read.dead(&run(&IDS), ids, &[], |_| true).dead;
             dead.into_iter().map(|d| d.kind).collect::<Vec<_>>()
         };
-        // A case that fails as expected, and none that was drawn.
+        // One fails as expected, and the other was not drawn.
         for case in ["a/*", "c"] {
             assert_eq!(found(case, || panic!("the ids were read")), []);
         }
