@@ -17,7 +17,8 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Blessing {
     /// All entries of a list, with the new ones at the end.
     pub entries: Vec<Entry>,
-    /// The new entries as findings, each with a file name made from driver, case file and verdict.
+    /// The new entries as findings, each with a file name made from the last part of the adapter's name, the case file,
+    /// the verdict and the kind of violation. Two findings can have the same name.
     pub findings: Vec<(String, Finding)>,
     /// The number of new entries.
     pub added: usize,
@@ -25,7 +26,7 @@ pub struct Blessing {
     pub removed: Vec<Known>,
     /// Expectations for which only some cases are better; they must be narrowed by hand.
     pub to_narrow: Vec<Known>,
-    /// The number of records that blessing cannot excuse: selftests that do not fail.
+    /// The number of records that blessing cannot excuse: selftests that do not fail, and nothing else.
     pub unblessed: u64,
 }
 
@@ -42,20 +43,19 @@ pub fn bless(
     message: &dyn Fn(&Record) -> String,
 ) -> Blessing {
     let mut blessing = Blessing::default();
-    let mut drawn: Vec<BTreeSet<&str>> = vec![BTreeSet::new(); expectations.all().len()];
-    let mut better = vec![0_u64; expectations.all().len()];
-    let mut worse = vec![0_u64; expectations.all().len()];
+    let mut drawn = vec![DrawnCases::default(); expectations.all().len()];
     let mut new = Vec::new();
     for record in run.all_records() {
+        // Expectations are about adapters of the header.
         let Some(adapter) = run.header.adapter(&record.adapter) else {
             continue;
         };
         for number in expectations.numbers(adapter, &record.case) {
-            drawn[number].insert(&record.case);
+            drawn[number].cases.insert(&record.case);
             let good = !record.verdict.is_bad()
                 && !matches!(record.verdict, Verdict::NotSupported | Verdict::Skipped);
-            better[number] += u64::from(good);
-            worse[number] += u64::from(!good);
+            drawn[number].any_better |= good;
+            drawn[number].any_worse |= !good;
         }
         if !record.unexpected() {
             continue;
@@ -76,14 +76,37 @@ pub fn bless(
             new.push((record, entry(record, adapter, run, today, message(record))));
         }
     }
-    let mut keep = |known: &Known| {
-        blessing.entries.extend(known.entry());
-    };
+    keep_or_remove(&mut blessing, expectations, &drawn, ids, all_adapters);
+    blessing.added = new.len();
+    blessing.findings = findings(&new, run, today);
+    blessing
+        .entries
+        .extend(new.into_iter().map(|(_, entry)| entry));
+    blessing
+}
+
+/// The drawn cases that an expectation names.
+#[derive(Clone, Default)]
+struct DrawnCases<'r> {
+    cases: BTreeSet<&'r str>,
+    /// True if a case is better than expected.
+    any_better: bool,
+    any_worse: bool,
+}
+
+/// Sorts the expectations into entries to keep, to remove and to narrow.
+fn keep_or_remove(
+    blessing: &mut Blessing,
+    expectations: &Expectations,
+    drawn: &[DrawnCases<'_>],
+    ids: &[String],
+    all_adapters: bool,
+) {
     for (number, known) in expectations.all().iter().enumerate() {
         // A flaky case passes sometimes, and a skipped case was not drawn.
         let tried = !matches!(known.verdict, Verdict::Flaky | Verdict::Skipped);
-        if !tried || better[number] == 0 {
-            keep(known);
+        if !tried || !drawn[number].any_better {
+            blessing.entries.extend(known.entry());
             continue;
         }
         let pattern = |glob: &String| glob.contains(['*', '?', '[', '{']);
@@ -91,20 +114,14 @@ pub fn bless(
         let all_drawn = ids
             .iter()
             .filter(|id| expectations.names(number, id))
-            .all(|id| drawn[number].contains(id.as_str()));
-        if worse[number] == 0 && all_drawn && (one_adapter || all_adapters) {
+            .all(|id| drawn[number].cases.contains(id.as_str()));
+        if !drawn[number].any_worse && all_drawn && (one_adapter || all_adapters) {
             blessing.removed.push(Known::clone(known));
         } else {
             blessing.to_narrow.push(Known::clone(known));
-            keep(known);
+            blessing.entries.extend(known.entry());
         }
     }
-    blessing.added = new.len();
-    blessing.findings = findings(&new, run, today);
-    blessing
-        .entries
-        .extend(new.into_iter().map(|(_, entry)| entry));
-    blessing
 }
 
 fn entry(
@@ -150,8 +167,8 @@ fn entry(
 /// seen.
 fn findings(new: &[(&Record, Entry)], run: &Run, today: &str) -> Vec<(String, Finding)> {
     let mut groups: BTreeMap<_, Vec<&(&Record, Entry)>> = BTreeMap::new();
-    for symptom in new {
-        let (record, entry) = symptom;
+    for pair in new {
+        let (record, entry) = pair;
         let file = record.parts().file();
         let key = (
             &entry.driver,
@@ -162,7 +179,7 @@ fn findings(new: &[(&Record, Entry)], run: &Run, today: &str) -> Vec<(String, Fi
             &entry.adapter,
             Symptom::of(record).broad(),
         );
-        groups.entry(key).or_default().push(symptom);
+        groups.entry(key).or_default().push(pair);
     }
     let mut found: Vec<(String, Finding)> = Vec::new();
     for ((driver, device, version, verdict, file, adapter, kind), group) in groups {
@@ -358,9 +375,9 @@ mod tests {
             .findings
             .iter()
             .map(|(name, f)| (name.as_str(), f.to_text().unwrap()));
-        let texts: Vec<_> = texts.collect();
-        let texts: Vec<_> = texts.iter().map(|(n, t)| (*n, t.as_str())).collect();
-        let found = Expectations::of_findings(&texts).unwrap();
+        let texts: Vec<(&str, String)> = texts.collect();
+        let files: Vec<_> = texts.iter().map(|(n, t)| (*n, t.as_str())).collect();
+        let found = Expectations::of_findings(&files).unwrap();
         assert!(matches!(
             found.look_up(adapter_of(&seen), "a/x=*", Verdict::Fail),
             Expectation::Agrees(_)
