@@ -41,12 +41,12 @@ pub fn program(
             version,
             needs,
         } => {
-            let context = vulkan::ProgramDevice {
-                device,
+            let program_device = vulkan::ProgramDevice {
+                name: device,
                 version: *version,
                 needs,
             };
-            vulkan::program(head, &context, recording, expected)
+            vulkan::program(head, &program_device, recording, expected)
         }
         RecordedContext::Wgpu {
             api,

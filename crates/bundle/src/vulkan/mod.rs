@@ -14,25 +14,25 @@ use etalon_backend::{Recording, VulkanNeeds};
 /// The device of a program.
 pub(crate) struct ProgramDevice<'a> {
     /// The device's name.
-    pub(crate) device: &'a str,
-    /// The version of Vulkan.
+    pub(crate) name: &'a str,
+    /// The version of Vulkan that the program asks for, encoded as in `VkApplicationInfo`.
     pub(crate) version: u32,
     /// The abilities that the device must have.
     pub(crate) needs: &'a VulkanNeeds,
 }
 
-/// Returns the program.
+/// Returns the C program that repeats a recording and checks its values.
 pub(crate) fn program(
     head: &Head,
-    context: &ProgramDevice<'_>,
+    device: &ProgramDevice<'_>,
     recording: &Recording,
     expected: &Due,
 ) -> Result<String, BundleError> {
     let ProgramDevice {
-        device,
+        name,
         version,
         needs,
-    } = *context;
+    } = *device;
     let mut printer = Printer::new();
     let body = printer.body(&recording.calls)?;
     let check = check::check(recording, expected)?;
@@ -49,7 +49,7 @@ pub(crate) fn program(
          /* Formats that are blended into; modes in which depth and stencil are resolved. */\n\
          static const uint32_t blended[] = {{ {} }};\n\
          static const uint32_t depth_resolve = {}, stencil_resolve = {}, independent = {}, independent_none = {};\n",
-        string(device),
+        string(name),
         needs.blended.iter().map(|format| format!("{format}, ")).collect::<String>() + "0",
         needs.depth_resolve,
         needs.stencil_resolve,
@@ -57,9 +57,9 @@ pub(crate) fn program(
         u32::from(needs.independent_resolve_none),
     ));
     text.push_str(HELPERS);
-    let head = "load_device(VkDevice device)";
+    let signature = "load_device(VkDevice device)";
     let find = "device_function(device, ";
-    text.push_str(&printer.declarations.load(head, find, &[]));
+    text.push_str(&printer.declarations.load(signature, find, &[]));
     text.push_str(&printer.declarations.variables());
     text.push_str(&body.definitions);
     text.push_str(&check);
@@ -108,7 +108,7 @@ static void check(int32_t result, const char *call, int line)
 {
     if (result) {
         printf("line %d: %s: VkResult %d\n", line, call, result);
-        /* A feature, an extension, a layer or a format that the driver does not have. */
+        /* VK_ERROR_FEATURE_NOT_PRESENT, EXTENSION_NOT_PRESENT, LAYER_NOT_PRESENT, FORMAT_NOT_SUPPORTED, INCOMPATIBLE_DRIVER */
         exit(result == -8 || result == -7 || result == -6 || result == -11 || result == -9 ? LACKS : FAILED);
     }
 }
@@ -129,7 +129,7 @@ static void *device_function(VkDevice device, const char *name)
     return address;
 }
 
-/* Ends the program if the device lacks what no feature stands for. */
+/* Ends the program if the device lacks an ability that no feature announces. */
 static void check_device(void)
 {
     struct {
@@ -258,7 +258,7 @@ static void create_image(VkDevice device, const VkImageCreateInfo *info, VkImage
     check(create(device, info, NULL, image), "vkCreateImage", line);
 }
 
-/* Allocates what the last buffer or image needs, of a type that has these properties. */
+/* Allocates memory for the last buffer or image, from a type with these properties. */
 static void allocate(VkDevice device, uint32_t flags, VkDeviceMemory *memory, int line)
 {
     struct {
@@ -270,7 +270,7 @@ static void allocate(VkDevice device, uint32_t flags, VkDeviceMemory *memory, in
     int32_t (*allocate_memory)(VkDevice, const void *, const void *, VkDeviceMemory *);
     uint32_t i, wanted_flags[2];
     int tries;
-    /* Else of one that the host sees, if it has to. */
+    /* If there is no such type, only HOST_VISIBLE and HOST_COHERENT are required. */
     wanted_flags[0] = flags;
     wanted_flags[1] = flags & 6;
     *(void **)&allocate_memory = device_function(device, "vkAllocateMemory");
