@@ -154,7 +154,7 @@ impl Walk<'_> {
             });
         }
         let tracer = strokes.is_none().then(|| Tracer::new(self, p));
-        for (run, (draws, stop)) in runs(pass).enumerate() {
+        for (run, draws) in runs(pass).enumerate() {
             if !draws.is_empty() {
                 let mut brush = Brush {
                     walk: self,
@@ -163,12 +163,12 @@ impl Walk<'_> {
                     known: DrawOutcomes::default(),
                 };
                 match (&tracer, strokes) {
-                    (Some(tracer), _) => tracer.trace(draws, &mut brush),
+                    (Some(tracer), _) => tracer.trace(draws.clone(), &mut brush),
                     (None, Some(strokes)) => strokes[run].repeat(&mut brush),
                     (None, None) => {}
                 }
             }
-            self.paint_clears((p, stop), shape, &mut picture);
+            self.paint_clears((p, draws.end), shape, &mut picture);
         }
         self.paint_open_draws(p, shape, &mut picture);
         if pass

@@ -9,7 +9,7 @@ use etalon_scene::Pass;
 use rustc_hash::FxHashMap;
 use std::ops::Range;
 
-/// Takes strokes.
+/// A receiver of strokes.
 pub(crate) trait Strokes {
     /// Returns true if signatures need inputs that vary over a primitive of a draw.
     fn names_inputs(&self, draw: u32) -> bool;
@@ -23,10 +23,11 @@ pub(crate) trait Strokes {
     }
 }
 
-/// The largest numbers of kept strokes and of their different signatures. A stroke takes 20 bytes. More signatures
-/// mean that most samples differ, and then finding the equal ones costs more than it saves.
-const MOST_STROKES: usize = 1 << 17;
-const MOST_SIGNATURES: usize = 1 << 12;
+/// The maximum number of kept strokes. A stroke takes 20 bytes.
+const MAX_STROKES: usize = 1 << 17;
+/// The maximum number of different signatures of kept strokes. With more, most samples differ, and finding the equal
+/// ones costs more than it saves.
+const MAX_SIGNATURES: usize = 1 << 12;
 
 /// The strokes of each run of draws of a pass.
 pub(crate) type PassStrokes = Vec<KeptStrokes>;
@@ -41,7 +42,7 @@ pub(crate) struct KeptStrokes {
 }
 
 impl KeptStrokes {
-    /// Gives all strokes to another taker.
+    /// Sends all strokes to another receiver.
     pub(crate) fn repeat(&self, to: &mut impl Strokes) {
         for (first, end, signature) in &self.strokes {
             to.stroke(*first, *end, &self.signatures[*signature as usize]);
@@ -64,30 +65,30 @@ impl Strokes for KeptStrokes {
     }
 
     fn is_full(&self) -> bool {
-        self.strokes.len() > MOST_STROKES || self.signatures.len() > MOST_SIGNATURES
+        self.strokes.len() > MAX_STROKES || self.signatures.len() > MAX_SIGNATURES
     }
 }
 
-/// Returns the runs of a pass's draws between clear commands, each with the index of the draw before which the
-/// next commands are executed.
-pub(crate) fn runs(pass: &Pass) -> impl Iterator<Item = (Range<usize>, usize)> {
+/// Returns the runs of a pass's draws between clear commands, in order. The commands before draw `end` follow each run.
+pub(crate) fn runs(pass: &Pass) -> impl Iterator<Item = Range<usize>> {
     let mut stops: Vec<usize> = pass.clears.iter().map(|clear| clear.before).collect();
     stops.push(pass.draws.len());
     stops.dedup();
     let mut next = 0;
     stops.into_iter().map(move |stop| {
         let first = std::mem::replace(&mut next, stop);
-        (first..stop, stop)
+        first..stop
     })
 }
 
 impl Walk<'_> {
-    /// Returns the strokes of each pass; `None` if signatures depend on earlier passes or if the strokes are many.
+    /// Returns the strokes of each pass; `None` if signatures depend on earlier passes, or if there are more
+    /// than [`MAX_STROKES`] strokes or [`MAX_SIGNATURES`] signatures.
     pub(crate) fn strokes(&self) -> Vec<Option<PassStrokes>> {
         let passes = self.scene.passes.iter().enumerate();
         let strokes = passes.map(|(p, pass)| {
             let tracer = Tracer::new(self, p);
-            let kept = |draws| {
+            let keep = |draws| {
                 let mut kept = KeptStrokes::default();
                 tracer.trace(draws, &mut kept);
                 kept.numbers = FxHashMap::default();
@@ -100,7 +101,7 @@ impl Walk<'_> {
             if depends {
                 return None;
             }
-            runs(pass).map(|(draws, _)| kept(draws)).collect()
+            runs(pass).map(keep).collect()
         });
         strokes.collect()
     }
@@ -136,7 +137,7 @@ impl<'t, 'a> Tracer<'t, 'a> {
         }
     }
 
-    /// Gives the strokes of some draws.
+    /// Sends the strokes of some draws.
     pub(crate) fn trace(&self, draws: Range<usize>, to: &mut impl Strokes) {
         let (size, _) = self.shape;
         let lattice = self.walk.texels.lattice(size);
@@ -183,7 +184,7 @@ impl<'t, 'a> Tracer<'t, 'a> {
         );
     }
 
-    /// Gives the strokes of a part of a row.
+    /// Sends the strokes of a part of a row.
     fn segment(
         &self,
         (y, columns): (u32, Range<u32>),
@@ -225,7 +226,7 @@ impl<'t, 'a> Tracer<'t, 'a> {
         spare.ends = [first, last];
     }
 
-    /// Gives the strokes between two samples of a row whose signatures are known.
+    /// Sends the strokes between two samples of a row whose signatures are known.
     fn between(
         &self,
         [(left, first), (right, last)]: [(Sample, &SampleKey); 2],
