@@ -1,4 +1,4 @@
-//! Plain results are inside judging ones, and wider rules give wider intervals.
+//! Plain results are inside judged intervals, and wider rules give wider intervals.
 
 use crate::common::{all_rules, assert_inside, assert_within, config};
 use etalon_frame::{ChannelEncoding, CodeInterval};
@@ -244,7 +244,7 @@ proptest! {
     }
 
     #[test]
-    fn a_blend_into_floats_by_floats_of_as_many_bits_is_legal(
+    fn a_blend_into_floats_by_floats_of_as_many_bits_or_more_is_legal(
         src in [factor(), factor(), factor(), factor()],
         dst in [factor(), factor(), factor(), factor()],
         is_short in any::<bool>(),
@@ -319,7 +319,7 @@ proptest! {
                 let allowed = a.encode(encoding, v);
                 prop_assert!(allowed.contains(order), "{} {encoding}: {order} not in {allowed:?}", rules.name);
                 prop_assert!(allowed.contains(encoding.order_of_code(encoding.nearest_code(f64::from(depth)))), "{} {encoding}", rules.name);
-                // Two neighbours, and the codes by which the computed code can be off.
+                // Three codes around the value, and the codes by which the computed code can be off.
                 let off = match encoding {
                     ChannelEncoding::Float32 => 0.0,
                     _ => rules.float_error.value() * order as f64,
@@ -402,11 +402,16 @@ proptest! {
                 let held = if plain.is_nan() { range.may_be_nan() } else { range.contains(f64::from(plain)) };
                 prop_assert!(held, "{name} of {value} under {}: {plain} is not in {range:?}", rules.name);
             }
-            // For an exact argument, only the error that the specification permits remains.
-            if below == 0.0 && above == 0.0 && (-20.0..=20.0).contains(&value) {
-                let power = a.exp2(judged).hull();
-                prop_assert!(power.high - power.low < 1e-3 * exact.exp2(), "{value}: {power:?}");
-            }
+        }
+    }
+
+    /// Only the error that the specification permits remains.
+    #[test]
+    fn the_power_of_an_exact_argument_has_a_narrow_interval(value in -20.0_f32..=20.0) {
+        let exact = f64::from(value);
+        for rules in all_rules() {
+            let power = Judging::new(&rules).exp2(Range::same(Interval::between(exact, exact))).hull();
+            prop_assert!(power.high - power.low < 1e-3 * exact.exp2(), "{value}: {power:?}");
         }
     }
 }
