@@ -40,7 +40,7 @@ struct DepthRules {
     /// True if draws whose shader writes depth are tested with the depths of their vertices.
     trusts_vertices: bool,
     /// Returns true if a draw is rejected by mistake, given its depths and the stored ones.
-    also: fn(CompareFunction, CodeRange, CodeRange) -> bool,
+    rejects_too: fn(CompareFunction, CodeRange, CodeRange) -> bool,
     /// The depth that is recorded for the initial clear.
     initial: Option<f32>,
     /// True if a new pass resets the ranges to those after the initial clear.
@@ -56,7 +56,7 @@ struct DepthRules {
 }
 
 impl Default for DepthRules {
-    /// Returns a coarse depth without a bug.
+    /// Returns the rules without a bug.
     fn default() -> Self {
         Self {
             side: 8,
@@ -64,7 +64,7 @@ impl Default for DepthRules {
             overrated: |_, _| false,
             compare: |_, compare| compare,
             trusts_vertices: false,
-            also: |_, _, _| false,
+            rejects_too: |_, _, _| false,
             initial: None,
             forgets: false,
             columns: usize::MAX,
@@ -78,12 +78,13 @@ impl Default for DepthRules {
 /// The coarse depth buffer of one prepared scene.
 #[derive(Default)]
 struct Coarse {
-    unit: DepthRules,
+    rules: DepthRules,
     /// The ranges of each attachment's tiles, row by row; empty for attachments without depth.
     maps: Vec<Vec<CodeRange>>,
     /// The maps after the initial clear.
     initial: Vec<Vec<CodeRange>>,
-    before: Option<DepthState>,
+    /// The depth test of the previous draw.
+    previous_test: Option<DepthState>,
     /// The tiles that are rejected, and copies of the attachments before the draw.
     rejected: Vec<Area>,
     kept: Vec<(usize, CpuSurface)>,
@@ -125,18 +126,18 @@ impl Coarse {
         match moment {
             Moment::Initial => {
                 self.maps = vec![Vec::new(); surfaces.len()];
-                self.before = None;
+                self.previous_test = None;
                 for index in 0..surfaces.len() {
                     self.note(scene, index, surfaces);
                     if let (Some(depth), Some(encoding)) =
-                        (self.unit.initial, encoding(scene, index))
+                        (self.rules.initial, encoding(scene, index))
                     {
                         self.maps[index].fill([code(encoding, depth); 2]);
                     }
                 }
                 self.initial.clone_from(&self.maps);
             }
-            Moment::Begin { pass } if self.unit.forgets && pass > 0 => {
+            Moment::Begin { pass } if self.rules.forgets && pass > 0 => {
                 self.maps.clone_from(&self.initial);
             }
             Moment::Draw { pass, draw } => {
@@ -157,7 +158,7 @@ impl Coarse {
                     Moment::Cleared { clear, .. } => reaches(&clear, Aspect::Depth),
                     _ => {
                         let clears = pass.cleared().contains(&(*index, Aspect::Depth));
-                        clears && !self.unit.misses_loads
+                        clears && !self.rules.misses_loads
                     }
                 });
                 if let Some(index) = cleared {
@@ -173,14 +174,16 @@ impl Coarse {
         if encoding(scene, index).is_none() {
             return;
         }
-        let (surface, side) = (&surfaces[index], self.unit.side);
+        let (surface, side) = (&surfaces[index], self.rules.side);
         let old = std::mem::take(&mut self.maps[index]);
         for y in (0..surface.height).step_by(side) {
             for x in (0..surface.width).step_by(side) {
                 let (right, bottom) = (x + side, y + side);
                 let cut = right > surface.width || bottom > surface.height;
                 let map = &mut self.maps[index];
-                let known = old.get(map.len()).filter(|_| cut && self.unit.misses_edges);
+                let known = old
+                    .get(map.len())
+                    .filter(|_| cut && self.rules.misses_edges);
                 let found = || range(surface, [x, y, right, bottom]);
                 map.push(known.copied().unwrap_or_else(found));
             }
@@ -220,7 +223,7 @@ impl Coarse {
             };
             let tiles = |axis: usize, most: usize| {
                 let [low, high] = ends(axis);
-                let tile = |v: f32| (v.max(0.0) as usize) / self.unit.side;
+                let tile = |v: f32| (v.max(0.0) as usize) / self.rules.side;
                 tile(low - 1.0)..=tile(high + 1.0).min(most.saturating_sub(1))
             };
             let codes = ends(2).map(|z| code(encoding, z.clamp(near, far).clamp(0.0, 1.0) + 0.0));
@@ -239,7 +242,7 @@ impl Coarse {
 
     /// Returns the number of columns and rows of tiles.
     fn size(&self, surface: &CpuSurface) -> [usize; 2] {
-        [surface.width, surface.height].map(|length| length.div_ceil(self.unit.side))
+        [surface.width, surface.height].map(|length| length.div_ceil(self.rules.side))
     }
 
     /// Finds the tiles in which a draw is rejected.
@@ -247,26 +250,29 @@ impl Coarse {
         let Some(index) = pass.depth_stencil else {
             return;
         };
-        let before = std::mem::replace(&mut self.before, draw.depth);
+        let previous_test = std::mem::replace(&mut self.previous_test, draw.depth);
         let (Some(depth), Some(encoding)) = (draw.depth, encoding(scene, index)) else {
             return;
         };
-        let keeps = |op| op == StencilOperation::Keep || self.unit.loses_stencil;
+        let keeps = |op| op == StencilOperation::Keep || self.rules.loses_stencil;
         let faces = draw.stencil.iter().flat_map(|s| [s.front, s.back]);
         let mut operations = faces.flat_map(|face| [face.fail_op, face.depth_fail_op]);
         let written = draw.shader.writes_depth();
         let moved = (written || draw.depth_bias != DepthBias::default())
-            && !(written && self.unit.trusts_vertices);
+            && !(written && self.rules.trusts_vertices);
         if moved || !operations.all(keeps) || draw.shader.counts_runs() {
             return;
         }
-        let (side, compare) = (self.unit.side, (self.unit.compare)(before, depth.compare));
+        let (side, compare) = (
+            self.rules.side,
+            (self.rules.compare)(previous_test, depth.compare),
+        );
         let [columns, rows] = self.size(&surfaces[index]);
         for (tile, codes) in self.touched(encoding, [columns, rows], draw) {
             let (x, y) = (tile % columns, tile / columns);
-            let known = self.maps[index].get(y * columns + x % self.unit.columns);
+            let known = self.maps[index].get(y * columns + x % self.rules.columns);
             if known.is_some_and(|known| {
-                rejects(compare, codes, *known) || (self.unit.also)(compare, codes, *known)
+                rejects(compare, codes, *known) || (self.rules.rejects_too)(compare, codes, *known)
             }) {
                 let (left, top) = (x * side, y * side);
                 self.rejected.push([left, top, left + side, top + side]);
@@ -279,17 +285,17 @@ impl Coarse {
     }
 
     /// Records what a draw wrote.
-    fn drawn(&mut self, scene: &Scene, number: usize, draw: &Draw, surfaces: &[CpuSurface]) {
-        let (Some(index), Some(depth)) = (scene.passes[number].depth_stencil, draw.depth) else {
+    fn drawn(&mut self, scene: &Scene, pass: usize, draw: &Draw, surfaces: &[CpuSurface]) {
+        let (Some(index), Some(depth)) = (scene.passes[pass].depth_stencil, draw.depth) else {
             return;
         };
-        if (self.unit.missed)(number, draw) {
+        if (self.rules.missed)(pass, draw) {
             return;
         }
         if depth.write {
             self.note(scene, index, surfaces);
         }
-        let Some(encoding) = encoding(scene, index).filter(|_| (self.unit.overrated)(number, draw))
+        let Some(encoding) = encoding(scene, index).filter(|_| (self.rules.overrated)(pass, draw))
         else {
             return;
         };
@@ -314,9 +320,9 @@ pub fn with_faithful_hierarchy(scene: Scene) -> impl Prepared {
     CpuScene::new(scene, StoredDataBug::new(memory))
 }
 
-fn coarse(unit: DepthRules) -> Plant {
+fn coarse(rules: DepthRules) -> Plant {
     memory(move |coarse: &mut Coarse, moment, scene, stored| {
-        coarse.unit = unit;
+        coarse.rules = rules;
         coarse.reached(moment, scene, stored);
     })
 }
@@ -368,23 +374,23 @@ bugs! {
     }
     "compare-kept: The coarse depth is tested with the comparison of the draw before." =>
         coarse(DepthRules { compare: |before, compare| before.map_or(compare, |before| before.compare), ..DepthRules::default() });
-    "first-direction-kept: The coarse depth is tested with less behind a draw with less." =>
+    "first-direction-kept: After a draw with less, the coarse depth is tested with less." =>
         coarse(DepthRules {
             compare: |before, compare| if before.is_some_and(|b| b.compare == Less) { Less } else { compare },
             ..DepthRules::default()
         });
-    "shader-depth-ignored: Draws whose shader writes depth are rejected by that of their vertices." =>
+    "shader-depth-ignored: Draws whose shader writes depth are rejected by the depths of their vertices." =>
         coarse(DepthRules { trusts_vertices: true, ..DepthRules::default() });
     "greatest-used-for-greater: Greater is tested against the greatest depth of a tile." =>
-        coarse(DepthRules { also: |c, [_, hi], [_, max]| c == Greater && hi <= max, ..DepthRules::default() });
+        coarse(DepthRules { rejects_too: |c, [_, hi], [_, max]| c == Greater && hi <= max, ..DepthRules::default() });
     "least-used-for-less: Less is tested against the least depth of a tile." =>
-        coarse(DepthRules { also: |c, [lo, _], [min, _]| c == Less && lo >= min, ..DepthRules::default() });
-    "less-equal-bound-rejected: Less-equal rejects what is equal to the greatest depth." =>
-        coarse(DepthRules { also: |c, [lo, _], [_, max]| c == LessEqual && lo >= max, ..DepthRules::default() });
-    "greater-equal-bound-rejected: Greater-equal rejects what is equal to the least depth." =>
-        coarse(DepthRules { also: |c, [_, hi], [min, _]| c == GreaterEqual && hi <= min, ..DepthRules::default() });
+        coarse(DepthRules { rejects_too: |c, [lo, _], [min, _]| c == Less && lo >= min, ..DepthRules::default() });
+    "less-equal-bound-rejected: Less-equal rejects depths equal to the greatest depth." =>
+        coarse(DepthRules { rejects_too: |c, [lo, _], [_, max]| c == LessEqual && lo >= max, ..DepthRules::default() });
+    "greater-equal-bound-rejected: Greater-equal rejects depths equal to the least depth." =>
+        coarse(DepthRules { rejects_too: |c, [_, hi], [min, _]| c == GreaterEqual && hi <= min, ..DepthRules::default() });
     "equal-bound-rejected: Equal rejects a draw that meets a tile's depths at one end only." =>
-        coarse(DepthRules { also: |c, [lo, hi], [min, max]| c == Equal && (lo >= max || hi <= min), ..DepthRules::default() });
+        coarse(DepthRules { rejects_too: |c, [lo, hi], [min, max]| c == Equal && (lo >= max || hi <= min), ..DepthRules::default() });
     for n in [0, 1] {
         "clear-missed-after-{n}: The coarse depth misses the first clear and holds {n}." =>
             coarse(DepthRules { initial: Some(n as f32), ..DepthRules::default() });
@@ -399,6 +405,6 @@ bugs! {
         coarse(DepthRules { misses_loads: true, ..DepthRules::default() });
     "edge-missed: Tiles that extend beyond the attachment keep the coarse depth of the clear." =>
         coarse(DepthRules { misses_edges: true, ..DepthRules::default() });
-    "stencil-lost: Where tiles are rejected, fragments that fail the depth test leave stencil." =>
+    "stencil-lost: In rejected tiles, fragments that fail the depth test do not change stencil." =>
         coarse(DepthRules { loses_stencil: true, ..DepthRules::default() });
 }

@@ -30,7 +30,7 @@ impl Steps for StoredDataBug {
 /// Left, top, right and bottom in texels; right and bottom are exclusive.
 pub(super) type Area = [usize; 4];
 
-/// Returns the texels of an area of a surface, row by row.
+/// Returns the index ranges of an area's texels in a plane, one per row, cut at the surface's edges.
 pub(super) fn texel_rows(
     surface: &CpuSurface,
     area: Area,
