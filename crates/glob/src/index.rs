@@ -1,7 +1,7 @@
 //! Many globs, looked up by a text.
 //!
-//! Each glob is filed under a short text that is in everything it matches: of all such texts, the one under which the
-//! fewest globs are so far. Only globs under parts of the text are compared with it.
+//! Each glob is filed under a part: a short text that occurs in everything that the glob matches. Of the possible
+//! parts, it takes the one with the fewest globs so far. Only globs under parts of the text are compared with it.
 
 use crate::glob::Glob;
 use foldhash::HashMap;
@@ -9,7 +9,7 @@ use foldhash::HashMap;
 /// The length in bytes of the longest part under which a glob is filed.
 const LONGEST: usize = 4;
 
-/// About as many parts of a literal are tried.
+/// The approximate number of parts of a literal that are tried.
 const TRIED: usize = 16;
 
 /// Globs with their numbers.
@@ -18,7 +18,7 @@ pub struct GlobIndex {
     globs: Vec<(usize, Glob)>,
     /// The places in `globs` by the part under which they are filed.
     parts: HashMap<GlobPart, Vec<usize>>,
-    /// The places of globs that can match texts without a common part.
+    /// The places of globs whose matches have no part in common.
     others: Vec<usize>,
     /// The numbers of globs that match exactly one text, by this text.
     plain: HashMap<String, Vec<usize>>,
@@ -49,7 +49,7 @@ impl GlobIndex {
             windows.step_by(step)
         });
         let filed = |bytes: &&[u8]| self.parts.get(&part(bytes)).map_or(0, Vec::len);
-        // Of equally empty ones, a longer part is in fewer texts.
+        // Among parts with equally many globs, a longer part occurs in fewer texts.
         let best = windows.min_by_key(|bytes| (filed(bytes), LONGEST - bytes.len()));
         let place = self.globs.len();
         self.globs.push((number, glob.clone()));
@@ -108,6 +108,7 @@ mod tests {
             "depth/compare/*x=1*",
             "a/b",
             "*",
+            "*/a-literal-with-more-parts-than-are-tried/*",
         ];
         let mut index = GlobIndex::default();
         let parsed: Vec<Glob> = globs
@@ -131,6 +132,7 @@ mod tests {
             "aéb",
             "depth/compare/y=2/x=1/z",
             "depth/compare/",
+            "x/a-literal-with-more-parts-than-are-tried/y",
         ] {
             let matching = (0..parsed.len()).filter(|n| parsed[*n].is_match(text));
             let matching: Vec<usize> = matching.collect();
