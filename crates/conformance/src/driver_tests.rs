@@ -1,8 +1,14 @@
 //! The macro that generates tests from checks.
 
-/// Generates tests for each driver `NAME`, which a function `drivers::NAME` returns as a
-/// [`TestedDriver`](crate::TestedDriver): one of all checks, since to open a driver costs as much as many of them, and one
-/// of each function in brackets, which takes the open backend.
+/// Generates tests for each named driver.
+///
+/// A function `drivers::NAME` returns the driver as a [`TestedDriver`](crate::TestedDriver). Each driver gets a test
+/// `checks`, which opens it once and runs all checks, and a test for each function in brackets, which gets the open
+/// backend:
+///
+/// ```ignore
+/// driver_tests! { lavapipe llvmpipe; [library::sample] }
+/// ```
 #[macro_export]
 macro_rules! driver_tests {
     ($($driver:ident)+; $more:tt) => {
@@ -19,7 +25,7 @@ macro_rules! driver_tests {
     };
 }
 
-/// The further tests of one driver.
+/// Generates the tests in brackets for one driver.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! more_tests {

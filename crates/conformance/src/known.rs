@@ -328,7 +328,7 @@ const CLAMP: &str = "depths are clamped to the range that clip depths from -1 to
 #[rustfmt::skip]
 const WGPU_GL_WRONG: &[Defect] = &[
     ("raster::strips_begin_again", "strips that are joined"),
-    ("fetch::short_strips_begin_again", "strips that are joined"),
+    ("fetch::strips_of_16_bit_indices_restart", "strips that are joined"),
     ("formats::uploads_come_back", "negative codes of rgba8snorm that come back as 0"),
     // wgpu's OpenGL offers four samples even if the driver supports only one, and creates no texture from
     // which a shader could read them.

@@ -26,8 +26,8 @@ fn draw(row: u32, mesh: Value, keys: Value) -> Value {
     )
 }
 
-/// Draws a row by a path between two rows without it, and checks that all three are the same.
-fn is_like_the_others(s: &CheckedBackend, mesh: Value, keys: Value) -> CheckEnd {
+/// Draws a row with these keys between two rows without them, and checks that all three are the same.
+fn draws_like_the_others(s: &CheckedBackend, mesh: Value, keys: Value) -> CheckEnd {
     let frame = s.show(json!({
         "attachments": { "color": with(blue(), json!({ "size": [4, 3] })) },
         "draws": [draw(0, mesh.clone(), json!({})), draw(1, mesh.clone(), keys), draw(2, mesh, json!({}))],
@@ -39,7 +39,7 @@ fn is_like_the_others(s: &CheckedBackend, mesh: Value, keys: Value) -> CheckEnd 
 pub(crate) fn a_base_vertex_is_added_to_every_index(s: &CheckedBackend) -> CheckEnd {
     for base in [1, -1, 3, 1000, -70_000] {
         let fetch = json!({ "fetch": { "base_vertex": base } });
-        is_like_the_others(s, row(json!({ "indexed": true })), fetch)?;
+        draws_like_the_others(s, row(json!({ "indexed": true })), fetch)?;
     }
     Ok(())
 }
@@ -48,7 +48,7 @@ pub(crate) fn draws_start_at_their_first_index(s: &CheckedBackend) -> CheckEnd {
     for index in ["uint16", "uint32"] {
         for first in [0, 1, 3, 70_000] {
             let fetch = json!({ "fetch": { "index": index, "first_index": first } });
-            is_like_the_others(s, row(json!({ "indexed": true })), fetch)?;
+            draws_like_the_others(s, row(json!({ "indexed": true })), fetch)?;
         }
     }
     Ok(())
@@ -57,19 +57,19 @@ pub(crate) fn draws_start_at_their_first_index(s: &CheckedBackend) -> CheckEnd {
 pub(crate) fn draws_start_at_their_first_vertex(s: &CheckedBackend) -> CheckEnd {
     for first in [1, 3, 70_000] {
         let fetch = json!({ "fetch": { "first_vertex": first } });
-        is_like_the_others(s, row(json!({})), fetch)?;
+        draws_like_the_others(s, row(json!({})), fetch)?;
     }
     Ok(())
 }
 
 /// The last 16-bit index is 65,535, which does not restart a list.
-pub(crate) fn the_last_short_index_names_a_vertex(s: &CheckedBackend) -> CheckEnd {
+pub(crate) fn the_last_16_bit_index_names_a_vertex(s: &CheckedBackend) -> CheckEnd {
     let mesh = row(json!({ "indexed": true, "spare": 65_536 - 12 }));
-    is_like_the_others(s, mesh, json!({ "fetch": { "index": "uint16" } }))
+    draws_like_the_others(s, mesh, json!({ "fetch": { "index": "uint16" } }))
 }
 
 /// Two strips of a column each, which would join into one without a restart.
-pub(crate) fn short_strips_begin_again(s: &CheckedBackend) -> CheckEnd {
+pub(crate) fn strips_of_16_bit_indices_restart(s: &CheckedBackend) -> CheckEnd {
     for base in [0, 5] {
         let frame = s.show(json!({
             "attachments": { "color": blue() },
@@ -118,7 +118,7 @@ pub(crate) fn instances_have_a_color_each(s: &CheckedBackend) -> CheckEnd {
     Ok(())
 }
 
-pub(crate) fn instances_start_at_their_first(s: &CheckedBackend) -> CheckEnd {
+pub(crate) fn instances_start_at_their_first_instance(s: &CheckedBackend) -> CheckEnd {
     for indexed in [false, true] {
         for first in [1, 1000] {
             instances(s, row(json!({ "indexed": indexed })), first, json!({}))?;

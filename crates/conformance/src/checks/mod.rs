@@ -110,8 +110,8 @@ registry! {
     }
     fetch {
         a_base_vertex_is_added_to_every_index draws_start_at_their_first_index
-        draws_start_at_their_first_vertex the_last_short_index_names_a_vertex
-        short_strips_begin_again instances_have_a_color_each instances_start_at_their_first
+        draws_start_at_their_first_vertex the_last_16_bit_index_names_a_vertex
+        strips_of_16_bit_indices_restart instances_have_a_color_each instances_start_at_their_first_instance
         instances_have_offsets_too
     }
     formats {
