@@ -8,7 +8,7 @@ use etalon_process::ProcessGroup;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::io::Read;
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::channel;
 use std::thread;
 use std::time::Duration;
@@ -82,30 +82,38 @@ pub(crate) fn enumerate(backend: &str) -> Result<Vec<HardwareDevice>, String> {
         // After the time limit there is no receiver.
         let _ = sender.send(bytes);
     });
-    let mut end = || {
+    let end = |child: &mut Child| {
         // Killing fails if the process has already ended.
         group.kill();
         let _ = child.kill();
         let _ = child.wait();
     };
     if let Err(e) = reading {
-        end();
+        end(&mut child);
         return Err(format!("cannot read the list of devices: {e}"));
     }
     let Ok(bytes) = receiver.recv_timeout(LIMIT) else {
-        end();
+        end(&mut child);
         return Err(format!(
             "listing devices took more than {} s",
             LIMIT.as_secs()
         ));
     };
-    let status = child
-        .wait()
-        .map_err(|e| format!("listing devices ended unexpectedly: {e}"))?;
+    let status = match child.wait() {
+        Ok(status) => status,
+        Err(e) => {
+            end(&mut child);
+            return Err(format!(
+                "cannot wait for the process that lists devices: {e}"
+            ));
+        }
+    };
     group.kill();
     drop(input);
     if !status.success() {
-        return Err(format!("listing devices ended with {status}"));
+        return Err(format!(
+            "the process that lists devices ended with {status}"
+        ));
     }
     serde_json::from_slice(&bytes).map_err(|e| format!("listing devices gave an invalid list: {e}"))
 }
@@ -127,7 +135,7 @@ pub(crate) fn unique_names(
                     n => format!("{base}-{n}"),
                 })
                 .find(|name| !taken.contains(name))
-                .unwrap_or_else(|| base.clone());
+                .expect("there are more numbers than names");
             taken.insert(name.clone());
             HardwareDevice { name, ..found }
         })

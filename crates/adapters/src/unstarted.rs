@@ -5,11 +5,12 @@ use crate::discovery::Adapters;
 use etalon_frame::{AdapterInfo, Api, Limits};
 use etalon_record::{AbsentAdapter, AdapterRecord};
 
-/// Removes the adapters whose drivers do not start from the absent ones. Returns each with a mostly empty
-/// record, and the reason.
+/// Takes the drivers that do not start out of `adapters.dead` and `adapters.absent`. Returns each as a record without
+/// limits, with the reason.
 pub fn take_unstarted(adapters: &mut Adapters) -> Vec<(AdapterRecord, String)> {
     let record = |(backend, absent): (BackendName, AbsentAdapter)| {
         let (backend, api) = match backend {
+            // The rasterizer always starts.
             BackendName::Cpu => ("cpu", Api::Vulkan),
             BackendName::Vulkan => ("vulkan", Api::Vulkan),
             BackendName::Gl => ("gl", Api::OpenGl),
