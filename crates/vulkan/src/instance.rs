@@ -42,9 +42,9 @@ fn entry() -> Result<&'static ash::Entry, Unavailable> {
     static ENTRY: OnceLock<Result<ash::Entry, String>> = OnceLock::new();
     // SAFETY: the system's Vulkan loader is safe to load, and it is never unloaded.
     let loaded = ENTRY.get_or_init(|| unsafe { ash::Entry::load() }.map_err(|e| e.to_string()));
-    loaded.as_ref().map_err(|message| {
-        Unavailable::new(format!("libvulkan.so.1 not found ({message})"), NO_DRIVER)
-    })
+    loaded
+        .as_ref()
+        .map_err(|message| Unavailable::new(format!("no Vulkan loader ({message})"), NO_DRIVER))
 }
 
 impl Instance {

@@ -1,7 +1,7 @@
 //! The Vulkan backend, through ash.
 //!
-//! It requires Vulkan 1.3 (dynamic rendering, synchronization2) and loads `libvulkan.so.1` at run
-//! time; nothing is linked. Vulkan's depth range is that of `etalon-backend`'s conventions;
+//! It requires Vulkan 1.3 (dynamic rendering, synchronization2) and loads the system's Vulkan loader at
+//! run time; nothing is linked. Vulkan's depth range is that of `etalon-backend`'s conventions;
 //! viewports of negative height turn clip space's y axis up. Face winding follows from the signed
 //! area in framebuffer coordinates (Vulkan, Basic Polygon Rasterization), so `ccw` means the same
 //! as in WebGPU.
