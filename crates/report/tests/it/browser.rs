@@ -41,7 +41,7 @@ fn pages_work_in_a_browser() {
         site::a_site_leads_to_reports_and_cases(&chromium, &path);
     });
     check("performance matrix", &|| {
-        matrix::two_adapters_are_compared_and_samples_open(&chromium);
+        matrix::two_adapters_are_compared_at_each_width_and_without_scripts(&chromium);
     });
     check("history", &|| {
         history::news_lead_to_cases_runs_and_back(&chromium)

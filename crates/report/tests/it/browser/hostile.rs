@@ -7,7 +7,7 @@ use etalon_frame::{
 };
 use etalon_record::{Expected, LossKind, ProcessEnd, Reason, Record, RunWriter, Verdict};
 
-/// Texts that would run as a script, each alone and all of them together.
+/// Texts that a careless page runs as a script, takes as markup, or shows as something else.
 const HOSTILE: [&str; 12] = [
     "<script>window.hacked=1</script>",
     "</script><img src=x onerror=window.hacked=2>",
@@ -47,7 +47,7 @@ pub(super) fn hostile_names_stay_text(chromium: &Chromium) {
     let id = |text: &str| format!("{text}/{text}/axis={text}");
     for text in HOSTILE {
         for (column, name) in HOSTILE.iter().enumerate() {
-            // The last kind has no entry under Findings, so the script shows all of it.
+            // Records that pass are not under Findings: only the script shows them.
             let verdict = [Verdict::Fail, Verdict::Crash, Verdict::Pass][column % 3];
             let record = record(&writer, &id(text), name, verdict, &hostile);
             writer.append(&record).unwrap();
@@ -56,6 +56,7 @@ pub(super) fn hostile_names_stay_text(chromium: &Chromium) {
     drop(writer);
     let path = etalon_report::write(folder.path()).unwrap().html;
 
+    // The table of cases.
     let page = chromium.open(&path, "");
     page.wait_count("12 of 12 cases");
     let ids: Vec<String> = page.rows();
@@ -111,13 +112,15 @@ pub(super) fn hostile_names_stay_text(chromium: &Chromium) {
         page.press("Escape");
         page.wait("document.querySelector('#case').hidden");
     }
-    for (option, none) in [("#f-on", "any"), ("#f-odd", "–")] {
-        page.choose(option, &HOSTILE[8][..5]);
-        page.choose(option, none);
+    // The lists of the filters show the names too.
+    for (option, default) in [("#f-on", "any"), ("#f-odd", "–")] {
+        page.choose(option, "__pro");
+        page.choose(option, default);
     }
     page.click("#f-q");
     page.type_in(HOSTILE[1]);
     page.wait_count("1 of 12 cases");
+    // A link to a case that does not exist.
     let linked = chromium.open(&path, &format!("#case={}", HOSTILE[1]));
     assert_eq!(
         linked.text("#case-title"),

@@ -3,7 +3,7 @@
 use super::driver::Chromium;
 use crate::matrix;
 
-pub(super) fn two_adapters_are_compared_and_samples_open(chromium: &Chromium) {
+pub(super) fn two_adapters_are_compared_at_each_width_and_without_scripts(chromium: &Chromium) {
     let folder = tempfile::tempdir().unwrap();
     matrix::write(folder.path());
     let written = etalon_report::write_bench(folder.path()).unwrap();
