@@ -1,4 +1,5 @@
-//! Servers of drivers: what ends with a run, what is told of one that dies, and whose path is left alone.
+//! Servers of drivers: they end with the run, a server that dies is named in the records, and another server's socket
+//! is left alone.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
 use crate::etalon::{BINARY, REMOVED, etalon};
@@ -12,7 +13,7 @@ use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-/// The longest wait for what comes by itself.
+/// The time limit of each wait.
 const LIMIT: Duration = Duration::from_secs(60);
 
 fn wait_until(what: &str, mut is_so: impl FnMut() -> bool) {
@@ -27,8 +28,9 @@ fn stderr(assert: &Assert) -> String {
     String::from_utf8_lossy(&assert.get_output().stderr).into_owned()
 }
 
-/// Writes the description of the rasterizer behind a server, which is a script of the shell: `$0` is its socket.
-fn described(folder: &Path, script: &str) -> PathBuf {
+/// Writes an adapter's description: the rasterizer, with a shell script as its server. In the script, `$0` is the
+/// socket.
+fn write_description(folder: &Path, script: &str) -> PathBuf {
     let entry = serde_json::json!([{
         "name": "served",
         "backend": "cpu",
@@ -39,8 +41,8 @@ fn described(folder: &Path, script: &str) -> PathBuf {
     file
 }
 
-/// Returns the processes whose command line names a server's folder in `folder`.
-fn servers(folder: &Path) -> usize {
+/// Returns the number of processes whose command line names a server's folder in `folder`.
+fn server_count(folder: &Path) -> usize {
     let socket = folder.join("etalon-server-");
     let socket = socket.to_str().unwrap();
     let processes = fs::read_dir("/proc").unwrap().flatten();
@@ -52,7 +54,7 @@ fn servers(folder: &Path) -> usize {
 }
 
 fn nothing_is_left(folder: &Path) {
-    wait_until("a server is left", || servers(folder) == 0);
+    wait_until("a server is left", || server_count(folder) == 0);
     let is_server = |entry: fs::DirEntry| {
         let name = entry.file_name();
         name.to_str().unwrap().starts_with("etalon-server-")
@@ -87,7 +89,7 @@ fn a_server_ends_with_the_run() {
 fn a_killed_run_leaves_no_server() {
     for signal in [Signal::INT, Signal::KILL] {
         let folder = tempfile::tempdir().unwrap();
-        let file = described(folder.path(), "touch \"$0\"; sleep 1000");
+        let file = write_description(folder.path(), "touch \"$0\"; sleep 1000");
         let mut command = Command::new(BINARY);
         command
             .args(["run", "stencil/compare", "--adapter", "served:fault=hang"])
@@ -103,7 +105,7 @@ fn a_killed_run_leaves_no_server() {
         }
         let mut run = command.spawn().unwrap();
         wait_until("nothing is drawn", || {
-            folder.path().join("out/run.jsonl").exists() && servers(folder.path()) > 0
+            folder.path().join("out/run.jsonl").exists() && server_count(folder.path()) > 0
         });
         kill_process(Pid::from_child(&run), signal).unwrap();
         run.wait().unwrap();
@@ -119,7 +121,7 @@ fn a_server_that_ends_is_named_in_the_records() {
         "touch \"$0\"; until [ -e {}.lock ]; do :; done; echo broken >&2; exit 3",
         folder.path().join("known").display()
     );
-    let file = described(folder.path(), &script);
+    let file = write_description(folder.path(), &script);
     let out = folder.path().join("out");
     etalon(&["run", "stencil/compare", "--adapter", "served:fault=abort"])
         .arg("--adapters")
@@ -146,7 +148,7 @@ fn a_server_that_ends_is_named_in_the_records() {
 #[test]
 fn a_server_that_does_not_listen_makes_its_adapter_unavailable() {
     let folder = tempfile::tempdir().unwrap();
-    let file = described(folder.path(), "exit 3");
+    let file = write_description(folder.path(), "exit 3");
     let assert = etalon(&["run", "stencil/compare", "--adapter", "served"])
         .arg("--adapters")
         .arg(&file)
@@ -162,7 +164,7 @@ fn a_server_that_does_not_listen_makes_its_adapter_unavailable() {
 #[test]
 fn the_path_of_another_server_is_left_alone() {
     let folder = tempfile::tempdir().unwrap();
-    let file = described(folder.path(), "touch \"$0\"; sleep 1000");
+    let file = write_description(folder.path(), "touch \"$0\"; sleep 1000");
     let known = folder.path().join("known");
     let run = || {
         etalon(&["run", "stencil/compare", "--adapter", "served"])
@@ -177,7 +179,7 @@ fn the_path_of_another_server_is_left_alone() {
     let said = stderr(&run().code(64));
     assert!(said.contains("another server is at"), "{said}");
     assert!(known.exists());
-    // What a server that was killed left behind is in nobody's use.
+    // A killed server leaves its socket, which nobody listens to.
     drop(listener);
     assert!(known.exists());
     run().code(0);
