@@ -6,8 +6,8 @@ use etalon_runner::Hunted;
 use std::collections::{HashMap, HashSet};
 use std::time::Duration;
 
-/// The ids of the cases that together catch every planted bug, those first that catch the most further bugs per
-/// second. `etalon mutants --full --order cases/order.txt` writes it.
+/// The ids of the cases that together catch every planted bug. Each is the case with the most new bugs per second.
+/// `etalon mutants --full --order cases/order.txt` writes it.
 const ORDER: &str = include_str!("../../../cases/order.txt");
 
 /// The time that a driver takes for a case beyond what the rasterizer takes.

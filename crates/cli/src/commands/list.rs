@@ -25,13 +25,15 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         let measured = leave_measured(&mut cases, selection, |case| case.measured);
         print_json(&cases.iter().map(facts).collect::<Vec<_>>())?;
         let ids: Vec<String> = cases.into_iter().map(|case| case.id).collect();
-        return tell_left_out(selection, measured, &ids);
+        tell_left_out(selection, measured, &ids)?;
+        return Ok(0);
     }
     let mut cases = chosen_ids(selection)?;
     let measured = leave_measured(&mut cases, selection, |(_, measured)| *measured);
     let ids: Vec<String> = cases.into_iter().map(|(id, _)| id).collect();
     print(&format!("{}\n", ids.join("\n")))?;
-    tell_left_out(selection, measured, &ids)
+    tell_left_out(selection, measured, &ids)?;
+    Ok(0)
 }
 
 /// Prints how many cases are left out.
@@ -39,7 +41,7 @@ fn tell_left_out(
     selection: &CaseArguments,
     measured: usize,
     ids: &[String],
-) -> Result<u8, Failure> {
+) -> Result<(), Failure> {
     if measured > 0 {
         say!(
             "left out: {measured} cases that are measured; a glob that names them lists and draws them"
@@ -49,7 +51,7 @@ fn tell_left_out(
     if by_profile > 0 {
         say!("left out: {by_profile} cases that --profile full has");
     }
-    Ok(0)
+    Ok(())
 }
 
 /// Returns the facts about a case that need no drawing.
