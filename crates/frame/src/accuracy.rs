@@ -63,6 +63,7 @@ pub(crate) struct Distances<'a> {
 struct MeasuredChannel<'a> {
     info: &'a ImageInfo,
     encoding: ChannelEncoding,
+    /// The interval that asserts nothing.
     all: CodeInterval,
     asserted: u64,
     sum: f64,
@@ -96,9 +97,9 @@ impl<'a> Distances<'a> {
             [] => return,
             [only] => only,
             several => {
-                let far = |w: &&WorldBox| (w.violations(orders), self.total(w, orders));
+                let key = |w: &&WorldBox| (w.violations(orders), self.total(w, orders));
                 let nearer = |a: &&WorldBox, b: &&WorldBox| {
-                    let (a, b) = (far(a), far(b));
+                    let (a, b) = (key(a), key(b));
                     a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
                 };
                 match several.iter().min_by(nearer) {
@@ -130,7 +131,7 @@ impl<'a> Distances<'a> {
     }
 
     /// Adds the group's figures to those of a frame, in the order of aspects.
-    pub(crate) fn into(self, result: &mut Vec<Accuracy>) {
+    pub(crate) fn add_to(self, result: &mut Vec<Accuracy>) {
         for channel in self.channels {
             let aspect = channel.info.aspect;
             let entry = Accuracy {
@@ -262,7 +263,7 @@ mod tests {
         distances.add(&free, &[77, 8], 1);
         distances.add(&TexelSet::default(), &[1, 2], 3);
         let mut result = Vec::new();
-        distances.into(&mut result);
+        distances.add_to(&mut result);
         assert_eq!(
             result,
             [Accuracy {
@@ -305,7 +306,7 @@ mod tests {
                 &[encoding.order_of_code(if i == 0 { 0x3f80_0000 } else { 2 })],
                 1,
             );
-            distances.into(&mut result);
+            distances.add_to(&mut result);
         }
         let found: Vec<_> = result.iter().map(|a| (a.encoding, a.max)).collect();
         assert_eq!(

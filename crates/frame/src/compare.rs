@@ -181,7 +181,7 @@ pub fn compare(
             sets.next_if(|(end, _)| *end <= start);
             ideals.next_if(|(end, _)| *end <= start);
         }
-        distances.into(&mut result.accuracy);
+        distances.add_to(&mut result.accuracy);
     }
     for ((set, tight), actual) in legal
         .counters
