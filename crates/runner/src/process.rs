@@ -8,7 +8,7 @@ use crate::launch::{Launch, Setup, StartError};
 use crate::loss::Loss;
 use crate::memory::MemoryLimit;
 use crate::process_end::process_end;
-use crate::protocol::{Request, Response, encode, encode_behind, receive};
+use crate::protocol::{Request, Response, encode, encode_after, receive};
 use crate::stderr_tail::StderrTail;
 use crate::sync::lock;
 use etalon_process::ProcessGroup;
@@ -194,7 +194,7 @@ impl WorkerProcess {
     /// Sends requests in a single write. A broken pipe is noticed when the answer is awaited.
     pub(crate) fn request<'s>(&mut self, requests: impl IntoIterator<Item = Request<'s>>) {
         let mut requests = requests.into_iter();
-        let bytes = requests.try_fold(Vec::new(), |bytes, request| encode_behind(bytes, &request));
+        let bytes = requests.try_fold(Vec::new(), |bytes, request| encode_after(bytes, &request));
         let sent = bytes.map(|bytes| match &self.requests {
             Some(requests) => requests.send(bytes).is_ok(),
             None => false,

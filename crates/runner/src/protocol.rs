@@ -82,11 +82,11 @@ impl Request<'_> {
 
 /// Returns the bytes of a message in a pipe.
 pub(crate) fn encode<T: Serialize>(message: &T) -> io::Result<Vec<u8>> {
-    encode_behind(Vec::new(), message)
+    encode_after(Vec::new(), message)
 }
 
 /// Appends the bytes of a message to those of earlier messages.
-pub(crate) fn encode_behind<T: Serialize>(mut bytes: Vec<u8>, message: &T) -> io::Result<Vec<u8>> {
+pub(crate) fn encode_after<T: Serialize>(mut bytes: Vec<u8>, message: &T) -> io::Result<Vec<u8>> {
     const LENGTH: usize = size_of::<u32>();
     let start = bytes.len() + LENGTH;
     bytes.resize(start, 0);
@@ -225,7 +225,7 @@ mod tests {
         let bytes = encode(&image(vec![0, 256])).expect("encoded");
         let width = bytes.len() - 5;
         assert_eq!(bytes[width..], [2, 0, 0, 0, 1]);
-        for wrong in [0, 3, 4 + 1] {
+        for wrong in [0, 3, 5] {
             let mut bytes = bytes.clone();
             bytes[width] = wrong;
             assert!(receive::<Image>(&mut bytes.as_slice()).is_err(), "{wrong}");
