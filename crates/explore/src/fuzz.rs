@@ -15,9 +15,9 @@ use serde_json::{Value, json};
 use std::cmp::Reverse;
 
 /// The number of scenes that are made per drawn scene.
-const MADE: usize = 3;
+const CANDIDATES: usize = 3;
 /// The maximum number of scenes that are made before giving up.
-const MOST_MADE: u64 = 24;
+const MAX_CANDIDATES: u64 = 24;
 
 /// A random scene.
 #[derive(Clone, Debug)]
@@ -47,7 +47,7 @@ impl Fuzzer {
             next: 0,
             space,
             pairs: Pairs::default(),
-            made: MADE,
+            made: CANDIDATES,
         }
     }
 
@@ -55,22 +55,22 @@ impl Fuzzer {
     pub fn scene(&mut self, can_draw: &dyn Fn(&Case) -> bool) -> Option<RandomScene> {
         let index = self.next;
         self.next += 1;
-        let mut attempts = 0..MOST_MADE;
+        let mut attempts = 0..MAX_CANDIDATES;
         loop {
-            let some = attempts.by_ref().take(self.made);
-            let mut some: Vec<(usize, Made)> = some
+            let attempts = attempts.by_ref().take(self.made);
+            let mut candidates: Vec<(usize, Made)> = attempts
                 .map(|attempt| {
                     let choices = Choices::by_seed(mixed([self.seed, index, attempt]));
                     let made = scenes::scene(choices, &self.space);
                     (self.pairs.new_in(&made.scopes), made)
                 })
                 .collect();
-            if some.is_empty() {
+            if candidates.is_empty() {
                 return None;
             }
             // Checking a scene takes longer than making it, so the best scene is checked first.
-            some.sort_by_key(|(pairs, _)| Reverse(*pairs));
-            for (_, made) in some {
+            candidates.sort_by_key(|(pairs, _)| Reverse(*pairs));
+            for (_, made) in candidates {
                 let candidate = self.candidate(index, &made);
                 if let Some(candidate) = candidate.filter(|c| can_draw(&c.case)) {
                     self.pairs.add(&made.scopes);
@@ -94,7 +94,7 @@ impl Fuzzer {
         let mut document = document(self.seed, index, made);
         let id = format!("found/seed-{}.{index}", self.seed);
         let mut case = build(&id, &document);
-        // The path may be one that nothing in the scene can take.
+        // The path can be one that this scene cannot take.
         let scene = document["scene"].as_object_mut();
         if case.is_err() && scene.is_some_and(|scene| scene.remove("path").is_some()) {
             case = build(&id, &document);
@@ -198,7 +198,7 @@ mod tests {
             (0..100).for_each(|_| drop(fuzzer.scene(&|_| true)));
             fuzzer.pairs()
         };
-        let (weighed, blind) = (met(MADE), met(1));
+        let (weighed, blind) = (met(CANDIDATES), met(1));
         assert!(weighed > blind + blind / 20, "{weighed} and {blind}");
     }
 
