@@ -2,7 +2,8 @@
 //!
 //! The cell is cut along the edges of the surfaces, along the lines where two of them pass through each
 //! other, and where a paint changes its formula, until a single formula applies in every piece. Flat and
-//! linear colours are integrated in closed form, others by quadrature that is exact for them.
+//! linear colours are integrated in closed form, others by quadrature, which is exact except for fades and many
+//! textures.
 
 use super::cell::{ConvexCell, Cut, PicturePoint, SLACK};
 use super::order::{self, Members, Relation};
@@ -31,7 +32,7 @@ const DENSE: [usize; 2] = [6, 4];
 pub(super) struct Integral {
     /// Colour times area.
     pub(super) sum: [f64; 3],
-    /// The largest possible error of a channel.
+    /// The error of a channel: a bound, or an estimate for more than [`EXACT_TEXTURES`] textures.
     pub(super) error: f64,
 }
 
@@ -137,7 +138,7 @@ impl Layers<'_> {
     }
 }
 
-/// The pieces of a cell; every function returns `None` if there are too many.
+/// The pieces of a cell; every function returns `None` if there are too many, or if a crossing cannot be cut.
 struct Pieces<'a> {
     layers: &'a Layers<'a>,
     left: usize,
