@@ -4,7 +4,7 @@ use etalon_keeper::{KeptProgram, new_folder};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// The word of a command that is replaced by the page's address.
+/// The part of a word that is replaced by the page's address.
 const URL: &str = "{url}";
 /// The part of a word that is replaced by the profile's folder.
 const PROFILE: &str = "{profile}";
@@ -25,7 +25,7 @@ impl Browser {
         if self.command.first().is_none_or(String::is_empty) {
             Some("`browser` names no command")
         } else if !has(URL) {
-            Some("`browser` needs a word `{url}`, the address of the page")
+            Some("`browser` needs a word with `{url}`, the address of the page")
         } else if !has(PROFILE) {
             Some("`browser` needs a word with `{profile}`, a new folder for the browser's profile")
         } else if self.profile.keys().any(|name| !is_plain(name)) {
@@ -52,6 +52,7 @@ impl Browser {
     }
 }
 
+/// Returns true for letters, digits, `.`, `_` and `-`, without a `.` first.
 fn is_plain(name: &str) -> bool {
     let plain = |c: char| c.is_ascii_alphanumeric() || "._-".contains(c);
     !name.starts_with('.') && !name.is_empty() && name.chars().all(plain)
