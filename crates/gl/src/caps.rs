@@ -79,12 +79,16 @@ pub(crate) struct Caps {
     /// `GL_TIME_ELAPSED` queries work.
     pub(crate) timer: bool,
     pub(crate) max_color_targets: usize,
-    /// Samples that renderbuffers of every required format have, except integers.
+    /// The sample count that every required format supports, except integer formats.
     pub(crate) max_samples: u32,
     /// Sub-pixel bits of viewports; `None` if viewports are integers.
     pub(crate) viewport_bits: Option<u32>,
     pub(crate) max_viewport: [i32; 2],
 }
+
+/// Versions for features that no version, or every version, has.
+const NEVER: (u32, u32) = (u32::MAX, 0);
+const ALWAYS: (u32, u32) = (0, 0);
 
 impl Caps {
     /// Queries the current context. The caller sets `clip_control` and checks that queries work.
@@ -93,8 +97,6 @@ impl Caps {
         let has = |name: &str| known.contains(name);
         let since =
             |core: (u32, u32), embedded: (u32, u32)| version >= if es { embedded } else { core };
-        const NEVER: (u32, u32) = (u32::MAX, 0);
-        const ALWAYS: (u32, u32) = (0, 0);
         let viewports = since((4, 1), NEVER)
             || has("GL_ARB_viewport_array")
             || (es && has("GL_OES_viewport_array"));
