@@ -8,10 +8,10 @@ pub(super) fn fragment<A: Arithmetic>(
     input: &FragmentInput<'_, A::Real>,
 ) -> FragmentOutput<A::Real> {
     let [near, _, scale, _] = input.params.color.map(|v| a.constant(v));
-    let inverse = a.mul(input.reciprocal_w, near);
-    let inverse = a.rounded(inverse);
+    let near_over_w = a.mul(input.reciprocal_w, near);
+    let near_over_w = a.rounded(near_over_w);
     let one = a.constant(1.0);
-    let ratio = a.div(one, inverse);
+    let ratio = a.div(one, near_over_w);
     let ratio = a.rounded(ratio);
     let logarithm = a.log2(ratio);
     let depth = a.mul(logarithm, scale);
