@@ -68,7 +68,7 @@ fn stepwise(
     })
 }
 
-/// Returns the result of a blend with each product and the sum rounded.
+/// Returns the result of a blend with each product and the sum rounded. Products with 1 and sums with 0 are exact.
 fn in_steps(
     state: &BlendState,
     encodings: [ChannelEncoding; 4],
@@ -80,9 +80,19 @@ fn in_steps(
     std::array::from_fn(|c| {
         let operation = component(state, c).operation;
         if is_extreme(operation) {
-            extreme[c]
+            return extreme[c];
+        }
+        let product =
+            |side: f32, [operand]: [f32; 1]| if side == operand { side } else { round(side) };
+        let (s, d) = (
+            product(source[c], operands.src[c]),
+            product(destination[c], operands.dst[c]),
+        );
+        let sum = joined(operation, s, d);
+        if s == 0.0 || d == 0.0 {
+            sum
         } else {
-            round(joined(operation, round(source[c]), round(destination[c])))
+            round(sum)
         }
     })
 }
