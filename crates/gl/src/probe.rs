@@ -291,8 +291,8 @@ fn query(context: &Context, surface: &Surface, attachment: u32, name: u32) -> i3
     }
 }
 
-/// Returns the depth encoding that the driver reports, if it is a known one. A depth that is said to have 24 bits can
-/// be a float (radeonsi), which a read of a depth shows that is less than half of their step.
+/// Returns the depth encoding that the driver reports, if it is a known one. Where the driver reports 24 bits, it can
+/// keep floats (radeonsi): then a depth of less than half a step is read back.
 fn depth_encoding(context: &Context, surface: &Surface) -> Option<ChannelEncoding> {
     let of_depth = |name| query(context, surface, glow::DEPTH_ATTACHMENT, name);
     let bits = of_depth(glow::FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);

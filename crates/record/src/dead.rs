@@ -175,7 +175,7 @@ impl Expectations {
         reaches
     }
 
-    /// Returns the expectations that another one covers, and those that never matched.
+    /// Returns the expectations that another one covers, and the expectations that never matched.
     fn covered_or_never_matched(
         &self,
         (ids, left): (&Ids, &Cell<u64>),

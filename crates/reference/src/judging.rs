@@ -954,7 +954,7 @@ mod tests {
         assert_eq!(a.blend_operand(e, one).fixed, Interval::exact(1.0));
     }
 
-    /// 1/3 of 300 steps is 100; half of a step more lies between 100 and 101.
+    /// 1/3 is 100 of 300 steps, and 100.5 steps are rounded to 100 or 101.
     #[test]
     fn a_blend_in_any_even_steps_is_computed_in_these_alone() {
         let mut rules = Rules::of(&crate::test_limits::limits(Api::Vulkan));
