@@ -360,9 +360,6 @@ impl<'r> Judging<'r> {
             BlendPrecision::AnySteps if is_normalized => {
                 return self.within_a_code(encoding, value);
             }
-            BlendPrecision::UniformSteps if is_normalized && !has_few_codes(encoding) => {
-                return self.within_a_code(encoding, value);
-            }
             BlendPrecision::AnySteps
             | BlendPrecision::UniformSteps
             | BlendPrecision::DestinationCodes => {}

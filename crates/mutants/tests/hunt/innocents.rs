@@ -11,6 +11,10 @@ const WITHOUT: &[(&str, &str)] = &[
     ("stencil", "a must: there is nothing to permit"),
     ("write_mask", "a must: there is nothing to permit"),
     (
+        "float_error",
+        "the rasterizer's viewport and interpolation have no step to replace by a coarser one",
+    ),
+    (
         "shader_error",
         "the rasterizer's shaders have no step to replace",
     ),

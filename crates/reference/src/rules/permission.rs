@@ -136,8 +136,7 @@ pub enum BlendPrecision {
     /// code by itself. 0 and ±1 are exact, and so are sums.
     AnySteps,
     /// Like `DestinationCodes`, and in channels of at most 8 bits with any number of even steps between 0 and 1, from
-    /// that of the codes to four times as many, or with operands in codes and floats after that; wider channels like
-    /// `AnySteps`. It takes hundreds of blends, so only frames that violate `DestinationCodes` are judged by it.
+    /// that of the codes to four times as many, or with operands in codes and floats after that. It takes hundreds of blends, so only frames that violate `DestinationCodes` are judged by it.
     UniformSteps,
     /// Blending is computed in 32-bit floating-point.
     Float32,

@@ -153,8 +153,8 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
         ),
         lines_cover_texels: permit(true, "Yardstick: no gap in a line"),
         lines_cover_their_shape: permit(
-            text.lines_cover_their_shape.value,
-            "Yardstick: as the API's text says",
+            false,
+            "Direct3D 11.3: 3.4.3 aliased lines: the diamond-exit rule",
         ),
         lines_lack: permit(Some(0), "Yardstick: no gap in a line"),
         points_face_front: permit(

@@ -83,14 +83,17 @@ fn texels(case: &Case) -> Texels {
 }
 
 /// Returns true if an API defines what a case draws, and defines it as the rasterizer draws it. Programs of
-/// OpenGL ES need fragment shaders, and OpenGL ignores shaders' masks in single-sampled texels.
+/// OpenGL ES need fragment shaders, and OpenGL ignores shaders' masks in single-sampled texels and keeps written depths
+/// beyond the viewport's range.
 fn is_defined_by(api: Api, case: &Case) -> bool {
     let opengl = matches!(api, Api::OpenGl | Api::OpenGlEs);
     case.scene.passes.iter().all(|pass| {
         let samples = case.scene.pass_samples(pass);
         pass.draws.iter().all(|draw| {
             let masked = draw.shader.writes_mask() && samples == 1;
-            (draw.shader.has_fragment() || api != Api::OpenGlEs) && !(masked && opengl)
+            let ranged = draw.viewport.depth != [0.0, 1.0] && !draw.depth_clamp;
+            let beyond = draw.shader.writes_depth() && ranged;
+            (draw.shader.has_fragment() || api != Api::OpenGlEs) && !((masked || beyond) && opengl)
         })
     })
 }
