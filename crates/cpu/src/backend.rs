@@ -75,7 +75,11 @@ impl CpuBackend {
             limits: Limits {
                 api: Api::Vulkan,
                 version: ApiVersion::new(1, 4),
-                properties: Property::ALL.into_iter().collect(),
+                // A line covers all samples of a texel or none, as in Bresenham's algorithm.
+                properties: Property::ALL
+                    .into_iter()
+                    .filter(|property| *property != Property::LinesAreParallelograms)
+                    .collect(),
                 sub_pixel_bits: SUB_PIXEL_BITS,
                 viewport_bits: Some(VIEWPORT_BITS),
                 texel_bits: Some(8),
