@@ -28,10 +28,10 @@ macro_rules! under {
             granted: |rules| rules.$field.value(),
         }
     };
-    ($field:ident: false) => {
+    ($field:ident: false $(, or $other:ident: false)?) => {
         $crate::permission::UsedPermission {
             name: stringify!($field),
-            granted: |rules| !rules.$field.value(),
+            granted: |rules| !rules.$field.value() $(|| !rules.$other.value())?,
         }
     };
     ($field:ident: $granted:pat, or $other:ident: $also:pat) => {
