@@ -153,7 +153,13 @@ fn examine(context: &Context, format: TextureFormat, surface: &Surface) -> Optio
         return None;
     }
     let encoding = if format.has_depth() {
-        Some(depth_encoding(context, surface)?)
+        Some(match reported_depth_encoding(context, surface)? {
+            // A depth for which the driver reports 24 bits can be a float (radeonsi).
+            ChannelEncoding::Unorm(24) if !context.caps.es && holds_floats(context, surface) => {
+                ChannelEncoding::Float32
+            }
+            reported => reported,
+        })
     } else {
         None
     };
@@ -241,7 +247,7 @@ fn copy_plan(format: TextureFormat, encoding: ChannelEncoding) -> ReadBackPath {
 fn has_promised_channels(context: &Context, surface: &Surface, format: TextureFormat) -> bool {
     if format.has_depth() {
         // A driver can store more bits than requested; the format then differs from its name.
-        return depth_encoding(context, surface)
+        return reported_depth_encoding(context, surface)
             .is_some_and(|encoding| format.depth_encodings().contains(&encoding));
     }
     if format.has_stencil() {
@@ -291,23 +297,20 @@ fn query(context: &Context, surface: &Surface, attachment: u32, name: u32) -> i3
     }
 }
 
-/// Returns the depth encoding that the driver reports, if it is a known one. Where the driver reports 24 bits, it can
-/// keep floats (radeonsi): then a depth of less than half a step is read back.
-fn depth_encoding(context: &Context, surface: &Surface) -> Option<ChannelEncoding> {
+/// Returns the depth encoding that the driver reports, if it is a known one.
+fn reported_depth_encoding(context: &Context, surface: &Surface) -> Option<ChannelEncoding> {
     let of_depth = |name| query(context, surface, glow::DEPTH_ATTACHMENT, name);
     let bits = of_depth(glow::FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
     let kind = of_depth(glow::FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE);
     match (u32::try_from(kind).ok()?, bits) {
-        (glow::UNSIGNED_NORMALIZED, 24) if !context.caps.es && holds_floats(context, surface) => {
-            Some(ChannelEncoding::Float32)
-        }
         (glow::UNSIGNED_NORMALIZED, bits) => Some(ChannelEncoding::Unorm(u8::try_from(bits).ok()?)),
         (glow::FLOAT, 32) => Some(ChannelEncoding::Float32),
         _ => None,
     }
 }
 
-/// Returns true if a depth of 2^-30, which 24 bits cannot tell from 0, is read back as another number.
+/// Returns true if a depth of 2^-30, which 24 bits cannot tell from 0, is read back from a single-sample surface as
+/// another number.
 fn holds_floats(context: &Context, surface: &Surface) -> bool {
     let gl = &context.gl;
     let mut depth = [0_u8; 4];
