@@ -232,16 +232,12 @@ impl<'r> Judging<'r> {
 
     /// Returns the numbers of further steps between 0 and 1 with which a blend into these channels may be computed.
     pub(crate) fn uniform_steps(&self, encodings: &[ChannelEncoding]) -> std::ops::Range<u32> {
-        let counts = encodings
-            .iter()
-            .filter(|encoding| has_few_codes(**encoding));
-        let most = counts.map(|encoding| encoding.max_order()).max();
-        match most {
-            Some(codes) if self.blend_precision() == BlendPrecision::UniformSteps => {
-                0..3 * codes as u32 + 1
-            }
-            _ => 0..0,
+        if self.blend_precision() != BlendPrecision::UniformSteps {
+            return 0..0;
         }
+        let few = encodings.iter().filter(|e| has_few_codes(**e));
+        let most = few.map(|encoding| encoding.max_order()).max();
+        0..most.map_or(0, |codes| 3 * codes as u32 + 1)
     }
 
     /// Returns the relative error of one step of a blend in floats.

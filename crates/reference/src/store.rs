@@ -7,7 +7,7 @@ use crate::notes::Notes;
 use crate::range::Range;
 use crate::rules::{ConstantClamp, NegativeAlpha, SignedClamp, SrgbLogic};
 use crate::walk::{FragmentPlace, Walk};
-use crate::world::{Contested, Decision, World};
+use crate::world::{Contested, Decision, SampleContents, World};
 use etalon_frame::{
     Aspect, ChannelEncoding, CodeInterval, Codes, Effect, Step, TextureFormat, ValueRange,
 };
@@ -205,13 +205,8 @@ impl Walk<'_> {
             };
             let has_logic = self.has_logic(attachment.format, world);
             let logic = place.draw.logic.filter(|_| has_logic);
-            let keeps = encodings.len() as u32
-                > (target.write_mask & ((1 << encodings.len()) - 1)).count_ones();
-            let reads =
-                keeps || logic.is_some() || target.blend.is_some() || target.advanced.is_some();
-            let origin = color_origin(place, location, (world, *index), [color, second], reads);
+            let before = world.cells[*index];
             if let Some(operation) = logic {
-                let before = world.cells[*index];
                 notes.add(
                     || place.origin(),
                     || Step::Logic {
@@ -239,42 +234,40 @@ impl Walk<'_> {
                     world.cells[*index].set_channel(c, codes);
                 }
             }
-            let cell = &mut world.cells[*index];
-            cell.origin = origin.filter(|_| !cell.is_exact());
-            let cell = *cell;
+            if !world.cells[*index].is_exact() {
+                let keeps = (0..encodings.len()).any(|c| target.write_mask & (1 << c) == 0);
+                let blends = target.blend.is_some() || target.advanced.is_some();
+                let read = (keeps || blends || logic.is_some()).then_some(before);
+                // Coverage that is still to be decided leaves the origin unknown, so that no two worlds differ in it
+                // alone.
+                world.cells[*index].origin = if world.decisions.is_empty() {
+                    color_origin((place.draw_id, location), [color, second], read)
+                } else {
+                    None
+                };
+            }
+            let cell = world.cells[*index];
             self.note_store(place, *index, target.write_mask, cell, notes);
         }
     }
 }
 
-/// Returns the origin of the colours that a fragment stores in an attachment: the draw and the operands of its
-/// arithmetic, if all of them are known exactly. `reads` tells whether the destination is one of them. Coverage that
-/// is still to be decided leaves the origin unknown, so that no two worlds differ in it alone.
+/// Returns the origin of the colours that a draw stores at an output location: the operands of its arithmetic, if all
+/// of them are known exactly. `read` is the destination, if it is one of them.
 fn color_origin(
-    place: &FragmentPlace<'_>,
-    location: usize,
-    (world, attachment): (&World, usize),
+    output: (u32, usize),
     sources: [[Range; 4]; 2],
-    reads: bool,
+    read: Option<SampleContents>,
 ) -> Option<NonZeroU64> {
+    let sources = sources.as_flattened().iter();
     let is_exact = |value: &Range| value.is_same() && value.float.low == value.float.high;
-    if !world.decisions.is_empty() || !sources.as_flattened().iter().all(is_exact) {
-        return None;
-    }
-    let before = reads.then_some(world.cells[attachment]);
-    if before.is_some_and(|cell| !cell.is_determined()) {
+    if !sources.clone().all(is_exact) || read.is_some_and(|cell| !cell.is_determined()) {
         return None;
     }
     let mut hasher = DefaultHasher::new();
-    let values = sources
-        .as_flattened()
-        .iter()
-        .map(|value| value.float.low.to_bits());
-    (place.draw_id, location).hash(&mut hasher);
-    values.for_each(|bits| bits.hash(&mut hasher));
-    before
-        .map(|cell| (cell.codes, cell.origin))
-        .hash(&mut hasher);
+    output.hash(&mut hasher);
+    sources.for_each(|value| value.float.low.to_bits().hash(&mut hasher));
+    read.map(|cell| (cell.codes, cell.origin)).hash(&mut hasher);
     NonZeroU64::new(hasher.finish())
 }
 
