@@ -4,6 +4,7 @@ use crate::line_shape::shape_holds;
 use crate::notes::Notes;
 use crate::primitive::{CoverTimes, EdgeSide, Shape, Triangle, inside_of, is_outside};
 use crate::rules::SharedEdge;
+use crate::snap::SubTexels;
 use crate::walk::{Forced, FragmentPlace, Walk};
 use crate::world::{Decision, World, Worlds};
 use etalon_frame::{Coverage, Effect, Rejection, Step};
@@ -83,9 +84,12 @@ impl Walk<'_> {
             && self.rules.lines_cover_their_shape.value()
             && self.is_whole(place)
         {
-            let step =
-                self.units as f64 / f64::from(1_u32 << self.rules.sub_pixel_bits.value().min(16));
-            let (is_inside, can_be_inside) = shape_holds(*ends, place.point, self.units, step);
+            let grid = SubTexels {
+                units: self.units,
+                bits: &self.rules.sub_pixel_bits,
+            };
+            let (is_inside, can_be_inside) =
+                shape_holds(*ends, place.point, self.units, grid.step() as f64);
             return (
                 if is_inside { 1 } else { least },
                 if can_be_inside { most } else { least },

@@ -22,7 +22,7 @@ use etalon_frame::{
     WorldBox,
 };
 use etalon_pipeline::Point;
-use etalon_scene::{Draw, Scene};
+use etalon_scene::{Attachment, Draw, Scene};
 use smallvec::SmallVec;
 use std::borrow::Cow;
 use std::cell::{Cell, RefCell};
@@ -465,17 +465,20 @@ impl<'a> Walk<'a> {
         })
     }
 
+    /// Returns the attachments that are read back and have the size and the samples of a sample's, with their indices.
+    fn read_in(&self, at: Sample) -> impl Iterator<Item = (usize, &Attachment)> {
+        let read = self.scene.read.iter();
+        let all = read.map(|index| (*index, &self.scene.attachments[*index]));
+        all.filter(move |(_, a)| (a.size, a.samples) == (at.size, at.samples))
+    }
+
     /// Returns the legal set of the attachments that are read back.
     pub(crate) fn finish(&self, worlds: &[World], at: Sample, notes: &mut Notes<'_>) -> TexelSet {
         let mut set = TexelSet::default();
         for (w, world) in worlds.iter().enumerate() {
             let mut channels: SmallVec<[CodeInterval; 6]> = SmallVec::new();
-            for index in &self.scene.read {
-                let attachment = &self.scene.attachments[*index];
-                if (attachment.size, attachment.samples) != (at.size, at.samples) {
-                    continue;
-                }
-                let cell = &world.cells[*index];
+            for (index, attachment) in self.read_in(at) {
+                let cell = &world.cells[index];
                 for aspect in attachment.format.aspects() {
                     let first = channels.len();
                     match aspect {
@@ -486,12 +489,12 @@ impl<'a> Walk<'a> {
                                 stored.map(|(c, e)| self.read_color(attachment.samples, *e, c)),
                             );
                         }
-                        Aspect::Depth => channels.push(self.read_depth(*index, cell.channel(0))),
+                        Aspect::Depth => channels.push(self.read_depth(index, cell.channel(0))),
                         Aspect::Stencil => {
                             channels.push(CodeInterval::exact(i64::from(cell.stencil)));
                         }
                     }
-                    self.open_undefined(*index, *aspect, &mut channels[first..]);
+                    self.open_undefined(index, *aspect, &mut channels[first..]);
                 }
                 notes.add(
                     || Origin::End {
@@ -499,7 +502,7 @@ impl<'a> Walk<'a> {
                     },
                     || Step::ReadBack {
                         attachment: attachment.name.clone(),
-                        contents: self.all_contents(*index, cell),
+                        contents: self.all_contents(index, cell),
                         depth_by_shader: attachment.format.has_depth()
                             && read_path(self.limits, attachment.format) == ReadPath::Shader,
                     },
@@ -520,12 +523,8 @@ impl<'a> Walk<'a> {
         let mut hasher = DefaultHasher::new();
         let mut has_origin = false;
         let mut read = read.channels.iter();
-        for index in &self.scene.read {
-            let attachment = &self.scene.attachments[*index];
-            if (attachment.size, attachment.samples) != (at.size, at.samples) {
-                continue;
-            }
-            let cell = &world.cells[*index];
+        for (index, attachment) in self.read_in(at) {
+            let cell = &world.cells[index];
             for aspect in attachment.format.aspects() {
                 if *aspect != Aspect::Color {
                     read.next();
