@@ -49,6 +49,11 @@ fn run_rule(text: OpenGlText, v45: &'static str, v46: &'static str) -> Permissio
 pub(super) fn rules(limits: &Limits) -> Rules {
     let text = OpenGlText::of(limits.version);
     let old = text == OpenGlText::V33;
+    let only_draws_count = text.cite([
+            "OpenGL 3.3: 4.1.6 Occlusion Queries: the fragments that pass the depth test; 4.2.3, 4.3.2: clears and blits make none",
+            "OpenGL 4.5: 17.3.5 Occlusion Queries: the fragments still processed after the depth test; 17.4.3, 18.3.1: clears and blits make none",
+            "OpenGL 4.6: 17.3.5 Occlusion Queries: the fragments still processed after the depth test; 17.4.3, 18.3.1: clears and blits make none",
+        ]);
     Rules {
         name: "opengl",
         text: text.cite([
@@ -499,19 +504,11 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         ),
         clears_count_nothing: permit(
             true,
-            text.cite([
-                "OpenGL 3.3: 4.1.6 Occlusion Queries: the fragments that pass the depth test; 4.2.3, 4.3.2: clears and blits make none",
-                "OpenGL 4.5: 17.3.5 Occlusion Queries: the fragments still processed after the depth test; 17.4.3, 18.3.1: clears and blits make none",
-                "OpenGL 4.6: 17.3.5 Occlusion Queries: the fragments still processed after the depth test; 17.4.3, 18.3.1: clears and blits make none",
-            ]),
+            only_draws_count,
         ),
         operations_count_nothing: permit(
             true,
-            text.cite([
-                "OpenGL 3.3: 4.1.6 Occlusion Queries: the fragments that pass the depth test; 4.2.3, 4.3.2: clears and blits make none",
-                "OpenGL 4.5: 17.3.5 Occlusion Queries: the fragments still processed after the depth test; 17.4.3, 18.3.1: clears and blits make none",
-                "OpenGL 4.6: 17.3.5 Occlusion Queries: the fragments still processed after the depth test; 17.4.3, 18.3.1: clears and blits make none",
-            ]),
+            only_draws_count,
         ),
         same_depth: permit(
             SameDepth::Written,

@@ -38,6 +38,11 @@ impl OpenGlEsText {
 /// Returns the rules of OpenGL ES for an adapter. One entry per permission, with its citation.
 pub(super) fn rules(limits: &Limits) -> Rules {
     let text = OpenGlEsText::of(limits.version);
+    let only_draws_count = text.cite([
+            "OpenGL ES 3.0: 4.1.6 Occlusion Queries: the fragments or samples that pass the depth test; 4.2.3, 4.3.3: clears and blits make none",
+            "OpenGL ES 3.1: 15.1.4 Occlusion Queries: the fragments or samples that pass the depth test; 15.2.3, 16.2.1: clears and blits make none",
+            "OpenGL ES 3.2: 15.1.4 Occlusion Queries: the fragments or samples that pass the depth test; 15.2.3, 16.2.1: clears and blits make none",
+        ]);
     Rules {
         name: "opengl-es",
         text: text.cite(["OpenGL ES 3.0", "OpenGL ES 3.1", "OpenGL ES 3.2"]),
@@ -430,19 +435,11 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         ),
         clears_count_nothing: permit(
             true,
-            text.cite([
-                "OpenGL ES 3.0: 4.1.6 Occlusion Queries: the fragments or samples that pass the depth test; 4.2.3, 4.3.3: clears and blits make none",
-                "OpenGL ES 3.1: 15.1.4 Occlusion Queries: the fragments or samples that pass the depth test; 15.2.3, 16.2.1: clears and blits make none",
-                "OpenGL ES 3.2: 15.1.4 Occlusion Queries: the fragments or samples that pass the depth test; 15.2.3, 16.2.1: clears and blits make none",
-            ]),
+            only_draws_count,
         ),
         operations_count_nothing: permit(
             true,
-            text.cite([
-                "OpenGL ES 3.0: 4.1.6 Occlusion Queries: the fragments or samples that pass the depth test; 4.2.3, 4.3.3: clears and blits make none",
-                "OpenGL ES 3.1: 15.1.4 Occlusion Queries: the fragments or samples that pass the depth test; 15.2.3, 16.2.1: clears and blits make none",
-                "OpenGL ES 3.2: 15.1.4 Occlusion Queries: the fragments or samples that pass the depth test; 15.2.3, 16.2.1: clears and blits make none",
-            ]),
+            only_draws_count,
         ),
         same_depth: permit(
             SameDepth::Written,

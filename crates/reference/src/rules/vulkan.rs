@@ -54,6 +54,9 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             permit(EarlyUpdates::Either, cited)
         }
     };
+    let strict_lines = limits
+        .properties
+        .contains(&Property::LinesAreParallelograms);
     Rules {
         name: "vulkan",
         text: text(limits),
@@ -234,10 +237,7 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             Grade::Disputed,
             "Vulkan: Primitive Clipping: primitives are clipped to the clip volume, of which clip distances are a part; a line with an end outside of it may be clipped",
         ),
-        lines_cover_texels: if limits
-            .properties
-            .contains(&Property::LinesAreParallelograms)
-        {
+        lines_cover_texels: if strict_lines {
             permit(
                 true,
                 "Vulkan: Basic Line Segment Rasterization: with strictLines, or nonStrictSinglePixelWideLinesUseParallelogram, a line covers the samples of its rectangle or parallelogram",
@@ -250,10 +250,7 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "Vulkan: Bresenham Line Segment Rasterization, which lines that are not strict may follow: a fragment may deviate by one unit from that of the diamond-exit rule, and one may be missing (read as: at the ends, and beside slanted lines)",
             )
         },
-        lines_cover_their_shape: if limits
-            .properties
-            .contains(&Property::LinesAreParallelograms)
-        {
+        lines_cover_their_shape: if strict_lines {
             permit(
                 true,
                 "Vulkan: Basic Line Segment Rasterization: with strictLines, or nonStrictSinglePixelWideLinesUseParallelogram, coverage bits of samples in the rectangle or parallelogram are 1, others are 0",
