@@ -120,7 +120,7 @@ impl Judge {
             let gap = gap.map(|gap| (Some(Band::Fail), gap.wrong));
             let operands = unequal_operands(
                 scene,
-                (frame, compared.index),
+                (frame, compared.index, judged.1),
                 compared.judgement,
                 compared.sets,
             );
@@ -243,11 +243,9 @@ fn judge_scene(case: &Case, adapter: &str, limits: &Limits, compared: ComparedFr
     if index == 0 {
         expected_values(case, frame, &judgement.legal, &mut record);
     }
-    if worst < Some(Band::Fail) {
-        let found = unequal_operands(scene, (frame, index), judgement, sets);
-        let equality = Equality::of_operands(limits);
-        note_differences(&mut record, case, &equality, limits, (frames, found));
-    }
+    let found = unequal_operands(scene, (frame, index, worst), judgement, sets);
+    let equality = Equality::of_operands(limits);
+    note_differences(&mut record, case, &equality, limits, (frames, found));
     let mut file = None;
     if record.verdict.is_violation() || record.verdict == Verdict::Imprecise {
         if let Some(wrong) = record
@@ -274,13 +272,16 @@ fn judge_scene(case: &Case, adapter: &str, limits: &Limits, compared: ComparedFr
 }
 
 /// Compares the colours of a frame that come from the same operands by the "must" clauses alone: weaker evidence can
-/// decide which draws reach a sample.
+/// decide which draws reach a sample. Nothing is compared if the frame fails anyway.
 fn unequal_operands(
     scene: &Scene,
-    (frame, index): (&Frame, usize),
+    (frame, index, worst): (&Frame, usize, Option<Band>),
     judgement: &Judgement,
     sets: &Sets<'_>,
 ) -> Differences {
+    if worst == Some(Band::Fail) {
+        return Differences::default();
+    }
     let found = relation::check_operands(frame, index, &judgement.legal);
     let proven = judgement.rules.bound_by(Grade::Proven);
     if found.differing == 0 || proven == judgement.rules {

@@ -82,18 +82,11 @@ pub(crate) fn check_operands(frame: &Frame, scene: usize, legal: &LegalSet) -> D
             let Some(operands) = set.operands else {
                 continue;
             };
-            for sample in 0..group.samples {
-                let all = indices.clone().map(|index| group.position(index));
-                let places: Vec<[u32; 3]> = all.filter(|place| place[2] == sample).collect();
-                let Some(place) = places.first() else {
-                    continue;
-                };
-                let first = *firsts.entry((operands, sample)).or_insert(*place);
-                for place in places {
-                    for image in &colors {
-                        let sides = [(*image, scene, first), (*image, scene, place)];
-                        found.compare_samples(sides, 0b1111, &ComparedPair::Operands);
-                    }
+            for place in indices.map(|index| group.position(index)) {
+                let first = *firsts.entry((operands, place[2])).or_insert(place);
+                for image in &colors {
+                    let sides = [(*image, scene, first), (*image, scene, place)];
+                    found.compare_samples(sides, 0b1111, &ComparedPair::Operands);
                 }
             }
         }
