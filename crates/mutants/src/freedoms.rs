@@ -9,7 +9,7 @@ use crate::hooks::{
     faithful_advanced, faithful_blend, interpolation, owns_edge, resolve, sampled, second_source,
     slope, snap, tests_before_mask, window_depth,
 };
-use crate::list::bugs;
+use crate::list::{bugs, coarse};
 use crate::permission::under;
 use crate::plant::{Plant, draws, each, frames, images};
 use etalon_cpu::steps::{ComparedDepths, Faithful, Steps};
@@ -106,7 +106,7 @@ fn in_20_bits(v: f32) -> f32 {
 fn by_difference() -> Plant {
     blending(|state, encodings, input: &Input| {
         let mut result = faithful_blend(state, encodings, input);
-        let round: fn(f32) -> f32 = if encodings[0] == Float16 { half } else { |v| v };
+        let round = float_rounding(encodings[0]);
         for (c, value) in result.iter_mut().enumerate() {
             let BlendComponent {
                 operation,
@@ -142,6 +142,11 @@ fn filtered_in(steps: f32) -> Plant {
     })
 }
 
+/// Returns the rounding of a blend's steps into a float encoding.
+fn float_rounding(encoding: ChannelEncoding) -> fn(f32) -> f32 {
+    if encoding == Float16 { half } else { |v| v }
+}
+
 /// Blends into floats with one rounding for the second product and the sum, at the destination's precision.
 fn fused() -> Plant {
     blending(|state, encodings, input: &Input| {
@@ -154,7 +159,7 @@ fn fused() -> Plant {
                 let [source, destination] = [component.src_factor, component.dst_factor]
                     .map(|f| factor(operands, f, c, 1.0));
                 let [src, dst, ..] = operands;
-                let round: fn(f32) -> f32 = if encodings[0] == Float16 { half } else { |v| v };
+                let round = float_rounding(encodings[0]);
                 *value = dst[c].mul_add(destination, round(src[c] * source));
             }
         }
@@ -221,7 +226,7 @@ bugs! {
     source "GPUs whose blend units compute in 16-bit floats";
     "blends-in-halves: Blends into formats of 10 bits and fewer are computed in 16-bit floats." =>
         stepwise(is_at_most(10), half),
-        permitted vec![under!(blend: BlendPrecision::DestinationCodes | BlendPrecision::AnySteps)];
+        permitted coarse();
     "advanced-in-halves: Advanced blends take their operands as 16-bit floats." =>
         advanced_blending(|mode, encodings, colors: [[f32; 4]; 2]| {
             faithful_advanced(mode, encodings, colors.map(|color| color.map(half)))
@@ -246,7 +251,7 @@ bugs! {
     "blends-in-even-steps: Operands and products of blends into 8 bits are multiples of 1/300." =>
         stepwise(|encoding| encoding == Unorm(8), |v| (v * 300.0).round() / 300.0),
         source "no grid is named",
-        permitted vec![under!(blend: BlendPrecision::DestinationCodes | BlendPrecision::AnySteps)];
+        permitted coarse();
     "sources-in-codes: Sources of blends into 8 bits are rounded to codes, and blended in floats." =>
         blending(|state, encodings, input: &Input| {
             let mut operands = *input;
@@ -255,7 +260,7 @@ bugs! {
             }
             faithful_blend(state, encodings, &operands)
         }), source "OpenGL: a source held in fixed point",
-        permitted vec![under!(blend: BlendPrecision::DestinationCodes | BlendPrecision::AnySteps)];
+        permitted coarse();
     "alpha-weighs-in-its-bits: A source's alpha weighs wider channels with the bits of the stored alpha." =>
         blending(|state, encodings, input: &Input| {
             let mut operands = *input;
@@ -265,10 +270,7 @@ bugs! {
             }
             faithful_blend(state, encodings, &operands)
         }), source "blend units that take a colour apart after rounding",
-        permitted vec![
-            under!(weights_by_channel: false),
-            under!(blend: BlendPrecision::DestinationCodes | BlendPrecision::AnySteps),
-        ];
+        permitted [coarse(), vec![under!(weights_by_channel: false)]].concat();
     "destination-read-coarsely: A stored code is read one part in 200,000 too small." =>
         color_value(|e, c| {
             let right = value(e, c);
