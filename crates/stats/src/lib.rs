@@ -20,6 +20,7 @@
 )]
 
 mod compare;
+mod cost;
 mod rank;
 mod rate;
 mod samples;
@@ -30,6 +31,7 @@ mod verdicts;
 mod visible;
 
 pub use compare::{BEYOND_RULER, BenchComparison, Conclusion, LEVEL, MINIMUM, Ratio, Why, compare};
+pub use cost::{CostLine, Estimate, TimedWork};
 pub use rank::MIN_ROUNDS;
 pub use rate::{RATE_CONFIDENCE, Slope, WorkTimes, is_within, median_interval};
 pub use samples::{SampleError, Samples, quantile};
