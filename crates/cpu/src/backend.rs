@@ -84,6 +84,7 @@ impl CpuBackend {
                 viewport_bits: Some(VIEWPORT_BITS),
                 texel_bits: Some(8),
                 max_size: 4096,
+                max_storage: Some(1 << 32),
                 max_color_attachments: 8,
                 formats,
                 features: Feature::ALL.into_iter().collect(),

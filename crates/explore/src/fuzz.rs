@@ -148,6 +148,7 @@ mod tests {
             viewport_bits: Some(8),
             texel_bits: None,
             max_size: 4096,
+            max_storage: None,
             max_color_attachments: 8,
             formats: TextureFormat::ALL
                 .iter()

@@ -30,6 +30,8 @@ pub enum Requirement {
     Samples(TextureFormat, u32),
     /// Attachments of at least this width and height.
     Size(u32),
+    /// A storage buffer of this many bytes, which is more than every API supports.
+    Storage(u64),
     /// A way to the driver other than the default.
     Path(PathValue),
 }
@@ -44,6 +46,7 @@ impl fmt::Display for Requirement {
             Self::ColorAttachments(n) => write!(f, "{n} colour attachments"),
             Self::Samples(format, n) => write!(f, "{n} samples of {format}"),
             Self::Size(size) => write!(f, "attachments of {size} texels a side"),
+            Self::Storage(bytes) => write!(f, "a storage buffer of {bytes} bytes"),
             Self::Path(value) => write!(f, "path {value}"),
         }
     }
@@ -89,6 +92,9 @@ pub struct Limits {
     pub texel_bits: Option<u8>,
     /// The largest width and height of an attachment.
     pub max_size: u32,
+    /// The largest storage buffer in bytes; `None` if the adapter does not report it, and in older records.
+    #[serde(default)]
+    pub max_storage: Option<u64>,
     /// The maximum number of colour attachments in one pass.
     pub max_color_attachments: u32,
     /// The formats that attachments can have, with what can be done with each.
@@ -117,6 +123,7 @@ impl Limits {
             viewport_bits: None,
             texel_bits: None,
             max_size: 0,
+            max_storage: None,
             max_color_attachments: 0,
             formats: BTreeMap::new(),
             features: BTreeSet::new(),
@@ -149,6 +156,7 @@ impl Limits {
                 .get(&format)
                 .is_some_and(|support| support.samples.contains(&n)),
             Requirement::Size(size) => size <= self.max_size,
+            Requirement::Storage(bytes) => self.max_storage.is_some_and(|most| bytes <= most),
             Requirement::Path(value) => value.is_default() || self.paths.contains(&value),
         }
     }

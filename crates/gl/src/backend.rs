@@ -141,6 +141,7 @@ fn limits(context: &Context, probed: &Probed) -> Limits {
         viewport_bits: None,
         texel_bits: None,
         max_size: u32::try_from(max_size).unwrap_or(0),
+        max_storage: context.caps.max_storage,
         max_color_attachments: u32::try_from(context.caps.max_color_targets).unwrap_or(0),
         formats: probed
             .formats

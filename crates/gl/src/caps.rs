@@ -62,6 +62,8 @@ pub(crate) struct Caps {
     pub(crate) conservative_depth: bool,
     /// The offset alignment of storage buffers; `None` if fragment shaders have no storage buffers.
     pub(crate) storage_alignment: Option<usize>,
+    /// The largest storage buffer in bytes; `None` if fragment shaders have no storage buffers.
+    pub(crate) max_storage: Option<u64>,
     /// Draws can take their arguments from buffers.
     pub(crate) indirect: bool,
     /// `glCopyImageSubData` exists.
@@ -117,6 +119,10 @@ impl Caps {
             let alignment = integer(glow::SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT);
             usize::try_from(alignment).unwrap_or(0)
         });
+        let max_storage = storage.then(|| {
+            let bytes = integer(glow::MAX_SHADER_STORAGE_BLOCK_SIZE);
+            u64::try_from(bytes).unwrap_or(0)
+        });
         let mut max_viewport = [0; 2];
         // SAFETY: the context is current, and the array has room for both values.
         unsafe { gl.get_parameter_i32_slice(glow::MAX_VIEWPORT_DIMS, &mut max_viewport) };
@@ -158,6 +164,7 @@ impl Caps {
                 None
             },
             storage_alignment,
+            max_storage,
             indirect: since((4, 0), (3, 1)) || (!es && has("GL_ARB_draw_indirect")),
             copy_image: since((4, 3), (3, 2)) || (!es && has("GL_ARB_copy_image")),
             second_viewport: !es && has(SECOND_VIEWPORT),

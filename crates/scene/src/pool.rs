@@ -17,8 +17,8 @@ pub struct Pool {
 }
 
 impl Pool {
-    /// The maximum size of a pool in bytes: every API supports storage buffers of this size (OpenGL 4.3,
-    /// table 23.64).
+    /// The maximum size in bytes of a pool in a case file: every API supports storage buffers of this size (OpenGL
+    /// 4.3, table 23.64).
     pub const MOST_BYTES: u64 = 1 << 24;
 
     /// Returns the number of texels, and of lists.

@@ -6,6 +6,7 @@ use crate::draw::Draw;
 use crate::early_tests::EarlyTests;
 use crate::overlap::may_overlap;
 use crate::pass::{DepthStencilResolve, Pass, ResolveMode};
+use crate::pool::Pool;
 use crate::rasterization::{CullMode, PolygonMode, PrimitiveTopology, ProvokingVertex};
 use crate::scene::Scene;
 use crate::shader::{Interpolation, InterpolationSampling};
@@ -32,8 +33,11 @@ impl Scene {
             let largest = attachment.size[0].max(attachment.size[1]);
             needed.insert(Requirement::Size(largest));
         }
-        if self.pool.is_some() {
+        if let Some(pool) = self.pool {
             needed.insert(Requirement::Feature(Feature::FragmentStorage));
+            if pool.bytes() > Pool::MOST_BYTES {
+                needed.insert(Requirement::Storage(pool.bytes()));
+            }
         }
         for counter in &self.counters {
             needed.extend(match counter.kind {

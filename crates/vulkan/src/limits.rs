@@ -54,6 +54,7 @@ pub(crate) fn limits(device: &Device, natives: &BTreeMap<TextureFormat, Native>)
         viewport_bits: u8::try_from(raw.viewport_sub_pixel_bits).ok(),
         texel_bits: u8::try_from(raw.sub_texel_precision_bits).ok(),
         max_size,
+        max_storage: Some(u64::from(raw.max_storage_buffer_range)),
         max_color_attachments: raw
             .max_color_attachments
             .min(raw.max_fragment_output_attachments),

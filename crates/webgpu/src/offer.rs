@@ -140,6 +140,7 @@ fn limits(offer: Offer) -> Limits {
         viewport_bits: None,
         texel_bits: None,
         max_size,
+        max_storage: None,
         max_color_attachments: offer.limits.color_attachments.min(most_of_bytes),
         formats,
         paths: paths(offer.indirect, offer.abilities, &features),

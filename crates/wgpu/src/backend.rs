@@ -187,7 +187,9 @@ fn device(adapter: &wgpu::Adapter, options: &WgpuOptions) -> Result<Gpu, String>
     let (device, queue) = catch_unwind(AssertUnwindSafe(request))
         .map_err(|_| "wgpu panicked".to_owned())?
         .map_err(|error| error.to_string())?;
-    let facts = etalon_webgpu::Device::new(offer(adapter, features, &device.limits()));
+    let mut facts = etalon_webgpu::Device::new(offer(adapter, features, &device.limits()));
+    let storage = device.limits().max_storage_buffer_binding_size;
+    facts.limits.max_storage = Some(storage.min(device.limits().max_buffer_size));
     let opened = Gpu::new(device, queue, facts, options.fault);
     let mut gpu = opened.map_err(|error| error.to_string())?;
     gpu.recorded = options.record.then(RefCell::default);
