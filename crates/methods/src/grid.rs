@@ -61,6 +61,25 @@ pub(crate) fn settle(size: [u32; 2], polygons: &[Polygon]) -> Vec<Polygon> {
     triangles.into_iter().filter_map(polygon).collect()
 }
 
+/// Moves the corners of a convex polygon to the same grid, so that none of its edges passes through a texel's centre. The
+/// polygon stays whole: it must stay convex, and flat, when a corner moves by a step or two.
+pub(crate) fn settle_whole(size: [u32; 2], polygon: &Polygon) -> Polygon {
+    let rounded = polygon
+        .corners
+        .iter()
+        .map(|[x, y, _]| [x, y].map(|c| (c * GRID).round() as i64));
+    let mut points: Vec<[i64; 2]> = rounded.collect();
+    let edges: Vec<[usize; 2]> = (0..points.len())
+        .map(|i| [i, (i + 1) % points.len()])
+        .collect();
+    untie(size, &mut points, &edges);
+    let mut settled = polygon.clone();
+    for (corner, point) in settled.corners.iter_mut().zip(points) {
+        [corner[0], corner[1]] = point.map(|c| c as f64 / GRID);
+    }
+    settled
+}
+
 /// Moves points by single steps of the grid until no edge passes through a centre. Points on the edges of
 /// the picture stay there.
 fn untie(size: [u32; 2], points: &mut [[i64; 2]], edges: &[[usize; 2]]) {

@@ -37,6 +37,20 @@ pub enum MethodWire {
     TextureSampling(texture_sampling::Wire),
 }
 
+/// The questions, the ones that most people ask first.
+pub const QUESTIONS: [&str; 10] = [
+    "transparency",
+    "anti-aliasing",
+    "cut-outs",
+    "texture-sampling",
+    "depth-precision",
+    "stencil-effects",
+    "culling",
+    "visibility-cost",
+    "accumulation",
+    "depth-shown",
+];
+
 /// Draws a scene by a method.
 ///
 /// # Errors

@@ -1,7 +1,7 @@
 //! The distance of a picture from the truth.
 
 use crate::flip::mean_flip;
-use crate::picture::TruthPicture;
+use crate::picture::{LatticeTruth, TruthPicture};
 use crate::rgb8::{decode, quantized};
 use etalon_frame::{Aspect, ChannelEncoding, Distance, Image};
 
@@ -18,47 +18,20 @@ const WRONG: f64 = 2.0 / 255.0 + 1e-9;
 /// Returns `None` if the picture cannot be measured: the image is not colour, has several samples or integer
 /// channels, differs from the truth in size, or is empty.
 pub fn distance(truth: &TruthPicture, picture: &Image) -> Option<Distance> {
-    let [width, height] = picture.size;
-    let texels = truth.rgb.len();
-    let comparable = picture.aspect == Aspect::Color
-        && picture.samples == 1
-        && picture.size == truth.size
-        && texels > 0
-        && texels == width as usize * height as usize
-        && !picture.channels.is_empty()
-        && !picture
-            .channels
-            .iter()
-            .any(|c| matches!(c, ChannelEncoding::Uint(_)))
-        && picture.codes.len() == picture.expected_len();
-    if !comparable {
+    if picture.size != truth.size || truth.rgb.is_empty() || !is_comparable(picture) {
         return None;
     }
-    let mut result = Distance {
-        truth_error: truth.error,
-        ..Distance::default()
-    };
-    let (mut squares, mut wrong) = (0.0, 0_usize);
+    let texels = truth.rgb.len();
+    let mut sum = Differences::default();
     let (mut should, mut is) = (
         Vec::with_capacity(3 * texels),
         Vec::with_capacity(3 * texels),
     );
     let codes = picture.codes.chunks_exact(picture.channels.len());
     for (expected, codes) in truth.rgb.iter().zip(codes) {
-        let mut worst: f64 = 0.0;
-        for (c, &expected) in expected.iter().enumerate() {
-            let value = match (codes.get(c), picture.channels.get(c)) {
-                (Some(&code), Some(&encoding)) => decode(encoding, code),
-                _ => 0.0,
-            };
-            let difference = (value - expected).abs();
-            let difference = if difference.is_finite() {
-                difference
-            } else {
-                1.0
-            };
-            squares += difference * difference;
-            worst = worst.max(difference);
+        let color = decoded(picture, codes);
+        sum.add(expected, &color);
+        for (value, &expected) in color.into_iter().zip(expected) {
             should.push(quantized(expected));
             is.push(if !value.is_nan() {
                 quantized(value)
@@ -68,11 +41,102 @@ pub fn distance(truth: &TruthPicture, picture: &Image) -> Option<Distance> {
                 255
             });
         }
-        result.max = result.max.max(worst);
-        wrong += usize::from(worst > WRONG);
     }
-    result.rmse = (squares / (3 * texels) as f64).sqrt();
-    result.wrong = wrong as f64 / texels as f64;
-    result.flip = mean_flip(picture.size, &should, &is);
-    Some(result)
+    Some(Distance {
+        rmse: sum.rmse(),
+        max: sum.max,
+        wrong: sum.wrong as f64 / texels as f64,
+        flip: mean_flip(picture.size, &should, &is),
+        truth_error: truth.error,
+    })
+}
+
+/// The distance of a frame from the truth on a lattice, in units of full brightness.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LatticeDistance {
+    /// The number of texels that were compared.
+    pub texels: u64,
+    /// Root of the mean squared difference over these texels and red, green and blue.
+    pub rmse: f64,
+    /// The largest difference of any channel.
+    pub max: f64,
+}
+
+/// Returns the distance of a frame from the truth over the texels of its lattice that are compared. Channels, values and refusals are those of [`distance`].
+pub fn lattice_distance(truth: &LatticeTruth, frame: &Image) -> Option<LatticeDistance> {
+    let lattice = truth.lattice;
+    if frame.size != lattice.size || !is_comparable(frame) {
+        return None;
+    }
+    let mut sum = Differences::default();
+    let channels = frame.channels.len();
+    let [columns, rows] = lattice.count();
+    let places = (0..rows).flat_map(|row| (0..columns).map(move |column| [column, row]));
+    let expected = truth.picture.rgb.iter().zip(&truth.compared);
+    for ([column, row], (expected, _)) in places.zip(expected).filter(|(_, (_, sure))| **sure) {
+        let [x, y] = [column, row].map(|index| lattice.place(index) as usize);
+        let texel = (y * lattice.size[0] as usize + x) * channels;
+        sum.add(
+            expected,
+            &decoded(frame, &frame.codes[texel..texel + channels]),
+        );
+    }
+    (sum.texels > 0).then(|| LatticeDistance {
+        texels: sum.texels,
+        rmse: sum.rmse(),
+        max: sum.max,
+    })
+}
+
+/// Returns true if a picture has one sample of colour per texel, not integers, and all of its codes.
+fn is_comparable(picture: &Image) -> bool {
+    picture.aspect == Aspect::Color
+        && picture.samples == 1
+        && !picture.channels.is_empty()
+        && !picture
+            .channels
+            .iter()
+            .any(|c| matches!(c, ChannelEncoding::Uint(_)))
+        && picture.codes.len() == picture.expected_len()
+}
+
+/// Returns red, green and blue of a texel; 0 for a channel that the picture lacks.
+fn decoded(picture: &Image, codes: &[u32]) -> [f64; 3] {
+    [0, 1, 2].map(|c| match (codes.get(c), picture.channels.get(c)) {
+        (Some(&code), Some(&encoding)) => decode(encoding, code),
+        _ => 0.0,
+    })
+}
+
+/// The sum of differences from the truth.
+#[derive(Clone, Copy, Debug, Default)]
+struct Differences {
+    texels: u64,
+    squares: f64,
+    max: f64,
+    /// The number of texels that differ by more than [`WRONG`].
+    wrong: u64,
+}
+
+impl Differences {
+    fn add(&mut self, expected: &[f64; 3], color: &[f64; 3]) {
+        let mut worst: f64 = 0.0;
+        for (value, expected) in color.iter().zip(expected) {
+            let difference = (value - expected).abs();
+            let difference = if difference.is_finite() {
+                difference
+            } else {
+                1.0
+            };
+            self.squares += difference * difference;
+            worst = worst.max(difference);
+        }
+        self.max = self.max.max(worst);
+        self.wrong += u64::from(worst > WRONG);
+        self.texels += 1;
+    }
+
+    fn rmse(&self) -> f64 {
+        (self.squares / (3 * self.texels) as f64).sqrt()
+    }
 }

@@ -16,8 +16,8 @@ mod render;
 mod rgb8;
 mod surface;
 
-pub use distance::distance;
-pub use etalon_methods::Truth;
-pub use picture::TruthPicture;
-pub use render::truth;
+pub use distance::{LatticeDistance, distance, lattice_distance};
+pub use etalon_methods::{MethodScene, Truth, at_size};
+pub use picture::{Lattice, LatticeTruth, TruthPicture};
+pub use render::{truth, truth_on};
 pub use rgb8::rgb8;

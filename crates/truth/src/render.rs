@@ -1,9 +1,9 @@
-//! The picture, by halving down to texels.
+//! The picture, or its texels on a lattice, by halving down to texels.
 
 use super::area::{self, Layers};
 use super::cell::{ConvexCell, PicturePoint};
 use super::order::{self, Members};
-use super::picture::TruthPicture;
+use super::picture::{Lattice, LatticeTruth, TruthPicture};
 use super::surface::{Overlap, PreparedSurface};
 use etalon_frame::threads::share;
 use etalon_methods::{TexelCoverage, Truth};
@@ -27,52 +27,80 @@ use std::thread::available_parallelism;
 /// do not match its size or corners. Alpha is clamped to 0 to 1, and so is the depth of a paint that fades. A
 /// polygon that is not convex covers only the points that are inside all its edges.
 pub fn truth(scene: &Truth) -> TruthPicture {
+    let lattice = Lattice {
+        size: scene.size,
+        step: 1,
+    };
+    truth_on(scene, lattice).picture
+}
+
+/// Returns the true colours of a frame on a lattice, each as [`truth`] has it.
+pub fn truth_on(scene: &Truth, lattice: Lattice) -> LatticeTruth {
     let surfaces: Vec<PreparedSurface<'_>> = scene
         .surfaces
         .iter()
         .filter_map(PreparedSurface::new)
         .collect();
     let indices: Vec<usize> = (0..surfaces.len()).collect();
-    let (blocks, next) = (blocks(scene.size), AtomicUsize::new(0));
+    let count = lattice.count();
+    let (blocks, next) = (blocks(count), AtomicUsize::new(0));
+    let empty = || LatticeTruth {
+        lattice,
+        picture: empty(count, scene.background),
+        compared: vec![true; count[0] as usize * count[1] as usize],
+    };
     let work = || {
         let mut renderer = Renderer {
             surfaces: &surfaces,
             background: scene.background,
             coverage: scene.coverage,
-            picture: empty(scene),
+            truth: empty(),
         };
         let mut done = Vec::new();
         while let Some([low, high]) = blocks.get(next.fetch_add(1, Ordering::Relaxed)) {
             renderer.block(*low, *high, &indices);
             done.push([*low, *high]);
         }
-        (renderer.picture, done)
+        (renderer.truth, done)
     };
     let threads = available_parallelism().map_or(1, usize::from);
     let parts = share(threads.min(blocks.len()), work);
-    let mut picture = empty(scene);
+    let LatticeTruth {
+        mut picture,
+        mut compared,
+        ..
+    } = empty();
     for (part, done) in parts {
-        picture.error = picture.error.max(part.error);
+        picture.error = picture.error.max(part.picture.error);
         for [low, high] in done {
             for y in low[1]..high[1] {
-                let row = y as usize * scene.size[0] as usize;
+                let row = y as usize * count[0] as usize;
                 let texels = row + low[0] as usize..row + high[0] as usize;
-                picture.rgb[texels.clone()].copy_from_slice(&part.rgb[texels]);
+                picture.rgb[texels.clone()].copy_from_slice(&part.picture.rgb[texels.clone()]);
+                compared[texels.clone()].copy_from_slice(&part.compared[texels]);
             }
         }
     }
-    picture
+    LatticeTruth {
+        lattice,
+        picture,
+        compared,
+    }
 }
 
-/// Returns a picture of the background alone.
-fn empty(scene: &Truth) -> TruthPicture {
-    let [width, height] = scene.size;
+/// Returns a picture of one colour.
+fn empty(size: [u32; 2], color: [f64; 3]) -> TruthPicture {
     TruthPicture {
-        size: scene.size,
-        rgb: vec![scene.background; width as usize * height as usize],
+        size,
+        rgb: vec![color; size[0] as usize * size[1] as usize],
         error: 0.0,
     }
 }
+
+/// The distance in texels from a texel's centre beyond which an edge does not cross it: half of its diagonal. Where an
+/// edge crosses a texel, methods with several samples show the edge, and rounding a vertex can decide which surface
+/// covers the centre; both are no error of a method that composes surfaces.
+const CROSSING: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// Returns parts of a picture for threads, as their corners; several times as many as there are cores, since
 /// some take longer. The parts are the halves that [`Renderer::block`] would make, so that no texel depends
@@ -109,14 +137,16 @@ struct Renderer<'a> {
     surfaces: &'a [PreparedSurface<'a>],
     background: [f64; 3],
     coverage: TexelCoverage,
-    picture: TruthPicture,
+    truth: LatticeTruth,
 }
 
 impl Renderer<'_> {
-    /// Fills the texels from `low` to `high`, the latter excluded, in which only these surfaces can be
-    /// visible: at once if all texels have one colour, otherwise by halves.
+    /// Fills the texels of the lattice from `low` to `high`, the latter excluded, in which only these surfaces can
+    /// be visible: at once if all texels have one colour, otherwise by halves.
     fn block(&mut self, low: [u32; 2], high: [u32; 2], surfaces: &[usize]) {
-        let [from, to] = [low, high].map(|corner| corner.map(f64::from));
+        let lattice = self.truth.lattice;
+        let from = low.map(|first| f64::from(lattice.place(first)));
+        let to = high.map(|end| f64::from(lattice.place(end - 1) + 1));
         let mut whole = true;
         let mut touching = Vec::with_capacity(surfaces.len());
         for &i in surfaces {
@@ -133,7 +163,13 @@ impl Renderer<'_> {
         let [width, height] = [high[0] - low[0], high[1] - low[1]];
         if width == 1 && height == 1 {
             let color = match self.coverage {
-                TexelCoverage::Center => self.center([from[0] + 0.5, from[1] + 0.5], &touching),
+                TexelCoverage::Center => {
+                    let center = [from[0] + 0.5, from[1] + 0.5];
+                    let near = |i: &usize| self.surfaces[*i].edge_is_near(center, CROSSING);
+                    let index = low[1] as usize * self.truth.picture.size[0] as usize;
+                    self.truth.compared[index + low[0] as usize] = !touching.iter().any(near);
+                    self.center(center, &touching)
+                }
                 TexelCoverage::Area => self.mean(from, to, &touching),
             };
             return self.fill(low, high, color);
@@ -144,10 +180,10 @@ impl Renderer<'_> {
     }
 
     fn fill(&mut self, low: [u32; 2], high: [u32; 2], color: [f64; 3]) {
-        let width = self.picture.size[0] as usize;
+        let width = self.truth.picture.size[0] as usize;
         for y in low[1]..high[1] {
             let row = y as usize * width;
-            self.picture.rgb[row + low[0] as usize..row + high[0] as usize].fill(color);
+            self.truth.picture.rgb[row + low[0] as usize..row + high[0] as usize].fill(color);
         }
     }
 
@@ -177,7 +213,8 @@ impl Renderer<'_> {
         let middle = [low[0] + 0.5, low[1] + 0.5];
         let sorted = area::nearest_first(self.surfaces, touching, middle);
         let integral = self.layers(&sorted).integral(low, high);
-        self.picture.error = self.picture.error.max(integral.error);
+        let error = &mut self.truth.picture.error;
+        *error = error.max(integral.error);
         integral.sum
     }
 

@@ -211,6 +211,13 @@ impl<'a> PreparedSurface<'a> {
         self.edges.len()
     }
 
+    /// Returns true if the line through one of its edges is at most this many texels away from a point.
+    pub(super) fn edge_is_near(&self, p: PicturePoint, distance: f64) -> bool {
+        self.edges
+            .iter()
+            .any(|edge| edge.distance(p).abs() <= distance)
+    }
+
     /// Returns the signed distance of a point from one of its edges in texels, positive inside.
     pub(super) fn inside(&self, edge: usize, p: PicturePoint) -> f64 {
         self.edges[edge].distance(p)

@@ -2,6 +2,7 @@
 
 use super::wire::{TransparencyScene, TransparencyWire};
 use crate::error::{ParameterError, within};
+use crate::grid::settle_whole;
 use crate::noise::Noise;
 use crate::polygon::Polygon;
 use crate::stage::SIZE;
@@ -181,7 +182,7 @@ fn glass_box(front: [f64; 4], near: f64, back: [f64; 4], far: f64, color: [f64; 
 }
 
 /// Three boxes of glass around an opaque square. No edge between two sides passes through a texel's centre, as the
-/// test `where_edges_are_no_question_none_comes_near_a_centre` shows.
+/// test `no_edge_comes_near_a_centre_unless_coverage_is_by_area` shows.
 fn nested_glass(alpha: f64) -> GlassScene {
     let outer = glass_box(
         [8.0, 8.0, 120.0, 120.0],
@@ -249,7 +250,8 @@ fn thin_layers(layers: u32, alpha: f64) -> GlassScene {
 /// The number of strips of hair.
 const STRIPS: u32 = 128;
 
-/// Strips that are 1 to 2 texels wide, so texels are covered in part.
+/// Strips that are 1 to 2 texels wide. Their edges are another question: they pass through no texel's centre, where the
+/// truth is.
 fn hair(alpha: f64) -> GlassScene {
     let mut noise = Noise::new(4);
     let mut strip = || {
@@ -266,16 +268,14 @@ fn hair(alpha: f64) -> GlassScene {
             [tip + width, bottom, far],
             [root + width, top, near],
         ];
-        pane(Polygon::new(
-            corners,
-            [0.8 * light, 0.5 * light, 0.25 * light, alpha],
-        ))
+        let color = [0.8 * light, 0.5 * light, 0.25 * light, alpha];
+        pane(settle_whole(SIZE, &Polygon::new(corners, color)))
     };
     GlassScene {
         background: [0.75, 0.85, 0.95],
         opaque: Vec::new(),
         objects: (0..STRIPS).map(|_| strip()).collect(),
-        coverage: TexelCoverage::Area,
+        coverage: TexelCoverage::Center,
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::common::{pane, scene};
 use etalon_frame::{Aspect, ChannelEncoding, Image, ReadPath, TextureFormat};
 use etalon_methods::{Paint, TexelCoverage};
-use etalon_truth::{TruthPicture, distance, truth};
+use etalon_truth::{Lattice, TruthPicture, distance, lattice_distance, truth, truth_on};
 
 const SIZE: [u32; 2] = [16, 8];
 
@@ -235,4 +235,97 @@ fn flip_agrees_with_the_code_of_its_authors() {
             "{size:?}: {measured}, {expected}"
         );
     }
+}
+
+/// Returns an image of a frame of any size, with a grey for each texel.
+fn grey(size: [u32; 2], value: impl Fn(u32, u32) -> u32) -> Image {
+    let texels = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
+    Image {
+        size,
+        codes: texels.flat_map(|[x, y]| [value(x, y); 4]).collect(),
+        ..image(TextureFormat::Rgba8Unorm, |_, _| vec![0.0; 4])
+    }
+}
+
+#[test]
+fn a_lattice_has_the_colours_of_the_whole_picture() {
+    use crate::common::{enlarged, triangle};
+    let shapes = vec![
+        triangle(
+            [[1.3, 0.2], [7.7, 3.1], [2.1, 6.9]],
+            0.5,
+            [1.0, 0.5, 0.25, 0.5],
+        ),
+        triangle(
+            [[0.1, 5.0], [6.2, 0.4], [7.9, 7.3]],
+            0.25,
+            [0.25, 0.5, 1.0, 0.75],
+        ),
+    ];
+    for coverage in [TexelCoverage::Center, TexelCoverage::Area] {
+        let large = enlarged(&scene([8, 8], coverage, shapes.clone()), 25);
+        let whole = truth(&large);
+        for step in [1, 3, 7] {
+            let lattice = Lattice {
+                size: large.size,
+                step,
+            };
+            let on_lattice = truth_on(&large, lattice);
+            let [columns, rows] = lattice.count();
+            assert_eq!(on_lattice.picture.rgb.len(), (columns * rows) as usize);
+            for (index, color) in on_lattice.picture.rgb.iter().enumerate() {
+                let index = index as u32;
+                let [x, y] = [index % columns, index / columns].map(|i| lattice.place(i));
+                assert_eq!(
+                    *color,
+                    whole.rgb[(y * large.size[0] + x) as usize],
+                    "{x} {y}"
+                );
+            }
+            let sure = on_lattice.compared.iter().filter(|sure| **sure).count();
+            match coverage {
+                TexelCoverage::Area => assert_eq!(sure, on_lattice.compared.len()),
+                TexelCoverage::Center => {
+                    // Texels along the six edges are not compared, which are few.
+                    assert!(sure < on_lattice.compared.len(), "step {step}");
+                    assert!(10 * sure > 9 * on_lattice.compared.len(), "step {step}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn frames_of_usual_sizes_are_compared_at_thousands_of_texels() {
+    for size in [
+        [1280, 720],
+        [1920, 1080],
+        [3840, 2160],
+        [2560, 1440],
+        [1000, 1000],
+    ] {
+        let lattice = Lattice::over(size);
+        let [columns, rows] = lattice.count();
+        assert!(columns * rows >= 4096, "{size:?}: {columns} by {rows}");
+        assert!(lattice.place(columns - 1) < size[0] && lattice.place(rows - 1) < size[1]);
+    }
+    assert_eq!(Lattice::over([128, 64]).count(), [128, 64]);
+}
+
+#[test]
+fn a_frame_is_compared_at_the_texels_of_its_lattice_alone() {
+    let size = [200, 100];
+    let even = scene(size, TexelCoverage::Center, Vec::new());
+    let truth = truth_on(&even, Lattice { size, step: 3 });
+    // Only texels between those of the lattice are wrong.
+    let beside = grey(size, |x, y| if x % 3 == 1 && y % 3 == 1 { 0 } else { 255 });
+    let distance = lattice_distance(&truth, &beside).expect("comparable");
+    assert_eq!(
+        (distance.texels, distance.rmse, distance.max),
+        (67 * 33, 0.0, 0.0)
+    );
+    let wrong = grey(size, |_, _| 51);
+    let distance = lattice_distance(&truth, &wrong).expect("comparable");
+    assert!((distance.rmse - 0.2).abs() < 1e-12 && (distance.max - 0.2).abs() < 1e-12);
+    assert_eq!(lattice_distance(&truth, &grey([100, 200], |_, _| 0)), None);
 }

@@ -1,7 +1,7 @@
 //! The ids and the number of method cases.
 
 use etalon_case::{CaseFile, Library, Profile};
-use etalon_methods::{claims, lessons};
+use etalon_methods::{at_size, claims, lessons};
 use std::collections::BTreeSet;
 
 #[test]
@@ -170,6 +170,47 @@ fn every_method_is_explained_and_every_claim_names_existing_methods() {
         for method in quoted {
             let named = (claim.question.to_owned(), method.to_owned());
             assert!(methods.contains(&named), "{}: {method}", claim.title);
+        }
+    }
+}
+
+#[test]
+fn every_method_can_be_drawn_at_the_sizes_of_frames() {
+    let library = Library::built_in();
+    for file in library.files_where(|stem| stem.starts_with("methods/")) {
+        for case in file.cases(Profile::Quick) {
+            let id = case.id();
+            let case = case.build().expect("built-in cases build");
+            let method = case.method.expect("a method case has a method");
+            let same = at_size(&case.scene, &method.truth, method.truth.size);
+            assert_eq!(same.truth, method.truth, "{id}");
+            if !id.contains("method=coverage-to-alpha") {
+                assert_eq!(same.scene, case.scene, "{id}");
+            }
+            let size = [1280, 720];
+            let sized = at_size(&case.scene, &method.truth, size);
+            let picture = &sized.scene.attachments[sized.scene.read[0]];
+            assert_eq!((picture.size, sized.truth.size), (size, size), "{id}");
+            if let Some(pool) = sized.scene.pool {
+                assert_eq!(pool.size, size, "{id}");
+            }
+            for pass in &sized.scene.passes {
+                let drawn = sized.scene.pass_size(pass);
+                assert_eq!(drawn[0] * 9, drawn[1] * 16, "{id}");
+                for draw in &pass.draws {
+                    // Nothing else is meant in texels.
+                    assert_eq!(draw.scissor, None, "{id}");
+                    let [_, _, width, height] = draw.viewport.rect;
+                    assert_eq!([width, height], drawn.map(|side| side as f32), "{id}");
+                    let fetched = draw
+                        .textures
+                        .iter()
+                        .filter(|_| !draw.shader.samples_texture());
+                    for texture in fetched {
+                        assert_eq!(sized.scene.attachments[*texture].size, drawn, "{id}");
+                    }
+                }
+            }
         }
     }
 }
