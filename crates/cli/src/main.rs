@@ -46,6 +46,7 @@ mod saved_recording;
 mod saved_run;
 mod scene_text;
 mod shard;
+mod sizes;
 mod worker;
 mod worth;
 

@@ -27,7 +27,7 @@ mod undrawn;
 pub use denial::denials;
 pub use judge::{Judge, Judged, is_due_to_fail};
 pub use kept::{IMPRECISE_FRAMES, ShownDetail, mark_flaky, note_validation, shorten};
-pub use measure::{Truths, measured};
+pub use measure::{SizedScene, Truths, measured};
 pub use pictures::{keep_pictures, pictured};
 pub use relation::changed_picture;
 pub use requirement::note_requirement;

@@ -46,6 +46,17 @@ impl Header {
             let cache = |s: &Settings| s.shader_cache.map_or("warm", |c| c.name());
             differ("--shader-cache", cache(a).to_owned(), cache(b).to_owned())
         })
+        .or_else(|| {
+            let sizes = |s: &Settings| match s.sizes.as_slice() {
+                [] => "none".to_owned(),
+                sizes => sizes
+                    .iter()
+                    .map(|[w, h]| format!("{w}x{h}"))
+                    .collect::<Vec<_>>()
+                    .join(","),
+            };
+            differ("--sizes", sizes(a), sizes(b))
+        })
         .or_else(|| differ("--validate", a.validate.to_string(), b.validate.to_string()))
     }
 }

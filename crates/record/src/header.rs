@@ -6,11 +6,12 @@ use crate::shader_cache::ShaderCache;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// The format of run folders that this crate writes. It also reads earlier ones: format 5 has messages
+/// The format of run folders that this crate writes. It also reads earlier ones: format 6 has no methods at the
+/// sizes of frames, and no percentiles of an accuracy; format 5 has messages
 /// instead of reasons; format 4 states every number and keeps known failures in full; format 3 has stories as
 /// sentences; format 2 lacks the verdicts `required-by-cts`, `disputed` and `blocked`, and its limits lack
 /// version and properties; format 1 also lacks settings, ends of processes, validation messages and repeats.
-pub const FORMAT: u32 = 6;
+pub const FORMAT: u32 = 7;
 
 /// The cases, adapters, machine and time of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -90,6 +91,9 @@ pub struct Settings {
     /// Memory that one worker may use, in MiB.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub memory: Option<u64>,
+    /// The sizes in texels at which methods were timed; empty if only at that of their pictures.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sizes: Vec<[u32; 2]>,
 }
 
 /// One of several parts of a selection.

@@ -101,6 +101,10 @@ pub enum Reason {
     AfterOthers(usize),
     /// The frames were being timed.
     WhileTimed,
+    /// Frames of this size are not timed, because a frame of a smaller one already takes this many seconds.
+    LongFrames(f64),
+    /// Frames of this size are not drawn, because their attachments take this many bytes, more than a worker may use.
+    LargeFrames(u64),
     /// The worker had no case left.
     AfterLastCase,
     /// The bench had been stopped and was resumed.

@@ -39,6 +39,12 @@ impl DueAnswers {
         frames: 1,
     };
 
+    /// The frame of a scene that was drawn already.
+    pub(crate) const READ_BACK: Self = Self {
+        answers: 1,
+        frames: 1,
+    };
+
     /// Returns the answers for the frames of a case.
     pub(crate) fn of(case: &Case) -> Self {
         let mut drawing = Self {

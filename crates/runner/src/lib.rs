@@ -26,6 +26,7 @@ mod protocol;
 mod reduction;
 mod run;
 mod serve;
+mod sized;
 mod stderr_tail;
 mod supervisor;
 mod sync;
@@ -46,7 +47,9 @@ pub use protocol::Hello;
 pub use reduction::{
     Flakiness, Looked, Lost, Reducer, ReductionError, Smallest, Unconfirmed, confirm, smallest,
 };
-pub use run::{Drawn, KeptFrames, Plan, Rechecks, RunError, RunOptions, RunSummary, run};
+pub use run::{
+    Drawn, FrameSizes, KeptFrames, Plan, Rechecks, RunError, RunOptions, RunSummary, run,
+};
 pub use serve::serve;
 pub use trial::Trials;
 pub use version_search::releases_to_draw;

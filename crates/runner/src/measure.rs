@@ -91,7 +91,7 @@ impl WorkerProcess {
     }
 }
 
-fn seconds(time: &FrameTime) -> FrameSeconds {
+pub(crate) fn seconds(time: &FrameTime) -> FrameSeconds {
     FrameSeconds {
         wall: time.wall.as_secs_f64(),
         cpu: time.cpu.as_secs_f64(),

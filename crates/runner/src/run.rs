@@ -14,4 +14,4 @@ mod shared;
 mod worker_loop;
 
 pub use execute::run;
-pub use plan::{Drawn, KeptFrames, Plan, Rechecks, RunError, RunOptions, RunSummary};
+pub use plan::{Drawn, FrameSizes, KeptFrames, Plan, Rechecks, RunError, RunOptions, RunSummary};

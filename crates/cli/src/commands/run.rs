@@ -14,8 +14,9 @@ use crate::out_folder::Out;
 use crate::output::{print_json, say, summarize, table_options};
 use crate::processors::processors;
 use crate::progress::progress;
+use crate::sizes::{SizeList, frame_sizes};
 use crate::worth::sort_by_worth;
-use crate::{dead, idle, provenance, shard};
+use crate::{dead, idle, provenance, shard, sizes};
 use clap::{Args, ValueEnum};
 use etalon_adapters::{Adapters, Query, cache, take_unstarted};
 use etalon_case::Case;
@@ -112,6 +113,10 @@ pub(crate) struct Arguments {
     /// second come first, then one case of each file in turn. Cases left out get the verdict `skipped`
     #[arg(long, value_name = "S", value_parser = parse_timeout, conflicts_with_all = ["shuffle", "resume"])]
     pub(crate) within: Option<f64>,
+    /// Sizes of frames at which methods are timed as well, such as 720p,1080p,4k or 2560x1440, or `none`. Default: these
+    /// three on hardware, 720p where the processor draws
+    #[arg(long, value_name = "SIZES", value_parser = crate::sizes::parse)]
+    pub(crate) sizes: Option<SizeList>,
     /// State of the drivers' shader caches on disk
     #[arg(long, value_enum, default_value = "warm")]
     pub(crate) shader_cache: CacheState,
@@ -384,6 +389,7 @@ fn options(arguments: &Arguments) -> RunOptions {
             KeepFrames::None => KeptFrames::None,
         },
         within: arguments.within.map(Duration::from_secs_f64),
+        sizes: frame_sizes(arguments.sizes.as_ref()),
     }
 }
 
@@ -593,6 +599,11 @@ fn header(
             validate: arguments.validate,
             timeout: Some(arguments.timeout),
             memory: Some(arguments.memory),
+            sizes: if selected.cases.iter().any(|case| case.method.is_some()) {
+                sizes::recorded(arguments.sizes.as_ref())
+            } else {
+                Vec::new()
+            },
         },
         adapters: {
             let up = adapters.ready.iter().map(|(_, w)| w.into());

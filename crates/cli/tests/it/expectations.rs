@@ -402,6 +402,8 @@ fn a_share_that_was_not_asserted_is_not_green() {
         "cpu",
         "--min-asserted",
         "1",
+        "--sizes",
+        "none",
         "--out",
     ])
     .arg(work.path("methods"))

@@ -3,8 +3,10 @@
 
 use crate::etalon::etalon;
 use crate::sample;
-use etalon_record::{Measured, Record, Run, Verdict};
+use etalon_frame::Requirement;
+use etalon_record::{Clock, Measured, Reason, Record, Run, Verdict};
 use etalon_report::message;
+use predicates::str::contains;
 use std::fs;
 use std::path::Path;
 use std::time::Duration;
@@ -40,7 +42,14 @@ fn of<'r>(run: &'r Run, question: &str, scene: &str, method: &str) -> Vec<&'r Re
 #[test]
 fn the_quick_methods_are_measured_on_a_rasterizer_and_a_driver() {
     let out = tempfile::tempdir().unwrap();
-    let adapters = ["--adapter", "cpu", "--adapter", "gl:softpipe"];
+    let adapters = [
+        "--adapter",
+        "cpu",
+        "--adapter",
+        "gl:softpipe",
+        "--sizes",
+        "none",
+    ];
     let listed = etalon(&["list", "methods/*"]).assert().success();
     let listed = String::from_utf8(listed.get_output().stdout.clone()).unwrap();
     let ids: Vec<&str> = listed.lines().collect();
@@ -102,7 +111,7 @@ fn exact_methods_agree_with_the_truth() {
         "methods/transparency/windows/*alpha=0.4",
         "methods/transparency/nested-glass",
     ];
-    let others = ["--profile", "full", "--adapter", "cpu"];
+    let others = ["--profile", "full", "--adapter", "cpu", "--sizes", "none"];
     let run = run(out.path(), &[&globs[..], &others].concat());
     for scene in ["windows", "nested-glass"] {
         let exact: &[&str] = match scene {
@@ -128,4 +137,78 @@ fn exact_methods_agree_with_the_truth() {
             "{scene}: order must matter"
         );
     }
+}
+
+/// A frame of another size shows the same scene, costs more, and says why it was left out.
+#[test]
+fn methods_are_timed_at_the_sizes_of_frames() {
+    let out = tempfile::tempdir().unwrap();
+    let globs = [
+        "methods/transparency/windows",
+        "methods/anti-aliasing/thin-wedge",
+    ];
+    // The last size is larger than what the rasterizer draws.
+    let sizes = ["--sizes", "640x360,960x540,8000x100", "--adapter", "cpu"];
+    let drawn = run(out.path(), &[&globs[..], &sizes].concat());
+    assert_eq!(
+        drawn.header.settings.sizes,
+        [[640, 360], [960, 540], [8000, 100]]
+    );
+    for record in &drawn.records {
+        let (name, measured) = (&record.case, measured(record));
+        let [small, large, too_large] = &measured.sizes[..] else {
+            panic!("{name}: {:?}", measured.sizes);
+        };
+        assert_eq!(
+            too_large.reason,
+            Some(Reason::Missing(Requirement::Size(8000))),
+            "{name}"
+        );
+        assert_eq!((too_large.time, too_large.distance), (None, None), "{name}");
+        for frame in [small, large] {
+            let distance = frame.distance.unwrap();
+            assert!(
+                frame.time.unwrap().wall > 0.0 && frame.reason.is_none(),
+                "{name}"
+            );
+            assert!(distance.texels >= 4096, "{name}: {distance:?}");
+            assert!(distance.rmse <= distance.max, "{name}: {distance:?}");
+            // No edge counts in a question about composition, and fewer texels are on edges in a larger frame.
+            let picture = measured.distance.rmse;
+            assert!(
+                distance.rmse <= picture * 1.2 + 1e-3,
+                "{name}: {distance:?} {picture}"
+            );
+            if name.contains("/windows/") {
+                assert!(
+                    distance.rmse >= picture * 0.8,
+                    "{name}: {distance:?} {picture}"
+                );
+            }
+        }
+        let cost = measured.cost.unwrap();
+        assert!(cost.per_megapixel.median > 0.0, "{name}: {cost:?}");
+        assert!(
+            cost.deviation.is_some() && cost.clock == Clock::Wall,
+            "{name}: {cost:?}"
+        );
+    }
+    let page = fs::read_to_string(out.path().join("methods.html")).unwrap();
+    assert!(page.contains("960\u{d7}540</option>"), "a size to choose");
+    let resumed = ["--resume", "--sizes", "none", "--adapter", "cpu"];
+    let mut command = etalon(&["run", "--out"]);
+    command
+        .arg(out.path())
+        .args([&globs[..], &resumed].concat());
+    command.assert().code(64).stderr(contains("sizes"));
+}
+
+#[test]
+fn a_size_that_is_none_is_refused_with_the_names() {
+    etalon(&["run", "methods/transparency/windows", "--sizes", "480p"])
+        .assert()
+        .code(64)
+        .stderr(contains(
+            "`480p` is no size: expected 720p, 1080p, 4k, WIDTHxHEIGHT",
+        ));
 }

@@ -290,7 +290,14 @@ fn a_page_of_a_browser_charts_the_methods_of_a_question() {
 /// Compares the methods of a saved run with the same cases through the relay.
 fn compare_measurements(above: &Path, adapter: &str) {
     let [page, relay] = ["page", "relay"].map(|name| above.join(name));
-    let arguments = ["run", "methods/stencil-effects", "--adapter", adapter];
+    let arguments = [
+        "run",
+        "methods/stencil-effects",
+        "--sizes",
+        "none",
+        "--adapter",
+        adapter,
+    ];
     run(
         &[&arguments[..], &["--out", relay.to_str().unwrap()]].concat(),
         &[0],

@@ -81,6 +81,8 @@ fn records() -> Vec<Record> {
             gpu: None,
             interval: Some([0.2, 0.3]),
         }),
+        sizes: Vec::new(),
+        cost: None,
         passes: 1,
         draws: 2,
         fragments: None,

@@ -7,11 +7,11 @@ use etalon_frame::{
     ValueRange, WrongTexel,
 };
 use etalon_record::{
-    AdapterRecord, Assertion, Bench, ComparedPair, Content, Dead, Denial, ExitStatus, Expected,
-    FORMAT, FailedRoundTrip, FolderKind, FrameFile, FrameImage, Fresh, Header, Hunt, MAX_LINE,
-    MAX_WRONG_TEXELS, Measured, OutputFolder, Parameter, ProcessEnd, Provenance, Reason, Record,
-    RecordError, Run, RunWriter, Seconds, Settings, Shard, Times, Verdict, Versions, beside,
-    read_cases, selection_digest,
+    AdapterRecord, Assertion, Bench, Clock, ComparedPair, Content, Cost, Dead, Denial, Estimate,
+    ExitStatus, Expected, FORMAT, FailedRoundTrip, FolderKind, FrameFile, FrameImage, Fresh,
+    Header, Hunt, MAX_LINE, MAX_WRONG_TEXELS, Measured, OutputFolder, Parameter, ProcessEnd,
+    Provenance, Reason, Record, RecordError, Run, RunWriter, Seconds, Settings, Shard,
+    SizedDistance, SizedFrame, Times, Verdict, Versions, beside, read_cases, selection_digest,
 };
 use proptest::prelude::*;
 use std::fs;
@@ -130,6 +130,41 @@ fn eighths(n: u64) -> f64 {
     (n % 4096) as f64 / 8.0
 }
 
+fn estimate(n: u64) -> Estimate {
+    Estimate {
+        median: eighths(n),
+        interval: n.is_multiple_of(2).then_some([0.25, 0.5]),
+    }
+}
+
+/// Frames of sizes: one that was drawn, and one that was not.
+fn sized(f: &[u64; 7]) -> Vec<SizedFrame> {
+    let drawn = SizedFrame {
+        size: [1280, 720],
+        time: None,
+        distance: Some(SizedDistance {
+            texels: f[1],
+            rmse: eighths(f[2]),
+            max: eighths(f[3]),
+        }),
+        reason: None,
+    };
+    let left_out = SizedFrame {
+        size: [f[0] as u32, f[1] as u32],
+        time: None,
+        distance: None,
+        reason: Some(if f[4].is_multiple_of(2) {
+            Reason::LargeFrames(f[5])
+        } else {
+            Reason::LongFrames(eighths(f[5]))
+        }),
+    };
+    [drawn, left_out]
+        .into_iter()
+        .take(f[6] as usize % 3)
+        .collect()
+}
+
 /// Measurements, with and without the optional ones.
 fn measured(f: &[u64; 7]) -> Measured {
     let even = |n: u64| n.is_multiple_of(2);
@@ -154,6 +189,17 @@ fn measured(f: &[u64; 7]) -> Measured {
             cpu: 0.001,
             gpu: even(f[5]).then_some(0.002),
             interval: even(f[4]).then_some([0.25, 0.5]),
+        }),
+        sizes: sized(f),
+        cost: even(f[2]).then(|| Cost {
+            clock: if even(f[1]) {
+                Clock::Device
+            } else {
+                Clock::Wall
+            },
+            fixed: estimate(f[3]),
+            per_megapixel: estimate(f[4]),
+            deviation: even(f[5]).then(|| eighths(f[0])),
         }),
         passes: f[0] as u32,
         draws: f[1] as u32,
@@ -467,6 +513,7 @@ fn runs_of_every_older_format_are_read_but_not_resumed() {
         (3, include_str!("../data/format-3.jsonl")),
         (4, include_str!("../data/format-4.jsonl")),
         (5, include_str!("../data/format-5.jsonl")),
+        (6, include_str!("../data/format-6.jsonl")),
     ];
     assert_eq!(samples.len() as u32, FORMAT - 1, "a sample of each");
     for (format, text) in samples {
@@ -488,14 +535,12 @@ fn runs_of_every_older_format_are_read_but_not_resumed() {
         assert!(format < 3 || stories > 0, "a story");
         assert!(run.records.iter().all(|r| r.example.is_none()));
         assert!(run.records.iter().all(|r| r.blocked_by.is_empty()));
-        let text = |record: &Record| {
-            let [Reason::Text(text)] = &record.reasons[..] else {
-                panic!("{:?}", record.reasons);
-            };
-            text.clone()
-        };
-        for record in run.records.iter().filter(|r| !r.reasons.is_empty()) {
-            assert!(!text(record).is_empty(), "the message of an older format");
+        let with_reasons = || run.records.iter().filter(|r| !r.reasons.is_empty());
+        assert!(format < 5 || with_reasons().count() > 0, "a reason");
+        for record in with_reasons() {
+            let is_message =
+                matches!(&record.reasons[..], [Reason::Text(text)] if !text.is_empty());
+            assert_eq!(is_message, format < 6, "{:?}", record.reasons);
         }
         // Records of this format must not follow a header of another.
         let mut now = run.header.clone();

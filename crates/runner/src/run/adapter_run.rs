@@ -13,7 +13,7 @@ use crate::sync::lock;
 use etalon_case::Case;
 use etalon_frame::Frame;
 use etalon_judge::{
-    IMPRECISE_FRAMES, Judged, ShownDetail, is_due_to_fail, keep_pictures, measured,
+    IMPRECISE_FRAMES, Judged, ShownDetail, SizedScene, is_due_to_fail, keep_pictures, measured,
     note_validation, settled, shorten, undrawn,
 };
 use etalon_record::{FrameFile, Record, RecordError, Seconds, Verdict};
@@ -51,6 +51,22 @@ impl<'s> RunningAdapter<'s, '_> {
             },
             stop: Some(self.shared.stop),
         }
+    }
+
+    /// Returns a method's scene at the size of its picture and at all sizes that the run times; none if it times only
+    /// the picture.
+    pub(super) fn sized_scenes(&self, case: &Case) -> Vec<SizedScene> {
+        let sizes = self
+            .shared
+            .options
+            .sizes
+            .on(self.queue.adapter.info.software);
+        let others = sizes
+            .iter()
+            .filter_map(|size| self.shared.truths.sized(case, *size));
+        let others: Vec<SizedScene> = others.collect();
+        let picture = SizedScene::of_picture(case).filter(|_| !others.is_empty());
+        picture.into_iter().chain(others).collect()
     }
 
     /// Returns the time limit of a case that is measured.

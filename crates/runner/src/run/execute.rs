@@ -90,7 +90,7 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(RunEvent) + Sync)) -> Result<RunSumm
     }
     let shared = Shared {
         cases,
-        options: plan.options,
+        options: plan.options.clone(),
         budget: plan
             .options
             .within

@@ -71,7 +71,7 @@ pub enum KeptFrames {
 }
 
 /// The limits and repetitions of drawing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RunOptions {
     /// The number of workers that draw at the same time; at least one.
     pub jobs: usize,
@@ -90,6 +90,28 @@ pub struct RunOptions {
     /// The time after which no further case is drawn. Adapters share it equally, and adapters that begin later
     /// also get what others left. The cases left out become `Skipped`.
     pub within: Option<Duration>,
+    /// The sizes of frames at which methods are timed besides that of their pictures, by the kind of adapter.
+    pub sizes: FrameSizes,
+}
+
+/// Sizes of frames, in texels, from small to large.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct FrameSizes {
+    /// The sizes on adapters that draw with the processor.
+    pub software: Vec<[u32; 2]>,
+    /// The sizes on other adapters.
+    pub hardware: Vec<[u32; 2]>,
+}
+
+impl FrameSizes {
+    /// Returns the sizes on an adapter.
+    pub fn on(&self, is_software: bool) -> &[[u32; 2]] {
+        if is_software {
+            &self.software
+        } else {
+            &self.hardware
+        }
+    }
 }
 
 impl Default for RunOptions {
@@ -102,6 +124,7 @@ impl Default for RunOptions {
             recheck: DEFAULT_RECHECK,
             frames: KeptFrames::All,
             within: None,
+            sizes: FrameSizes::default(),
         }
     }
 }

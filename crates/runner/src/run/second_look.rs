@@ -30,7 +30,7 @@ pub(super) fn confirm(
     before: &[usize],
     make_room: &mut dyn FnMut(),
 ) -> Option<Observation> {
-    let options = run.shared.options;
+    let options = &run.shared.options;
     let more = match options.repeat.max(1) - 1 {
         0 if needs_confirmation(run, &first, options.recheck) => 1,
         more if first.record.verdict != Verdict::NotSupported => more,

@@ -10,6 +10,7 @@ use super::shared::Shared;
 use crate::drawing::{Drawing, DueAnswers};
 use crate::event::RunEvent;
 use crate::loss::{Loss, RequestError};
+use crate::sized::SizingAdapter;
 use crate::supervisor::Supervisor;
 use etalon_judge::RoundTrips;
 use etalon_record::{Reason, Record};
@@ -220,18 +221,38 @@ impl<'s, 'a> WorkerLoop<'s, 'a> {
         if record.verdict.is_bad() {
             return;
         }
-        let scene = &run.case(number).scene;
+        let case = run.case(number);
+        let adapter = &run.queue.adapter;
+        // Their truths take long, and are computed while others draw.
+        let sizes = run.sized_scenes(case);
         let timed = {
             let quiet = &run.shared.quiet;
             let _alone = quiet.write().unwrap_or_else(PoisonError::into_inner);
             let timeout = run.measuring_timeout();
-            worker.measure(number as u32, scene, &run.queue.adapter.limits, timeout)
+            let slot = number as u32;
+            let frame = worker.measure(slot, &case.scene, &adapter.limits, timeout);
+            frame.and_then(|frame| {
+                if sizes.is_empty() {
+                    return Ok((frame, (Vec::new(), None)));
+                }
+                let adapter = SizingAdapter {
+                    limits: &adapter.limits,
+                    is_software: adapter.info.software,
+                    memory: run.shared.options.memory,
+                };
+                Ok((
+                    frame,
+                    worker.measure_sizes(slot, &sizes, &adapter, timeout)?,
+                ))
+            })
         };
         match timed {
-            Ok(cost) => {
+            Ok((frame, (sizes, cost))) => {
                 if let Some(measured) = &mut record.measured {
-                    measured.time = cost.times;
-                    measured.fragments = cost.fragments;
+                    measured.time = frame.times;
+                    measured.fragments = frame.fragments;
+                    measured.sizes = sizes;
+                    measured.cost = cost;
                 }
             }
             Err(loss) => {
