@@ -2,13 +2,13 @@
 //! drivers.
 
 mod breaks;
+mod choice;
 mod claims;
 mod data;
 mod driver;
 mod front;
 mod grid;
 mod name;
-mod overview;
 mod page;
 mod pictures;
 mod scatter;

@@ -2,6 +2,7 @@
 
 use super::name::{anchor, value_text};
 use crate::lists::distinct;
+use etalon_methods::{QUESTIONS, lessons};
 use etalon_record::{Measured, Record, Run};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -285,9 +286,13 @@ impl<'a> SceneSeries<'a> {
 }
 
 impl Question<'_> {
-    /// Returns the position of a method, which determines its colour and shape.
+    /// Returns the number that determines a method's colour and shape: its place among all methods of the question, so
+    /// that it looks the same in all runs, whichever others they draw.
     pub(crate) fn style(&self, method: &str) -> usize {
-        self.methods.iter().position(|m| *m == method).unwrap_or(0)
+        let known = lessons(self.name);
+        let of_lesson = known.iter().position(|lesson| lesson.method == method);
+        let unknown = || self.methods.iter().position(|m| *m == method);
+        of_lesson.unwrap_or_else(|| known.len() + unknown().unwrap_or(0))
     }
 }
 
@@ -333,7 +338,9 @@ impl<'a> Methods<'a> {
                 methods: methods.into_iter().collect(),
             }
         });
-        let questions = questions.collect();
+        let mut questions: Vec<Question<'a>> = questions.collect();
+        let place = |question: &Question<'_>| QUESTIONS.iter().position(|q| *q == question.name);
+        questions.sort_by_key(|question| place(question).unwrap_or(QUESTIONS.len()));
         Some(Self {
             adapters,
             questions,

@@ -17,42 +17,9 @@ pub(super) fn front(points: &[(f64, f64)]) -> Vec<usize> {
     order
 }
 
-/// Returns the points that can be on the front or not, since the first cost is only known to be within an interval.
-pub(super) fn undecided(points: &[([f64; 2], f64)]) -> Vec<usize> {
-    let beats = |a: f64, a_other: f64, b: f64, b_other: f64| {
-        a_other <= b_other && (a < b || (a == b && a_other < b_other))
-    };
-    let undecided = |point: &usize| {
-        let ([low, high], cost) = points[*point];
-        let others = points.iter().enumerate().filter(|(i, _)| i != point);
-        let (mut possibly, mut certainly) = (false, false);
-        for (_, &([other_low, other_high], other)) in others {
-            possibly |= beats(other_low, other, high, cost);
-            certainly |= beats(other_high, other, low, cost);
-        }
-        possibly && !certainly
-    };
-    (0..points.len()).filter(undecided).collect()
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{front, undecided};
-
-    #[test]
-    fn overlapping_intervals_leave_the_front_open() {
-        let known = |first: f64, second: f64| ([first; 2], second);
-        assert_eq!(
-            undecided(&[known(1.0, 1.0), known(1.0, 2.0), known(1.0, 1.0)]),
-            [0; 0]
-        );
-        // The first may be slower than the second, which is more accurate. The third is slower than both.
-        let points = [([1.0, 3.0], 2.0), ([2.0, 4.0], 1.0), ([5.0, 6.0], 2.0)];
-        assert_eq!(undecided(&points), [0]);
-        // The second is worse, but can be faster.
-        assert_eq!(undecided(&[([2.0, 4.0], 1.0), ([3.0, 5.0], 2.0)]), [1]);
-        assert_eq!(undecided(&[([2.0, 3.0], 1.0), ([4.0, 5.0], 2.0)]), [0; 0]);
-    }
+    use super::front;
 
     #[test]
     fn no_point_beats_a_point_on_the_front() {

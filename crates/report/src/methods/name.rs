@@ -16,6 +16,14 @@ pub(super) fn anchor(question: usize, scene: usize) -> String {
     format!("s{question}-{scene}")
 }
 
+/// Returns a method's name for a sentence, where `none` alone would read as "nothing".
+pub(super) fn in_words(method: &str) -> &str {
+    match method {
+        "none" => "none (plain drawing)",
+        name => name,
+    }
+}
+
 /// Returns a name from the records as a heading: `cut-outs` becomes `Cut outs`.
 pub(super) fn title(name: &str) -> String {
     match name {

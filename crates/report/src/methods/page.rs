@@ -6,7 +6,7 @@ use super::data::{
 use super::name::{title, value_text};
 use super::pictures::PagePictures;
 use super::stability::CurveBreak;
-use super::{claims, grid, overview, scatter, stability};
+use super::{choice, claims, grid, scatter, stability};
 use crate::chart::{self, color, key, line_key};
 use crate::command::quoted;
 use crate::lists::{distinct, grouped};
@@ -29,15 +29,16 @@ const SCRIPT: &str = concat!(
     include_str!("page/flip.js"),
     include_str!("page/pictures.js"),
     include_str!("page/settings.js"),
-    include_str!("page/budget.js"),
+    include_str!("page/choice.js"),
 );
 
 /// Returns the whole page. Pictures are read from the folder when they are needed.
 pub(crate) fn page(folder: &Path, run: &Run, methods: &Methods<'_>) -> String {
     let main = html! {
-        (head(run, methods))
+        (head(methods))
         noscript { p.note { "Scripts are off: each scene shows one setting, and its pictures cannot be enlarged." } }
         (sections(run, methods, &mut PagePictures::in_folder(folder)))
+        (about(run, methods))
         (page::script(SCRIPT))
     };
     Page::new(
@@ -70,11 +71,12 @@ fn sections(run: &Run, methods: &Methods<'_>, pictures: &mut PagePictures<'_>) -
         .map(|shown| in_scene(run, pictures, shown))
         .collect();
     html! {
-        (overview::section(methods, &shown))
+        (choice::section(methods, &shown))
         (breaks(methods, &shown))
         @for (q, question) in methods.questions.iter().enumerate() {
             section id={ "q" (q) } {
                 h2 { (title(question.name)) }
+                (choice::tables(methods, question, &shown))
                 (explained(question))
                 @for (shown, scene) in shown.iter().zip(&scenes) { @if std::ptr::eq(shown.question, question) { (scene) } }
             }
@@ -93,20 +95,32 @@ fn sections(run: &Run, methods: &Methods<'_>, pictures: &mut PagePictures<'_>) -
     }
 }
 
-fn head(run: &Run, methods: &Methods<'_>) -> Markup {
-    let h = &run.header;
-    let scenes = methods.scenes().count() as u64;
-    let records: usize = methods
-        .scenes()
-        .flat_map(|s| &s.series)
-        .map(|s| s.points.len())
-        .sum();
+fn head(methods: &Methods<'_>) -> Markup {
     html! {
         header {
             h1 { "Methods: accuracy against speed" }
-            p.lead {
-                "Cost and error of rendering methods, and the parameter at which each breaks."
+            nav {
+                a href="#breaks" { "Break points" } " "
+                @for (q, question) in methods.questions.iter().enumerate() {
+                    a href={ "#q" (q) } { (title(question.name)) } " "
+                }
+                a href="#reading" { "Reading the charts" } " "
+                a href="#claims" { "Claims" } " "
+                a href="#run" { "This run" }
             }
+        }
+    }
+}
+
+/// Returns the facts about the run, which stand last.
+fn about(run: &Run, methods: &Methods<'_>) -> Markup {
+    let h = &run.header;
+    let scenes = methods.scenes().count() as u64;
+    let points = methods.scenes().flat_map(|s| &s.series);
+    let records: usize = points.map(|s| s.points.len()).sum();
+    html! {
+        section id="run" {
+            h2 { "This run" }
             dl.facts {
                 dt { "Run" } dd { a href="index.html" { "verdicts and findings" } ", " (h.provenance.started) }
                 dt { "Profile" } dd { (profile(run)) }
@@ -119,14 +133,6 @@ fn head(run: &Run, methods: &Methods<'_>) -> Markup {
                         code { (breakable(adapter.name)) } " (" (adapter.kind.name()) ")"
                     }
                 }
-            }
-            nav {
-                a href="#breaks" { "Break points" } " "
-                @for (q, question) in methods.questions.iter().enumerate() {
-                    a href={ "#q" (q) } { (title(question.name)) } " "
-                }
-                a href="#reading" { "Reading the charts" } " "
-                a href="#claims" { "Claims" }
             }
         }
     }

@@ -3,7 +3,7 @@
 use super::breaks::LIMIT;
 use super::data::{DeviceKind, MethodSeries, Methods, SceneSeries, SceneSetting, SeriesPoint};
 use super::name::PAGE;
-use super::{claims, overview, stability};
+use super::{choice, claims, stability};
 use crate::numbers::{duration, share};
 use crate::table::{Cell, Table};
 use crate::words::plain;
@@ -156,7 +156,7 @@ pub(crate) fn lines(methods: &Methods<'_>) -> String {
     let parts = [
         (
             "Methods: accuracy against time",
-            overview::lines(methods, &shown),
+            choice::lines(methods, &shown),
         ),
         (
             "Break points, at 1 % RMSE",

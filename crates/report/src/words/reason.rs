@@ -1,5 +1,6 @@
 //! The reasons of a record in words.
 
+use crate::numbers::{bytes, duration};
 use etalon_frame::{Api, ApiVersion, Band, CounterOutcome, Requirement, WrongTexel};
 use etalon_record::{ComparedPair, Denial, FailedRoundTrip, Fresh, ProcessEnd, Reason, Record};
 
@@ -44,6 +45,18 @@ fn text(reason: &Reason) -> String {
         Reason::Text(text) | Reason::Unfit(text) => text.clone(),
         Reason::Skipped(reason) => format!("not drawn: {reason}"),
         Reason::OutOfTime(seconds) => format!("not drawn within {seconds} s"),
+        Reason::LongFrames(seconds) => {
+            format!(
+                "not timed: a smaller frame already takes {}",
+                duration(*seconds)
+            )
+        }
+        Reason::LargeFrames(size) => {
+            format!(
+                "not drawn: {} of attachments, more than a worker may use",
+                bytes(*size)
+            )
+        }
         Reason::Missing(requirement) => requirement.to_string(),
         Reason::NotRequired(api, version) => {
             format!("no requirement of {}", version_text(*api, *version))

@@ -85,6 +85,8 @@ pub(crate) fn rich(case: &str) -> Record {
             gpu: None,
             interval: None,
         }),
+        sizes: Vec::new(),
+        cost: None,
         passes: 1,
         draws: 3,
         fragments: Some(4096),

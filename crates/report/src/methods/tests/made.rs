@@ -83,6 +83,8 @@ impl Made {
                 gpu: None,
                 interval: self.interval,
             }),
+            sizes: Vec::new(),
+            cost: None,
             passes: self.passes,
             draws: self.draws,
             fragments: self.fragments,

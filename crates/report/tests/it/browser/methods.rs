@@ -15,7 +15,7 @@ macro_rules! checks {
 
 /// Every check, with its name.
 pub(super) const CHECKS: [(&str, Check); 9] = checks![
-    a_budget_says_which_methods_are_left,
+    a_sentence_keeps_the_budget,
     a_legend_highlights_its_method,
     a_slider_swaps_pictures_and_moves_the_mark,
     pictures_are_enlarged_by_click_and_by_keys,
@@ -75,38 +75,54 @@ pub(super) fn write(folder: &Path) -> PathBuf {
     etalon_report::write(&out).unwrap().methods.unwrap()
 }
 
-fn a_budget_says_which_methods_are_left(chromium: &Chromium, path: &Path) {
+/// The script and the page that was written say the same at the beginning, and the script keeps any budget.
+fn a_sentence_keeps_the_budget(chromium: &Chromium, path: &Path) {
+    let written = std::fs::read_to_string(path).unwrap();
+    let written: Vec<String> = written
+        .split("<p class=\"answer\">")
+        .skip(1)
+        .map(|part| part.split("</p>").next().unwrap().replace("&amp;", "&"))
+        .collect();
     let page = chromium.open(path, "");
-    let remaining_methods = || -> Vec<String> {
-        page.eval("[...document.querySelectorAll('.card .left')].map(p => p.textContent)")
+    let answers = || -> Vec<String> {
+        page.eval("[...document.querySelectorAll('.card .answer')].map(p => p.textContent)")
     };
+    assert!(written.len() > 1);
+    assert_eq!(answers(), written, "the script says what the page says");
     let count =
         |what: &str| -> u64 { page.eval(&format!("document.querySelectorAll(\"{what}\").length")) };
-    let cards = count(".card") as usize;
-    assert!(cards > 1);
-    assert_eq!(remaining_methods(), vec![String::new(); cards], "no budget");
-    assert_eq!(count(".card .on:not(.off)") as usize, cards, "one adapter");
+    let marks = count(".card .marks .mark");
+    assert!(marks > 4, "{marks}");
     let set = |id: &str, value: &str| {
         page.run(&format!(
             "$('{id}').value = {value}; $('{id}').dispatchEvent(new Event('input', {{ bubbles: true }}))"
         ));
     };
-    set("most-error", "0");
-    assert_eq!(page.text("#budget output[for=most-error]"), "0\u{a0}%");
-    assert_eq!(remaining_methods(), ["Left: none.", "Left: depth-peeling."]);
-    assert!(count(".card .on:not(.off) .of.beyond") > 0);
-    // No method draws in zero time, and another adapter has its own marks.
+    // No method draws in so short a time.
     set("most-time", "0");
-    set("on", "1");
-    assert_eq!(count(".card .on[data-on='1']:not(.off)") as usize, cards);
+    assert_eq!(page.text("#budget output[for=most-time]"), "100 µs");
     assert!(
-        remaining_methods()
+        answers()
             .iter()
-            .all(|text| text == "Left: none." || text.is_empty()),
+            .all(|text| text.starts_with("Within 100 µs at ")),
         "{:?}",
-        remaining_methods()
+        answers()
     );
-    assert_eq!(count(".card.none"), count(".card .left:not(:empty)"));
+    assert!(count(".card .of.beyond") > 0);
+    set("most-time", "$('most-time').max");
+    set("most-error", "0");
+    assert_eq!(page.text("#budget output[for=most-error]"), "0");
+    assert!(
+        answers()
+            .iter()
+            .all(|text| text.starts_with("Within 0 at "))
+    );
+    // Another adapter has its own marks.
+    set("most-error", "$('most-error').max");
+    let before = answers();
+    set("on", "1");
+    assert!(answers().iter().all(|text| text.starts_with("At ")));
+    assert_ne!(answers(), before);
 }
 
 fn opacity(page: &Page<'_>, class: &str) -> String {

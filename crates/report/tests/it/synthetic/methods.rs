@@ -2,7 +2,10 @@
 
 use super::{adapter, header};
 use etalon_frame::{Accuracy, Api, Aspect, Distance};
-use etalon_record::{Measured, Parameter, Record, RunWriter, Seconds, Times, Verdict};
+use etalon_record::{
+    Clock, Cost, Estimate, Measured, Parameter, Record, RunWriter, Seconds, SizedDistance,
+    SizedFrame, Times, Verdict,
+};
 use std::path::Path;
 
 /// The name, whether the device is the processor, and its slowness factor.
@@ -133,6 +136,34 @@ fn record(
             cpu: wall * 0.1,
             gpu: (slow < 1.0).then_some(wall * 0.8),
             interval: Some([wall * 0.9, wall * 1.2]),
+        }),
+        sizes: vec![SizedFrame {
+            size: [1280, 720],
+            time: Some(Times {
+                samples: 15,
+                wall: wall * 40.0,
+                cpu: wall * 0.1,
+                gpu: None,
+                interval: Some([wall * 39.0, wall * 41.0]),
+            }),
+            distance: Some(SizedDistance {
+                texels: 7540,
+                rmse: rmse * 0.9,
+                max: (rmse * 5.0).min(1.0),
+            }),
+            reason: None,
+        }],
+        cost: Some(Cost {
+            clock: Clock::Wall,
+            fixed: Estimate {
+                median: wall * 0.5,
+                interval: Some([wall * 0.4, wall * 0.6]),
+            },
+            per_megapixel: Estimate {
+                median: wall * 43.0,
+                interval: Some([wall * 42.0, wall * 44.0]),
+            },
+            deviation: None,
         }),
         passes: *passes,
         draws: passes * 6,

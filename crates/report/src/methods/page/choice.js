@@ -1,0 +1,183 @@
+// The adapter, the size of frames and the budget by which methods are chosen. `choice/answer.rs` says the same for the
+// budget with which the page begins, and a test compares both.
+const TIMES = [1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 4e-3, 8e-3, 2e-2, 5e-2, 1e-1, 2e-1, 5e-1, Infinity];
+const ERRORS = [0, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 1e-1, Infinity];
+const ROUNDING = 1 / (255 * Math.sqrt(12)), EXACT = 2 / 255 + 1e-9;
+const worstAlike = error => Math.max(error * 1.05, ROUNDING);
+
+// Numbers as text, as `numbers.rs` writes them.
+function digits(value) {
+  if (value === 0) return "0";
+  const places = Math.max(0, 2 - Math.floor(Math.log10(Math.abs(value))));
+  const text = value.toFixed(places);
+  return places ? text.replace(/\.?0+$/, "") : text;
+}
+function percent(value) {
+  const shown = value * 100;
+  if (shown === 0) return "0";
+  return (shown < 9.5e-5 ? shown.toExponential(0).replace("e-0", "e-") : digits(shown)) + "\u00a0%";
+}
+function seconds(value) {
+  const [factor, unit] = value === 0 ? [1, "s"] : value < 1e-6 ? [1e9, "ns"] : value < 1e-3 ? [1e6, "µs"] : value < 1 ? [1e3, "ms"] : [1, "s"];
+  return digits(value * factor) + " " + unit;
+}
+
+function median(values) {
+  const sorted = [...values].sort((a, b) => a - b), middle = (sorted.length - 1) / 2;
+  return (sorted[Math.floor(middle)] + sorted[Math.ceil(middle)]) / 2;
+}
+
+// Returns the methods of a card on an adapter at a frame: `{ index }` of a measured size, or `{ texels }`.
+function candidates(card, adapter, frame) {
+  const points = JSON.parse(card.dataset.points).filter(point => point[1] === adapter);
+  const here = ([, , , at, cost]) => {
+    if (frame.texels === undefined) return at[frame.index];
+    const nearest = at[frame.nearest];
+    if (!cost || !nearest) return null;
+    const [fixed, unit] = cost;
+    const times = fixed.map((time, i) => Math.max(0, time + unit[i] * frame.texels / 1e6));
+    const all = [Math.min(times[0], times[1]), times[1], Math.max(times[2], times[1])];
+    return all.every(time => time > 0) ? [...all, ...nearest.slice(3)] : null;
+  };
+  const found = JSON.parse(card.dataset.methods).map(([name, order], key) => {
+    const places = points.filter(point => point[0] === name).map(here).filter(Boolean);
+    return { name, order, key, places };
+  });
+  const most = Math.max(0, ...found.map(one => one.places.length));
+  return found.filter(one => one.places.length && 2 * one.places.length >= most).map(({ places, ...one }) => {
+    const errors = places.map(place => place[3]);
+    return {
+      ...one, scenes: places.length, time: [0, 1, 2].map(end => median(places.map(place => place[end]))),
+      error: [Math.min(...errors), median(errors), Math.max(...errors)], exact: places.every(place => place[4] <= EXACT),
+    };
+  });
+}
+
+// Returns the best methods within a budget, or the fastest one if none is within it.
+function choose(all, most, limit) {
+  const fastest = of => of.reduce((best, one) => best && best.time[1] <= one.time[1] ? best : one, null);
+  const every = all.filter(one => one.error[1] <= limit);
+  const sure = every.filter(one => one.time[2] <= most), possible = every.filter(one => one.time[0] <= most);
+  if (!possible.length) return { nothing: fastest(every) ?? fastest(all) };
+  const base = sure.length ? sure : possible, byTime = limit !== Infinity;
+  const least = Math.min(...base.map(one => one.error[1]));
+  const alike = byTime ? base : base.filter(one => one.error[1] <= worstAlike(least));
+  const best = fastest(alike), canBeFaster = one => one.time[0] <= best.time[2];
+  const isBetter = one => byTime ? canBeFaster(one) : worstAlike(one.error[1]) < least;
+  const unsure = possible.filter(one => !sure.includes(one) && isBetter(one) && !alike.includes(one));
+  return { best: [best, ...alike.filter(one => one !== best && canBeFaster(one)), ...unsure] };
+}
+
+function answer(all, most, limit, place) {
+  const limits = [most !== Infinity && seconds(most), limit !== Infinity && percent(limit)].filter(Boolean);
+  const head = limits.length ? `Within ${limits.join(" and ")} at ${place}` : `At ${place}`;
+  const words = name => name === "none" ? "none (plain drawing)" : name;
+  const figures = one => {
+    const [low, error, high] = one.error;
+    const range = one.scenes > 1 && low < high ? ` (${percent(low)} to ${percent(high)} over ${one.scenes} scenes)` : "";
+    return `${words(one.name)}, ${error === 0 ? "no error" : percent(error)}${range}, ${seconds(one.time[1])}`;
+  };
+  const { nothing, best } = choose(all, most, limit);
+  if (nothing === null) return `${head}: not timed.`;
+  if (nothing) return `${head}: nothing. The fastest is ${figures(nothing)}.`;
+  const texts = best.map(figures), first = texts.length === 1 ? texts[0] : "either " + texts.join("; or ");
+  const hasOrder = all.some(one => one.order !== null), fits = one => one.exact && (!hasOrder || one.order === "");
+  if (best.some(fits)) return `${head}: ${first}.`;
+  const exact = all.filter(fits).sort((a, b) => a.time[1] - b.time[1])[0];
+  const name = hasOrder ? "exact and order-independent" : "exact";
+  return `${head}: ${first}${exact ? `; ${name}: ${words(exact.name)}, ${seconds(exact.time[1])}` : ""}.`;
+}
+
+// Returns an element of a chart; its namespace is that of the charts on the page.
+const drawn = (name, attributes, ...children) =>
+  filled(document.createElementNS(document.querySelector("svg").namespaceURI, name), attributes, children);
+
+// Draws the marks of a card's methods and the limits of the budget.
+function plotMarks(card, all, most, limit) {
+  const plotted = card.querySelector(".plotted");
+  if (!plotted) return;
+  const [[x0, x1], left, right] = JSON.parse(plotted.dataset.x), [[y0, y1], top, bottom, zero] = JSON.parse(plotted.dataset.y);
+  const part = (value, low, high) => Math.min(1, Math.max(0, (Math.log10(value) - low) / (high - low)));
+  const x = time => left + part(time, x0, x1) * (right - left);
+  const y = error => zero > 0 && error <= 0 ? bottom - zero / 2 : bottom - zero - part(error, y0, y1) * (bottom - zero - top);
+  const keys = card.querySelectorAll(".legend .key path"), taken = all.map(one => box(x(one.time[1]) - 5, y(one.error[1]) + 5, 10, 10));
+  const marks = all.map(one => {
+    const [at, up] = [x(one.time[1]), y(one.error[1])], name = one.name + (one.order ?? "");
+    const mark = keys[one.key].cloneNode();
+    mark.setAttribute("transform", `translate(${at} ${up})`);
+    mark.append(drawn("title", {}, `${one.name}: ${percent(one.error[1])} (${percent(one.error[0])} to ${percent(one.error[2])}), ` +
+      `${seconds(one.time[1])} (${seconds(one.time[0])} to ${seconds(one.time[2])})`));
+    const group = drawn("a", { class: mark.getAttribute("class").replace("mark", "of"), href: card.querySelector("h3 a").getAttribute("href") },
+      drawn("path", { class: "spread", d: `M${at} ${y(one.error[0])}V${y(one.error[2])}` }),
+      drawn("path", { class: "spread wide", d: `M${x(one.time[0])} ${up}H${x(one.time[2])}` }), mark);
+    group.classList.toggle("beyond", one.time[1] > most || one.error[1] > limit);
+    const wide = name.length * 5.8;
+    const places = [[at + 7, up + 3.5], [at + 6, up - 7], [at + 6, up + 14], [at - wide - 8, up + 3.5], [at - wide / 2, up - 9], [at - wide / 2, up + 17]];
+    const free = places.find(([l, b]) => l > left && l + wide < right && b - 9 > top && b < bottom && !taken.some(other => meet(box(l, b, wide, 10), other)));
+    if (free) {
+      taken.push(box(...free, wide, 10));
+      group.append(drawn("text", { class: "label", x: free[0], y: free[1] }, name));
+    }
+    return group;
+  });
+  plotted.querySelector(".marks").replaceChildren(...marks);
+  const limits = [most !== Infinity && `M${x(most)} ${top}V${bottom}`, limit !== Infinity && `M${left} ${y(limit)}H${right}`];
+  plotted.querySelector(".limits").replaceChildren(...limits.filter(Boolean).map(d => drawn("path", { class: "limit", d })));
+}
+
+// Rectangles by their left end, their bottom, width and height.
+const box = (left, bottom, width, height) => [left, bottom - height, left + width, bottom];
+const meet = (a, b) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
+
+function weigh() {
+  const sizes = JSON.parse($("overview").dataset.sizes), on = Number($("on").value);
+  const [most, limit] = [[TIMES, "most-time"], [ERRORS, "most-error"]].map(([stops, id]) => stops[Number($(id).value)]);
+  const outputs = [["most-time", most, seconds], ["most-error", limit, percent]];
+  for (const [id, value, text] of outputs) $(id).labels[0].querySelector("output").textContent = value === Infinity ? "any" : text(value);
+  const computed = $("frame").value === "computed", texelsOf = sides => sides[0] * sides[1];
+  $("texels").closest("label").hidden = !computed;
+  let frame = { index: Number($("frame").value) }, size = $("frame").selectedOptions[0].textContent;
+  if (computed) {
+    const known = sizes.slice(1).map(texelsOf), [low, high] = [Math.min(...known) / 2, Math.max(...known) * 2];
+    const texels = low * (high / low) ** (Number($("texels").value) / 100);
+    const away = i => Math.abs(Math.log(known[i] / texels));
+    frame = { texels, nearest: 1 + known.map((_, i) => i).reduce((best, i) => away(i) < away(best) ? i : best, 0) };
+    size = digits(texels / 1e6) + " megapixels";
+    $("texels").labels[0].querySelector("output").textContent = size;
+  }
+  const place = `${size} on ${$("on").selectedOptions[0].textContent}`;
+  for (const card of document.querySelectorAll(".card")) {
+    const all = candidates(card, on, frame);
+    card.querySelector(".answer").textContent = answer(all, most, limit, place);
+    plotMarks(card, all, most, limit);
+  }
+}
+
+if ($("budget")) {
+  $("budget").hidden = false;
+  const begin = Number($("budget").dataset.time);
+  for (const [stops, id, start] of [[TIMES, "most-time", TIMES.indexOf(begin)], [ERRORS, "most-error", ERRORS.length - 1]]) {
+    $(id).max = stops.length - 1;
+    $(id).value = start;
+  }
+  $("budget").addEventListener("input", weigh);
+  $("budget").addEventListener("submit", event => event.preventDefault());
+  weigh();
+}
+
+// A click on the head of a column sorts the rows by it, a second one the other way round.
+for (const head of document.querySelectorAll("table.sortable thead th")) {
+  head.addEventListener("click", event => {
+    if (event.target.closest("a")) return;
+    const body = head.closest("table").tBodies[0], at = head.cellIndex, sorted = head.getAttribute("aria-sort") !== "ascending";
+    const value = row => Number(row.cells[at].dataset.value ?? NaN), name = row => row.cells[at].textContent;
+    const rows = [...body.rows].sort((a, b) => {
+      const [x, y] = [value(a), value(b)];
+      const order = at === 0 ? name(a).localeCompare(name(b)) : Number.isNaN(x) - Number.isNaN(y) || x - y;
+      return sorted || Number.isNaN(x) !== Number.isNaN(y) ? order : -order;
+    });
+    for (const other of head.parentElement.cells) other.removeAttribute("aria-sort");
+    head.setAttribute("aria-sort", sorted ? "ascending" : "descending");
+    body.append(...rows);
+  });
+}
