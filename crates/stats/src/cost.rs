@@ -91,7 +91,7 @@ fn line(points: impl Iterator<Item = (f64, f64)> + Clone, weights: &[f64]) -> Op
     let spread: f64 = weighted().map(|((a, _), w)| (a - x) * (a - x) * w).sum();
     let together: f64 = weighted().map(|((a, b), w)| (a - x) * (b - y) * w).sum();
     let slope = together / spread;
-    slope.is_finite().then(|| (y - slope * x, slope))
+    slope.is_finite().then_some((y - slope * x, slope))
 }
 
 #[cfg(test)]
