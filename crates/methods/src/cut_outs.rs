@@ -55,6 +55,8 @@ pub(crate) enum MethodName {
     Discard,
     /// Blended card by card, farthest first, by the mean depth of the corners.
     BlendSorted,
+    /// Opaque if the filtered alpha is at least a hash of the place on the card (Wyman and McGuire 2017).
+    Hashed,
     /// Opaque in some of four samples; their number follows alpha.
     AlphaToCoverage,
 }
@@ -75,6 +77,7 @@ pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
     let scene = match wire.method {
         MethodName::Discard => discard(&cards, wire.address, cutoff),
         MethodName::BlendSorted => blend_sorted(&cards, wire.address),
+        MethodName::Hashed => hashed(&cards, wire.address),
         MethodName::AlphaToCoverage => alpha_to_coverage(&cards, wire.address),
     };
     Ok(MethodScene {
@@ -223,6 +226,37 @@ fn discard(cards: &[Polygon], address: AddressMode, cutoff: f64) -> Scene {
     draw.depth = depth(CompareFunction::Less, true);
     stage.pass(&[picture], Some(depth_stencil), vec![draw]);
     stage.read(&[picture])
+}
+
+/// The number of cards in a row of the hashed plane.
+const ROW: usize = 16;
+
+fn hashed(cards: &[Polygon], address: AddressMode) -> Scene {
+    let mut stage = Stage::new();
+    let picture = stage.color("picture", PICTURE, SIZE, clear());
+    let depth_stencil = stage.depth("depth", DEPTH, SIZE, 1, 1.0);
+    let placed: Vec<Polygon> = (0..).zip(cards).map(placed).collect();
+    let mut draw = textured(&mut stage, Shader::HashedSample, &placed, address);
+    // A hashed cell is as large as a texel of the picture.
+    let [width, height] = SIZE.map(|side| side as f32);
+    draw.params = Params {
+        color: [width, height, 0.0, 0.0],
+        back_color: [0.0; 4],
+    };
+    draw.depth = depth(CompareFunction::Less, true);
+    stage.pass(&[picture], Some(depth_stencil), vec![draw]);
+    stage.read(&[picture])
+}
+
+/// Returns the card with its size and its own place in the hashed plane as its colour, in widths of the picture.
+fn placed((number, card): (usize, &Polygon)) -> Polygon {
+    let [near, far] = [card.corners[0], card.corners[2]];
+    let [width, height] = [0, 1].map(|axis| (far[axis] - near[axis]) / f64::from(SIZE[axis]));
+    let [column, row] = [number % ROW, number / ROW].map(|place| 2.0 * place as f64);
+    Polygon {
+        color: [width, height, column, row],
+        ..card.clone()
+    }
 }
 
 /// Returns the cards, farthest first.

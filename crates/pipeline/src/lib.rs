@@ -12,6 +12,7 @@
 mod advanced;
 mod arithmetic;
 mod blend;
+mod cell_hash;
 mod coverage;
 mod depth;
 mod half_float;
@@ -28,6 +29,7 @@ mod viewport;
 pub use advanced::advanced_blend;
 pub use arithmetic::Arithmetic;
 pub use blend::{BlendInput, blend};
+pub use cell_hash::cell_hash;
 pub use coverage::{Point, SnappedTriangle, edge_value, is_top_left, signed_area};
 pub use depth::{DepthPlane, slope};
 pub use homogeneous::{

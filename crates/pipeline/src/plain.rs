@@ -1,6 +1,7 @@
 //! The plain number system: 32-bit floats in lanes.
 
 use crate::arithmetic::Arithmetic;
+use crate::cell_hash::cell_hash;
 use crate::half_float::{lengthened, narrowed, shortened, widened};
 use crate::logic::logic_operation;
 use crate::rounding::{integer_part, unit};
@@ -89,6 +90,11 @@ impl<const N: usize> Arithmetic for Plain<N> {
     #[inline(always)]
     fn sqrt(&mut self, value: [f32; N]) -> [f32; N] {
         each(value, f32::sqrt)
+    }
+
+    #[inline(always)]
+    fn cell_hash(&mut self, [x, y]: [[f32; N]; 2]) -> [f32; N] {
+        zip(x, y, |x, y| cell_hash([x as u32, y as u32]))
     }
 
     #[inline(always)]

@@ -11,7 +11,7 @@ use crate::rules::{
     SmallFloats,
 };
 use etalon_frame::{ChannelEncoding, CodeInterval, linear_of_half_codes};
-use etalon_pipeline::{Arithmetic, logic_operation};
+use etalon_pipeline::{Arithmetic, cell_hash, logic_operation};
 use etalon_scene::LogicOperation;
 
 /// The values to which a blend rounds its results if it does not compute in floating-point.
@@ -571,6 +571,16 @@ impl Arithmetic for Judging<'_> {
 
     fn sqrt(&mut self, value: Range) -> Range {
         value.map(|v| self.root(v))
+    }
+
+    fn cell_hash(&mut self, point: [Range; 2]) -> Range {
+        let [x, y] = point.map(Range::hull);
+        let cell = |end: fn(Interval) -> f64| [end(x) as u32, end(y) as u32];
+        let cells = [cell(|v| v.low), cell(|v| v.high)];
+        if cells[0] != cells[1] || x.may_be_nan() || y.may_be_nan() {
+            return Range::same(Interval::between(0.0, 1.0));
+        }
+        Range::exact(f64::from(cell_hash(cells[0])))
     }
 
     fn select_less(&mut self, a: Range, b: Range, less: Range, otherwise: Range) -> Range {

@@ -413,6 +413,13 @@ shaders! {
     /// coordinates, minimum contrast of an edge relative to the brightest neighbour, and absolute minimum
     /// contrast; `params.back_color`'s red: the weight of single texels.
     Fxaa = "fxaa" { params: true, textures: 1, sampler: true, taps: true },
+    /// The vertex colour, opaque; discards if its alpha is below the hash of the cell of the texture coordinates
+    /// times `params.color`'s red and green.
+    HashedColor = "hashed_color" { params: true, uv: true, discards: true },
+    /// Texture 0, opaque; discards if its alpha is below the hash of the cell of a place, times `params.color`'s red
+    /// and green. The place is the texture coordinates times the vertex colour's red and green, plus its blue
+    /// and alpha.
+    HashedSample = "hashed_sample" { params: true, textures: 1, sampler: true, discards: true },
     /// Four bits of its input sample mask, starting from the bit number in `params.color`'s red.
     InputMask = "input_mask" { params: true, reads_mask: true, position_only: true },
     /// Like `input_mask`, with the sample's own bit inverted. Runs once per sample.

@@ -183,7 +183,12 @@ fn attributes(shader: Shader) -> &'static [VertexAttribute] {
     ];
     const TEXTURED: [VertexAttribute; 2] = [ALL[0], ALL[2]];
     match shader {
-        Shader::ClipFlat | Shader::ClipUniform | Shader::CullFlat | Shader::EdgeAlpha => &ALL,
+        Shader::ClipFlat
+        | Shader::ClipUniform
+        | Shader::CullFlat
+        | Shader::EdgeAlpha
+        | Shader::HashedColor
+        | Shader::HashedSample => &ALL,
         Shader::Centroid
         | Shader::Fxaa
         | Shader::SampledColor

@@ -16,6 +16,12 @@ pub(crate) const LESSONS: &[Lesson] = &[
         "Porter and Duff 1984, Compositing Digital Images",
     ),
     Lesson::new(
+        "hashed",
+        "Fragments whose filtered alpha is below a hash of their place on the card are discarded, so that thin parts keep their share of texels.",
+        "Wherever alpha is between 0 and 1 the picture is noise: near the viewer, edges are rougher than with a fixed cutoff.",
+        "Wyman and McGuire 2017, Hashed Alpha Testing",
+    ),
+    Lesson::new(
         "alpha-to-coverage",
         "The filtered alpha becomes a mask of the samples of a texel.",
         "No order is needed, but the same mask in each card hides what should be visible through two of them.",

@@ -13,9 +13,10 @@ fn wire(method: MethodName, address: AddressMode) -> Wire {
     }
 }
 
-const METHODS: [MethodName; 3] = [
+const METHODS: [MethodName; 4] = [
     MethodName::Discard,
     MethodName::BlendSorted,
+    MethodName::Hashed,
     MethodName::AlphaToCoverage,
 ];
 

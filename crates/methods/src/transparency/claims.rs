@@ -178,6 +178,18 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&["thin-layers", "smoke"]),
     Claim::new(
         QUESTION,
+        "Hashed alpha testing is stochastic transparency with one sample: twice the noise of four samples.",
+        "Wyman and McGuire 2017, Hashed Alpha Testing",
+        Test::Ratio {
+            quantity: Quantity::Rmse,
+            of: one!("hashed"),
+            over: one!("stochastic"),
+            holds: FigureCondition::Between(1.6, 2.5),
+        },
+    )
+    .of(&["windows", "thin-layers", "smoke", "intersecting-panes"]),
+    Claim::new(
+        QUESTION,
         "Alpha to coverage has a level for each sample, and one for none.",
         "Akeley 1993, RealityEngine Graphics; Vulkan: Multisample Coverage",
         Test::Levels {

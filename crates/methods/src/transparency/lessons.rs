@@ -46,6 +46,12 @@ pub(crate) const LESSONS: &[Lesson] = &[
         "Enderton, Sintorn, Shirley and Luebke 2010, Stochastic Transparency",
     ),
     Lesson::new(
+        "hashed",
+        "A fragment is opaque if its alpha is at least a hash of its place on the surface, so that the share of opaque texels is alpha, and the pattern moves with the surface.",
+        "With one sample, a texel shows one surface as a whole: the picture is right on average, with twice the noise of four random samples.",
+        "Wyman and McGuire 2017, Hashed Alpha Testing",
+    ),
+    Lesson::new(
         "depth-peeling",
         "Each pass keeps the nearest surface behind that of the previous pass, and composes it under the picture so far.",
         "Everything behind the last peeled layer, here the eighth, is missing.",

@@ -5,6 +5,7 @@
 
 mod claims;
 mod draws;
+mod hashed;
 mod lessons;
 mod lists;
 mod many_samples;
@@ -52,6 +53,7 @@ pub(crate) fn make(wire: &TransparencyWire) -> Result<MethodScene, ParameterErro
         TransparencyMethod::FrontToBack => ordered::front_to_back(&glass),
         TransparencyMethod::AlphaToCoverage => many_samples::alpha_to_coverage(&glass, &list()),
         TransparencyMethod::Stochastic => many_samples::stochastic(&glass, &list()),
+        TransparencyMethod::Hashed => hashed::hashed(&glass, &list()),
         TransparencyMethod::DepthPeeling => {
             peeling::depth_peeling(&glass, &list(), wire.k.unwrap_or(PEELED_LAYERS))
         }

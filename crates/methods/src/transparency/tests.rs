@@ -3,7 +3,7 @@
 use super::ordered::{behind, by_object, by_triangle};
 use super::scenes::GlassScene;
 use super::wire::{TransparencyMethod, TransparencyScene, TransparencyWire};
-use super::{make, many_samples};
+use super::{hashed, make, many_samples};
 use crate::polygon::Polygon;
 use crate::stage::SIZE;
 use crate::truth::TexelCoverage;
@@ -19,7 +19,7 @@ const SCENES: [TransparencyScene; 6] = [
     TransparencyScene::Smoke,
 ];
 
-const METHODS: [TransparencyMethod; 13] = [
+const METHODS: [TransparencyMethod; 14] = [
     TransparencyMethod::Unsorted,
     TransparencyMethod::Sorted,
     TransparencyMethod::SortedTriangles,
@@ -27,6 +27,7 @@ const METHODS: [TransparencyMethod; 13] = [
     TransparencyMethod::AlphaTest,
     TransparencyMethod::AlphaToCoverage,
     TransparencyMethod::Stochastic,
+    TransparencyMethod::Hashed,
     TransparencyMethod::DepthPeeling,
     TransparencyMethod::DualDepthPeeling,
     TransparencyMethod::WeightedBlended,
@@ -266,6 +267,23 @@ fn the_share_of_thresholds_below_alpha_is_alpha_and_none_is_close_to_it() {
             "{share} of {alpha}"
         );
     }
+}
+
+#[test]
+fn hashed_places_move_with_a_surface_and_no_two_surfaces_share_one() {
+    let square =
+        |left: f64, top: f64| Polygon::rect([left, top, left + 9.0, top + 5.0], 0.5, [1.0; 4]);
+    let still = hashed::placed((3, &square(7.0, 20.0)));
+    assert_eq!(still.uv, hashed::placed((3, &square(64.0, 21.0))).uv);
+    let mut places = Vec::new();
+    for (number, strip) in glass(TransparencyScene::Hair).polygons().enumerate() {
+        let [u, v] = hashed::placed((number, strip)).uv[0];
+        places.push([u, v].map(|place| (place / 2.0) as u32));
+    }
+    let surfaces = places.len();
+    places.sort_unstable();
+    places.dedup();
+    assert_eq!(places.len(), surfaces);
 }
 
 #[test]

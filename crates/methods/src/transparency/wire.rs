@@ -40,6 +40,8 @@ pub(crate) enum TransparencyMethod {
     AlphaToCoverage,
     /// Opaque in random ones of four samples, different in each layer (Enderton and others 2010).
     Stochastic,
+    /// Opaque if alpha is at least a hash of the place on the surface (Wyman and McGuire 2017).
+    Hashed,
     /// One layer per peel, nearest first (Everitt 2001).
     DepthPeeling,
     /// The nearest and the farthest layer per peel (Bavoil and Myers 2008).

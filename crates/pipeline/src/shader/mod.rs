@@ -31,6 +31,8 @@ mod frag_coord_color;
 mod frag_coord_depth;
 mod front_facing;
 mod fxaa;
+mod hashed_color;
+mod hashed_sample;
 mod input_mask;
 mod input_mask_sample;
 mod interface;
@@ -113,6 +115,8 @@ pub fn fragment<A: Arithmetic>(
         Shader::FragCoordDepth => frag_coord_depth::fragment::<A>(input),
         Shader::FrontFacing => front_facing::fragment(a, input),
         Shader::Fxaa => fxaa::fragment(a, input),
+        Shader::HashedColor => hashed_color::fragment(a, input),
+        Shader::HashedSample => hashed_sample::fragment(a, input),
         Shader::InputMask => input_mask::fragment(a, input),
         Shader::InputMaskSample => input_mask_sample::fragment(a, input),
         Shader::LinearDepth => linear_depth::fragment(a, input),

@@ -256,6 +256,7 @@ fn draw(ground: Ground) -> BoxedStrategy<String> {
             ("expensive_depth", ""),
             ("expensive_discard", ""),
             ("fog", ""),
+            ("hashed_color", ""),
             ("linear_depth", ""),
             ("logarithmic_depth", ""),
             ("stochastic", r#","textures":["source"]"#),
