@@ -295,9 +295,19 @@ fn check_pool(wire: &DrawWire, target: &DrawTarget<'_>) -> Result<(), At> {
         let message = format!("{name} needs a pool of the pass's size, and a single sample");
         return Err(At::new(message).key("shader"));
     }
-    let [width, height, ..] = wire.params.color.0;
+    let [width, height, layers, _] = wire.params.color.0;
     if [width, height] != target.size.map(|side| side as f32) {
         let message = format!("for {name}, red and green must be the size of the picture");
+        return Err(At::new(message).key("color").key("params"));
+    }
+    let expected = target.pool.map_or(0, |pool| pool.layers);
+    if wire.shader.uses_layers() != (expected > 0) {
+        let needs = if expected > 0 { "lists" } else { "layers" };
+        let message = format!("{name} does not fit the pool: it needs one with {needs}");
+        return Err(At::new(message).key("shader"));
+    }
+    if wire.shader.uses_layers() && layers != expected as f32 {
+        let message = format!("for {name}, blue must be the number of layers");
         return Err(At::new(message).key("color").key("params"));
     }
     Ok(())

@@ -88,6 +88,14 @@ fn check_pool(wire: &SceneWire) -> Result<(), At> {
     match wire.pool {
         None => Ok(()),
         Some(_) if !used => Err(At::new("no shader uses it")),
+        Some(pool)
+            if pool.layers > 0
+                && u64::from(pool.nodes) != pool.texels() * u64::from(pool.layers) =>
+        {
+            Err(At::new(
+                "a pool with layers has as many nodes for each texel",
+            ))
+        }
         Some(pool) if pool.nodes == 0 || pool.bytes() > Pool::MOST_BYTES => Err(At::new(format!(
             "a pool needs at least one node, and at most {} bytes",
             Pool::MOST_BYTES

@@ -246,7 +246,8 @@ impl<'a, S: Steps> SpanState<'a, S> {
             self.run_expensive_loop(span, new, &mut output);
             shaded = Some(output);
             if let Some(node) = &output.node {
-                self.lists.add([span.x, span.y], node, new);
+                let pool_use = self.draw.shader.pool_use();
+                self.lists.add([span.x, span.y], pool_use, node, new);
             }
             if let Some(kept) = &output.kept {
                 mask = and(mask, self.steps.kept(kept));
@@ -293,7 +294,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
         };
         let mask = |bit: u32| self.input_bit(span, sample, bit as usize);
         let list = if self.draw.shader.reads_pool() {
-            self.lists.of([span.x, span.y])
+            self.lists.of([span.x, span.y], self.draw.shader.pool_use())
         } else {
             Vec::new()
         };

@@ -97,6 +97,9 @@ fn can_be_written(context: &Context, feature: Feature) -> bool {
         Feature::FragmentStorage => &[
             (Shader::ListAppend, EarlyTests::Implicit),
             (Shader::ListCompose, EarlyTests::Implicit),
+            (Shader::NearestDepths, EarlyTests::Implicit),
+            (Shader::NearestColors, EarlyTests::Implicit),
+            (Shader::NearestCompose, EarlyTests::Implicit),
         ],
         Feature::LinearInterpolation => &[(Shader::SteppedLinear, EarlyTests::Implicit)],
         Feature::SampleInterpolation => &[(Shader::SteppedPerspectiveSample, EarlyTests::Implicit)],

@@ -49,6 +49,14 @@ pub(crate) fn assert_valid(scene: &Scene) {
                 let [width, height, ..] = draw.params.color;
                 assert_eq!((pool.size, 1), shape(&drawn[0]));
                 assert_eq!([width, height], pool.size.map(|side| side as f32));
+                assert_eq!(draw.shader.uses_layers(), pool.layers > 0);
+                if pool.layers > 0 {
+                    assert_eq!(draw.params.color[2], pool.layers as f32);
+                    assert_eq!(
+                        u64::from(pool.nodes),
+                        pool.texels() * u64::from(pool.layers)
+                    );
+                }
                 assert!(pool.nodes > 0 && pool.bytes() <= Pool::MOST_BYTES);
             }
             assert_eq!(draw.sampler.is_some(), draw.shader.samples_texture());

@@ -62,7 +62,7 @@ pub use rasterization::{
 };
 pub use sampler::{AddressMode, FilterMode, Sampler};
 pub use scene::{Counter, Scene};
-pub use shader::{Interpolation, InterpolationSampling, STENCIL_REFERENCE, Shader};
+pub use shader::{Interpolation, InterpolationSampling, PoolUse, STENCIL_REFERENCE, Shader};
 pub use tessellation::{
     CONTROL_GLSL, CONTROL_SPIRV, DomainOrigin, EVALUATION_GLSL, Tessellation, evaluation_spirv,
 };

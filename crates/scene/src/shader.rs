@@ -91,14 +91,20 @@ pub enum InterpolationSampling {
 }
 
 /// A shader's use of the scene's pool.
-#[derive(PartialEq, Eq)]
-enum PoolUse {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PoolUse {
     /// The shader does not use the pool.
     None,
-    /// The shader adds its fragments.
-    Adds,
+    /// The shader adds its fragments to the lists of their texels.
+    Append,
     /// The shader reads the list of its texel.
-    Reads,
+    ReadList,
+    /// The shader stores the depths of its fragments if they are among the nearest of their texels.
+    KeepNearest,
+    /// The shader stores the colours of fragments whose depths are stored.
+    FillNearest,
+    /// The shader reads the nearest layers of its texel.
+    ReadNearest,
 }
 
 /// The depth that a shader writes.
@@ -257,18 +263,37 @@ impl Shader {
         self.facts().counter
     }
 
-    /// Returns true if the shader adds its fragments to the scene's pool.
-    pub fn adds_to_pool(self) -> bool {
-        self.facts().pool == PoolUse::Adds
+    /// Returns the shader's use of the scene's pool.
+    pub fn pool_use(self) -> PoolUse {
+        self.facts().pool
     }
 
-    /// Returns true if the shader reads lists from the scene's pool.
+    /// Returns true if the shader stores its fragments in the scene's pool.
+    pub fn adds_to_pool(self) -> bool {
+        let uses = [PoolUse::Append, PoolUse::KeepNearest, PoolUse::FillNearest];
+        uses.contains(&self.pool_use())
+    }
+
+    /// Returns true if the shader reads nodes from the scene's pool.
     pub fn reads_pool(self) -> bool {
-        self.facts().pool == PoolUse::Reads
+        let uses = [
+            PoolUse::ReadList,
+            PoolUse::FillNearest,
+            PoolUse::ReadNearest,
+        ];
+        uses.contains(&self.pool_use())
+    }
+
+    /// Returns true if the shader needs a pool with layers.
+    pub fn uses_layers(self) -> bool {
+        !matches!(
+            self.pool_use(),
+            PoolUse::None | PoolUse::Append | PoolUse::ReadList
+        )
     }
 
     /// Returns true if the shader uses the scene's pool. The red and green of `params.color` are then the
-    /// pool's size.
+    /// pool's size, and its blue the number of layers.
     pub fn uses_pool(self) -> bool {
         self.facts().pool != PoolUse::None
     }
@@ -429,10 +454,10 @@ shaders! {
     LinearDepth = "linear_depth" { params: true, reads_w: true, depth: WrittenDepth::Computed },
     /// Adds the vertex colour and the fragment's depth to the list of its texel. `params.color`: width and
     /// height of the picture.
-    ListAppend = "list_append" { params: true, pool: PoolUse::Adds, reads_depth: true },
+    ListAppend = "list_append" { params: true, pool: PoolUse::Append, reads_depth: true },
     /// The list of the texel, composed nearest first, premultiplied, with the transmittance as alpha.
     /// `params.color`: width and height of the picture.
-    ListCompose = "list_compose" { params: true, pool: PoolUse::Reads, position_only: true },
+    ListCompose = "list_compose" { params: true, pool: PoolUse::ReadList, position_only: true },
     /// The vertex colour; writes as depth the binary logarithm of the distance (the clip-space w) over
     /// `params.color`'s red, times its blue.
     LogarithmicDepth = "logarithmic_depth" { params: true, reads_w: true, depth: WrittenDepth::Computed },
@@ -454,6 +479,16 @@ shaders! {
     /// Moment-based transparency: the vertex colour, premultiplied, times the transmittance in front of the
     /// fragment, from the absorbance in texture 0 and its moments in texture 1.
     MomentTransmittance = "moment_transmittance" { textures: 2, reads_depth: true },
+    /// Stores the vertex colour in a node of its texel that has the fragment's depth. Otherwise the colour,
+    /// premultiplied, to location 0, and alpha to location 1; zeros if it is stored. `params.color`: width and
+    /// height of the picture, and the number of layers.
+    NearestColors = "nearest_colors" { params: true, outputs: 2, pool: PoolUse::FillNearest, reads_depth: true },
+    /// The nearest layers of the texel over the mean of texture 0's sums, whose transmittance is texture 1's
+    /// red; premultiplied, with the transmittance of everything as alpha. `params.color` as for `nearest_colors`.
+    NearestCompose = "nearest_compose" { params: true, textures: 2, pool: PoolUse::ReadNearest, position_only: true },
+    /// Stores the fragment's depth if it is among the nearest of its texel. `params.color` as for
+    /// `nearest_colors`.
+    NearestDepths = "nearest_depths" { params: true, pool: PoolUse::KeepNearest, reads_depth: true, position_only: true },
     /// A step of depth peeling: writes the vertex colour, and the depth to location 1. Discards fragments
     /// that are not behind the depth in texture 0.
     Peel = "peel" { textures: 1, outputs: 2, discards: true, reads_depth: true },
@@ -525,7 +560,8 @@ mod tests {
             );
             assert_eq!(shader.uses_storage(), has("@binding(3)"), "{name}");
             assert_eq!(shader.uses_pool(), has("array<atomic<u32>>"), "{name}");
-            assert_eq!(shader.adds_to_pool(), has("atomicExchange"), "{name}");
+            let adds = has("atomicExchange") || has("atomicMax");
+            assert_eq!(shader.adds_to_pool(), adds, "{name}");
             assert_eq!(
                 shader.passes_position_alone(),
                 has("-> @builtin(position) vec4f"),

@@ -214,6 +214,7 @@ fn attributes(shader: Shader) -> &'static [VertexAttribute] {
         | Shader::LogarithmicDepth
         | Shader::MomentAbsorbance
         | Shader::MomentTransmittance
+        | Shader::NearestColors
         | Shader::Peel
         | Shader::Stochastic
         | Shader::WeightedAccumulate => &ALL[..2],
@@ -237,6 +238,8 @@ fn attributes(shader: Shader) -> &'static [VertexAttribute] {
         | Shader::MaskedSample
         | Shader::ListCompose
         | Shader::MomentResolve
+        | Shader::NearestCompose
+        | Shader::NearestDepths
         | Shader::SampleDepth
         | Shader::SampleIndex
         | Shader::SteppedFragCoord

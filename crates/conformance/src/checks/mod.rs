@@ -169,6 +169,7 @@ registry! {
     }
     lists {
         fragments_are_listed_and_composed a_full_pool_drops_the_rest
+        the_nearest_layers_are_kept_over_a_tail
     }
     shaders {
         every_shader_draws

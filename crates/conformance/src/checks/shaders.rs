@@ -46,12 +46,13 @@ fn with_shader(shader: Shader, targets: usize) -> Value {
         draw["counters"] = json!(["runs"]);
         counters = json!({ "runs": "shader-runs" });
     }
+    let layers = if shader.uses_layers() { 4 } else { 0 };
     if shader.uses_pool() {
-        draw["params"] = json!({ "color": [4, 4, 0, 0] });
+        draw["params"] = json!({ "color": [4, 4, layers, 0] });
     }
     let pool = shader
         .uses_pool()
-        .then(|| json!({ "size": [4, 4], "nodes": 64 }));
+        .then(|| json!({ "size": [4, 4], "nodes": 64, "layers": layers }));
     json!({
         "attachments": attachments,
         "passes": [{ "color": names, "depth_stencil": "depth", "draws": [draw] }],

@@ -166,6 +166,52 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .between(8.0, 8.0),
     Claim::new(
         QUESTION,
+        "An array of the k nearest fragments is right in any order if no texel has more.",
+        "Bavoil and others 2007, Multi-Fragment Effects on the GPU Using the k-Buffer",
+        Test::Value {
+            quantity: Quantity::Rmse,
+            of: "nearest-layers",
+            holds: FigureCondition::AtMost(0.004),
+        },
+    )
+    .noting("In these scenes no texel has more than eight fragments.")
+    .of(&["windows", "intersecting-panes", "nested-glass"]),
+    Claim::new(
+        QUESTION,
+        "The mean of the layers behind the k nearest has less error than no layers there.",
+        "Maule, Comba, Torchelsen and Bastos 2013, Hybrid Transparency",
+        Test::Ratio {
+            quantity: Quantity::Rmse,
+            of: one!("nearest-layers"),
+            over: one!("depth-peeling"),
+            holds: FigureCondition::Below(1.0),
+        },
+    )
+    .of(&["peeling"])
+    .between(1.0, 8.0),
+    Claim::new(
+        QUESTION,
+        "A few layers in order in front of the mean leave less error than the mean of all.",
+        "Maule, Comba, Torchelsen and Bastos 2013, Hybrid Transparency",
+        Test::Ratio {
+            quantity: Quantity::Rmse,
+            of: one!("nearest-layers"),
+            over: one!("weighted-blended"),
+            holds: FigureCondition::Below(1.0),
+        },
+    ),
+    Claim::new(
+        QUESTION,
+        "The nearest layers take three passes and draw the geometry twice, however many layers there are.",
+        "Maule, Comba, Torchelsen and Bastos 2013, Hybrid Transparency",
+        Test::Value {
+            quantity: Quantity::Passes,
+            of: "nearest-layers",
+            holds: FigureCondition::Between(3.0, 3.0),
+        },
+    ),
+    Claim::new(
+        QUESTION,
         "Random masks for each layer compose layers better than the fixed masks of alpha to coverage.",
         "Enderton, Sintorn, Shirley and Luebke 2010, Stochastic Transparency",
         Test::Ratio {

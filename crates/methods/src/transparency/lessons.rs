@@ -82,6 +82,12 @@ pub(crate) const LESSONS: &[Lesson] = &[
         "Yang, Hensley, Grün and Thibieroz 2010, Real-Time Concurrent Linked List Construction on the GPU",
     ),
     Lesson::new(
+        "nearest-layers",
+        "One pass sorts the depths of a texel's eight nearest fragments into an array by atomic minima, a second stores their colours and sums up all others, a third composes the eight over the mean of the others.",
+        "The layers in the array are exact and those behind it have no order: with more layers than the array holds, or with less alpha in front, the mean shows.",
+        "Maule, Comba, Torchelsen and Bastos 2013, Hybrid Transparency; Bavoil and others 2007, Multi-Fragment Effects on the GPU Using the k-Buffer",
+    ),
+    Lesson::new(
         "front-to-back",
         "Objects are composed under the picture, the nearest first, with premultiplied colours and the remaining alpha in the attachment.",
         "Right if the order of objects is right; alpha in 8 bits is rounded once per layer.",

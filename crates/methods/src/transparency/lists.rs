@@ -19,6 +19,7 @@ pub(super) fn linked_lists(glass: &GlassScene, polygons: &[Polygon], nodes: u32)
     stage.pool(Pool {
         size: SIZE,
         nodes: nodes * width * height,
+        layers: 0,
     });
     let params = Params {
         color: [width as f32, height as f32, 0.0, 0.0],

@@ -10,6 +10,7 @@ mod lessons;
 mod lists;
 mod many_samples;
 mod moments;
+mod nearest;
 mod ordered;
 mod peeling;
 mod scenes;
@@ -27,7 +28,7 @@ use crate::method_scene::MethodScene;
 use scenes::GlassScene;
 use wire::TransparencyMethod;
 
-/// The number of layers that are peeled, or of nodes per texel, if no `k` is given.
+/// The number of layers that are peeled or kept, or of nodes per texel, if no `k` is given.
 const PEELED_LAYERS: u32 = 8;
 /// The maximum number of nodes per texel: no API requires support for larger storage buffers.
 const MOST_NODES: f64 = 32.0;
@@ -64,6 +65,11 @@ pub(crate) fn make(wire: &TransparencyWire) -> Result<MethodScene, ParameterErro
             let nodes = wire.k.unwrap_or(PEELED_LAYERS);
             within("k", f64::from(nodes), 1.0..=MOST_NODES)?;
             lists::linked_lists(&glass, &list(), nodes)
+        }
+        TransparencyMethod::NearestLayers => {
+            let layers = wire.k.unwrap_or(PEELED_LAYERS);
+            within("k", f64::from(layers), 1.0..=MOST_NODES)?;
+            nearest::nearest_layers(&glass, &list(), layers)
         }
         TransparencyMethod::MomentBased => moments::moment_based(&glass, &list()),
         TransparencyMethod::WeightedBlended => weighted::weighted_blended(&glass, &list()),

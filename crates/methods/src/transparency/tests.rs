@@ -19,7 +19,7 @@ const SCENES: [TransparencyScene; 6] = [
     TransparencyScene::Smoke,
 ];
 
-const METHODS: [TransparencyMethod; 14] = [
+const METHODS: [TransparencyMethod; 15] = [
     TransparencyMethod::Unsorted,
     TransparencyMethod::Sorted,
     TransparencyMethod::SortedTriangles,
@@ -33,6 +33,7 @@ const METHODS: [TransparencyMethod; 14] = [
     TransparencyMethod::WeightedBlended,
     TransparencyMethod::MomentBased,
     TransparencyMethod::LinkedLists,
+    TransparencyMethod::NearestLayers,
     TransparencyMethod::FrontToBack,
 ];
 
@@ -160,6 +161,14 @@ fn parameters_at_their_ends_are_drawn_and_those_beyond_are_refused_by_name() {
         (
             "k",
             TransparencyWire {
+                method: TransparencyMethod::NearestLayers,
+                k: Some(33),
+                ..thin.clone()
+            },
+        ),
+        (
+            "k",
+            TransparencyWire {
                 k: Some(0),
                 ..thin.clone()
             },
@@ -233,6 +242,7 @@ fn passes_grow_with_what_is_peeled_and_with_nothing_else() {
         assert_eq!(passes(TransparencyMethod::WeightedBlended, layers, None), 2);
         assert_eq!(passes(TransparencyMethod::MomentBased, layers, None), 3);
         assert_eq!(passes(TransparencyMethod::LinkedLists, layers, None), 2);
+        assert_eq!(passes(TransparencyMethod::NearestLayers, layers, None), 3);
         assert_eq!(passes(TransparencyMethod::Sorted, layers, None), 1);
         // The same number of layers takes a pass and a blending pass per layer, or per two layers.
         assert_eq!(

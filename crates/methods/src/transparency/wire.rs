@@ -18,7 +18,8 @@ pub struct TransparencyWire {
     /// The angle by which panes are turned in degrees, 0 to 65.
     pub(crate) angle: Option<f64>,
     /// The number of peels, 1 to 64; a dual peel takes two layers. By default, 8 layers are peeled. For
-    /// linked lists, the average number of nodes per texel, 1 to 32; 8 by default.
+    /// linked lists, the average number of nodes per texel, for nearest layers, the number of layers, 1 to 32; 8 by
+    /// default.
     pub(crate) k: Option<u32>,
 }
 
@@ -53,6 +54,8 @@ pub(crate) enum TransparencyMethod {
     MomentBased,
     /// Every fragment in a list of its texel, sorted at the end (Yang and others 2010).
     LinkedLists,
+    /// The nearest `k` fragments of a texel, over the weighted mean of all others (Maule and others 2013).
+    NearestLayers,
     /// Blended object by object, nearest first: premultiplied colours under the picture so far.
     FrontToBack,
 }

@@ -23,7 +23,7 @@ pub struct FragmentInput<'a, R> {
     pub texels: [[R; 4]; 2],
     /// Texture 0 at coordinates that the shader computes, if [`etalon_scene::Shader::taps_texture`].
     pub taps: Taps<'a, R>,
-    /// The list of the texel, if the shader reads it.
+    /// The nodes of the texel, if the shader reads them.
     pub list: List<'a, R>,
     /// 1 over the clip-space w at the fragment, if [`etalon_scene::Shader::reads_w`].
     pub reciprocal_w: R,
@@ -83,12 +83,13 @@ impl<R> fmt::Debug for Taps<'_, R> {
     }
 }
 
-/// The fragments that earlier passes left for a texel.
+/// The fragments that earlier passes, and earlier draws of this one, left for a texel.
 #[derive(Clone, Copy, Debug)]
 pub enum List<'a, R> {
     /// The fragments are not modelled: a result computed from them can be anything.
     Unknown,
-    /// All fragments, the latest first. A lane with fewer fragments is filled up with fragments behind all
+    /// All fragments of a list, the latest first, or the nearest layers, the nearest first; for
+    /// [`PoolUse::FillNearest`](etalon_scene::PoolUse::FillNearest), the layers that have no colour yet. A lane with fewer fragments is filled up with fragments behind all
     /// depths, with alpha 0.
     Known(&'a [Node<R>]),
 }
@@ -119,7 +120,7 @@ pub struct FragmentOutput<R> {
     pub mask: Option<SampleMask<R>>,
     /// The stencil reference, if the shader writes one.
     pub reference: Option<StencilReference<R>>,
-    /// The node that the shader adds to the list of its texel, if it does.
+    /// The node that the shader adds to those of its texel, if it does.
     pub node: Option<Node<R>>,
 }
 

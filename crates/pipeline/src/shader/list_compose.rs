@@ -8,12 +8,22 @@ pub(super) fn fragment<A: Arithmetic>(
     a: &mut A,
     input: &FragmentInput<'_, A::Real>,
 ) -> FragmentOutput<A::Real> {
-    let (zero, one) = (a.constant(0.0), a.constant(1.0));
     let List::Known(list) = input.list else {
+        let zero = a.constant(0.0);
         return FragmentOutput::of([a.div(zero, zero); 4]);
     };
     let mut nodes = list.to_vec();
     sort(a, &mut nodes);
+    let ([red, green, blue], left) = composed(a, &nodes);
+    FragmentOutput::of([red, green, blue, left])
+}
+
+/// Returns the premultiplied colour of nodes, nearest first, and their transmittance.
+pub(super) fn composed<A: Arithmetic>(
+    a: &mut A,
+    nodes: &[Node<A::Real>],
+) -> ([A::Real; 3], A::Real) {
+    let (zero, one) = (a.constant(0.0), a.constant(1.0));
     let (mut color, mut left) = ([zero; 3], one);
     for node in nodes {
         let alpha = node.color[3];
@@ -25,8 +35,7 @@ pub(super) fn fragment<A: Arithmetic>(
         let through = difference(a, one, alpha);
         left = product(a, left, through);
     }
-    let [red, green, blue] = color;
-    FragmentOutput::of([red, green, blue, left])
+    (color, left)
 }
 
 /// Sorts nodes by depth, nearest first; nodes at equal depth stay in order. Lanes can differ in their order,

@@ -47,6 +47,9 @@ mod masked_sample;
 mod moment_absorbance;
 mod moment_resolve;
 mod moment_transmittance;
+mod nearest_colors;
+mod nearest_compose;
+mod nearest_depths;
 mod peel;
 mod sample_depth;
 mod sample_index;
@@ -130,6 +133,9 @@ pub fn fragment<A: Arithmetic>(
         Shader::MomentAbsorbance => moment_absorbance::fragment(a, input),
         Shader::MomentResolve => moment_resolve::fragment(a, input),
         Shader::MomentTransmittance => moment_transmittance::fragment(a, input),
+        Shader::NearestColors => nearest_colors::fragment(a, input),
+        Shader::NearestCompose => nearest_compose::fragment(a, input),
+        Shader::NearestDepths => nearest_depths::fragment(a, input),
         Shader::Peel => peel::fragment(a, input),
         Shader::SampleDepth => sample_depth::fragment(a, input),
         Shader::SampleIndex => sample_index::fragment(a, input),
