@@ -4,6 +4,9 @@ use crate::claim::{Claim, FigureCondition, Quantity, Test, one};
 
 const QUESTION: &str = "anti-aliasing";
 
+/// The families in which nothing moves.
+const STILL: [&str; 4] = ["checker-fan", "half-planes", "thin-wedge", "wire-torus"];
+
 pub(crate) const CLAIMS: &[Claim] = &[
     Claim::new(
         QUESTION,
@@ -75,6 +78,54 @@ pub(crate) const CLAIMS: &[Claim] = &[
             holds: FigureCondition::Below(1.0),
         },
     ),
+    Claim::new(
+        QUESTION,
+        "The more jittered frames are accumulated, the less error is left, if nothing moves.",
+        "Haeberli and Akeley 1990, The Accumulation Buffer",
+        Test::Ratio {
+            quantity: Quantity::Rmse,
+            of: one!("jittered-16"),
+            over: one!("jittered-4"),
+            holds: FigureCondition::Below(1.0),
+        },
+    )
+    .of(&STILL),
+    Claim::new(
+        QUESTION,
+        "Sixteen samples in sixteen rows leave less error than sixteen in a grid of four rows.",
+        "Cook 1986, Stochastic Sampling in Computer Graphics: regular grids alias",
+        Test::Ratio {
+            quantity: Quantity::Rmse,
+            of: one!("jittered-16"),
+            over: one!("supersampling-4x4"),
+            holds: FigureCondition::Below(1.0),
+        },
+    )
+    .of(&STILL),
+    Claim::new(
+        QUESTION,
+        "The mean of the frames of a moving scene is a trail: its error grows with the speed.",
+        "Haeberli and Akeley 1990, The Accumulation Buffer: motion blur",
+        Test::Trend {
+            quantity: Quantity::Rmse,
+            of: "jittered-8",
+            holds: FigureCondition::Above(1.5),
+        },
+    )
+    .of(&["moving"]),
+    Claim::new(
+        QUESTION,
+        "In a moving scene, one frame without anti-aliasing errs less than the mean of eight.",
+        "Haeberli and Akeley 1990, The Accumulation Buffer: motion blur",
+        Test::Ratio {
+            quantity: Quantity::Rmse,
+            of: one!("jittered-8"),
+            over: one!("none"),
+            holds: FigureCondition::Above(1.0),
+        },
+    )
+    .of(&["moving"])
+    .between(0.5, 4.0),
     Claim::new(
         QUESTION,
         "A filter over the finished picture reduces the error of edges.",

@@ -46,6 +46,24 @@ pub(crate) const LESSONS: &[Lesson] = &[
         "Crow 1977, The Aliasing Problem in Computer-Generated Shaded Images",
     ),
     Lesson::new(
+        "jittered-4",
+        "Four frames, each moved by another part of a texel, are summed up and divided by four, so that a texel has four samples in four rows and four columns.",
+        "The whole geometry is drawn four times, and if the frames are those of a moving scene, the mean shows four copies of it.",
+        "Haeberli and Akeley 1990, The Accumulation Buffer",
+    ),
+    Lesson::new(
+        "jittered-8",
+        "Eight frames, each moved by another part of a texel, are summed up and divided by eight.",
+        "The copies of a moving scene reach back twice as far as with four frames, so that what helps a still picture harms a moving one.",
+        "Haeberli and Akeley 1990, The Accumulation Buffer",
+    ),
+    Lesson::new(
+        "jittered-16",
+        "Sixteen frames, each moved by another part of a texel, are summed up and divided by sixteen: as many heights as samples, unlike a grid of 4 by 4.",
+        "It takes 33 passes, the sum needs more than 8 bits, and anything that moves leaves a trail of sixteen frames.",
+        "Haeberli and Akeley 1990, The Accumulation Buffer",
+    ),
+    Lesson::new(
         "fxaa",
         "A pass over the finished picture finds edges by their luma, walks along each to its ends, and blends with the neighbour across it.",
         "The picture lacks what no sample hit: wires break up, and long, nearly level edges extend past the walk.",

@@ -4,6 +4,7 @@
 //! Everything is opaque.
 
 mod claims;
+mod jittered;
 mod lessons;
 mod pieces;
 mod scenes;
@@ -15,13 +16,13 @@ pub(crate) use claims::CLAIMS;
 pub(crate) use lessons::LESSONS;
 pub(crate) use wire::AntiAliasingWire;
 
-use crate::error::ParameterError;
+use crate::error::{ParameterError, within};
 use crate::method_scene::MethodScene;
 use crate::polygon::{Polygon, cover, mesh};
 use crate::stage::{SIZE, Stage, draw, over};
 use etalon_frame::TextureFormat;
 use etalon_scene::{AddressMode, AttachmentContents, FilterMode, Sampler, Scene, Shader};
-use scenes::EdgeScene;
+use scenes::{ALL, EdgeScene};
 use wire::AntiAliasingMethod;
 
 /// Draws the scene by the method.
@@ -30,6 +31,7 @@ use wire::AntiAliasingMethod;
 /// If a parameter is out of its range.
 pub(crate) fn make(wire: &AntiAliasingWire) -> Result<MethodScene, ParameterError> {
     let edges = EdgeScene::new(wire)?;
+    let speed = within("speed", wire.speed.unwrap_or(0.0), 0.0..=4.0)?;
     let scene = match wire.method {
         AntiAliasingMethod::None => plain(&edges),
         AntiAliasingMethod::Msaa2 => multisampled(&edges, 2),
@@ -38,6 +40,9 @@ pub(crate) fn make(wire: &AntiAliasingWire) -> Result<MethodScene, ParameterErro
         AntiAliasingMethod::Msaa16 => multisampled(&edges, 16),
         AntiAliasingMethod::Supersampling2x2 => supersampled(&edges, 1),
         AntiAliasingMethod::Supersampling4x4 => supersampled(&edges, 2),
+        AntiAliasingMethod::Jittered4 => jittered::jittered(&edges, 4, speed),
+        AntiAliasingMethod::Jittered8 => jittered::jittered(&edges, 8, speed),
+        AntiAliasingMethod::Jittered16 => jittered::jittered(&edges, 16, speed),
         AntiAliasingMethod::Fxaa => fxaa(&edges),
         AntiAliasingMethod::CoverageToAlpha => coverage_to_alpha(&edges),
         AntiAliasingMethod::CoverageToAlphaOverlap => coverage_to_alpha_overlap(&edges),

@@ -25,7 +25,8 @@ const INK: [f64; 4] = [0.95, 0.95, 0.9, 1.0];
 const PAPER: [f64; 4] = [0.15, 0.35, 0.6, 1.0];
 const BEHIND: [f64; 3] = [0.0, 0.0, 0.0];
 
-const ALL: [f64; 4] = [0.0, 0.0, SIZE[0] as f64, SIZE[1] as f64];
+/// The whole picture.
+pub(super) const ALL: [f64; 4] = [0.0, 0.0, SIZE[0] as f64, SIZE[1] as f64];
 
 impl EdgeScene {
     /// Returns the scene of a case.
@@ -47,8 +48,14 @@ impl EdgeScene {
 
     /// Returns the ground and the pieces on it.
     pub(super) fn polygons(&self) -> Vec<Polygon> {
-        let front = self.front.iter().filter_map(Piece::polygon);
-        self.ground.iter().cloned().chain(front).collect()
+        let mut polygons = self.ground.clone();
+        polygons.extend(self.pieces());
+        polygons
+    }
+
+    /// Returns the pieces on the ground.
+    pub(super) fn pieces(&self) -> Vec<Polygon> {
+        self.front.iter().filter_map(Piece::polygon).collect()
     }
 
     /// Returns the truth.

@@ -1,8 +1,8 @@
 //! Tests of the methods' scenes. Other tests draw and measure the pictures.
 
-use super::make;
 use super::scenes::EdgeScene;
 use super::wire::{AntiAliasingMethod, AntiAliasingScene, AntiAliasingWire};
+use super::{jittered, make};
 use crate::polygon::Polygon;
 use crate::stage::SIZE;
 use crate::validity::assert_valid;
@@ -14,7 +14,7 @@ const SCENES: [AntiAliasingScene; 4] = [
     AntiAliasingScene::WireTorus,
 ];
 
-const METHODS: [AntiAliasingMethod; 10] = [
+const METHODS: [AntiAliasingMethod; 13] = [
     AntiAliasingMethod::None,
     AntiAliasingMethod::Msaa2,
     AntiAliasingMethod::Msaa4,
@@ -22,6 +22,9 @@ const METHODS: [AntiAliasingMethod; 10] = [
     AntiAliasingMethod::Msaa16,
     AntiAliasingMethod::Supersampling2x2,
     AntiAliasingMethod::Supersampling4x4,
+    AntiAliasingMethod::Jittered4,
+    AntiAliasingMethod::Jittered8,
+    AntiAliasingMethod::Jittered16,
     AntiAliasingMethod::Fxaa,
     AntiAliasingMethod::CoverageToAlpha,
     AntiAliasingMethod::CoverageToAlphaOverlap,
@@ -33,6 +36,7 @@ fn wire(scene: AntiAliasingScene, method: AntiAliasingMethod) -> AntiAliasingWir
         method,
         angle: None,
         opening: None,
+        speed: None,
     }
 }
 
@@ -74,6 +78,13 @@ fn parameters_out_of_range_are_refused_by_name() {
             },
         ),
         (
+            "speed",
+            AntiAliasingWire {
+                speed: Some(4.5),
+                ..wedge.clone()
+            },
+        ),
+        (
             "opening",
             AntiAliasingWire {
                 opening: Some(0.0),
@@ -93,6 +104,42 @@ fn parameters_out_of_range_are_refused_by_name() {
             panic!("{wire:?} is drawn");
         };
         assert_eq!(error.key, key);
+    }
+}
+
+#[test]
+fn jittered_frames_have_their_own_rows_and_columns_around_the_centre() {
+    for count in [4, 8, 16] {
+        let offsets: Vec<[f64; 2]> = jittered::offsets(count).collect();
+        for axis in 0..2 {
+            let cell = |o: &[f64; 2]| ((o[axis] + 0.5) * f64::from(count)) as u32;
+            let mut cells: Vec<u32> = offsets.iter().map(cell).collect();
+            cells.sort_unstable();
+            assert_eq!(cells, (0..count).collect::<Vec<u32>>());
+            assert_eq!(offsets.iter().map(|o| o[axis]).sum::<f64>(), 0.0);
+        }
+    }
+}
+
+#[test]
+fn a_moving_scene_ends_where_the_truth_is() {
+    let moving = |speed| {
+        let wire = AntiAliasingWire {
+            speed: Some(speed),
+            ..wire(AntiAliasingScene::WireTorus, AntiAliasingMethod::Jittered4)
+        };
+        make(&wire).expect("the speed is in range")
+    };
+    let (still, fast) = (moving(0.0), moving(2.0));
+    assert_eq!(still.truth, fast.truth);
+    // Clip space is 2 wide. Each frame takes two passes; the first six vertices are the background.
+    let texel = 2.0 / SIZE[0] as f32;
+    for (frame, behind) in [6.0, 4.0, 2.0, 0.0].into_iter().enumerate() {
+        let place = |made: &crate::method_scene::MethodScene| {
+            made.scene.passes[2 * frame].draws[0].mesh.vertices[6].position[0]
+        };
+        let distance = (place(&still) - place(&fast)) / texel;
+        assert!((distance - behind).abs() < 1e-3, "{frame}: {distance}");
     }
 }
 

@@ -16,6 +16,9 @@ pub struct AntiAliasingWire {
     pub(crate) angle: Option<f64>,
     /// The opening angle of wedges in degrees, 0.25 to 60; by default 4. Only for `thin-wedge`.
     pub(crate) opening: Option<f64>,
+    /// The movement of the pieces to the right in texels per frame, 0 to 4; by default 0. Only methods that take
+    /// the mean of several frames show it; the truth is the last frame.
+    pub(crate) speed: Option<f64>,
 }
 
 /// A way to smooth edges.
@@ -42,6 +45,15 @@ pub(crate) enum AntiAliasingMethod {
     /// The mean of 4 by 4 texels, in two steps.
     #[serde(rename = "supersampling-4x4")]
     Supersampling4x4,
+    /// The mean of four frames, each moved by another part of a texel (Haeberli and Akeley 1990).
+    #[serde(rename = "jittered-4")]
+    Jittered4,
+    /// The mean of eight frames, each moved by another part of a texel.
+    #[serde(rename = "jittered-8")]
+    Jittered8,
+    /// The mean of sixteen frames, each moved by another part of a texel.
+    #[serde(rename = "jittered-16")]
+    Jittered16,
     /// One sample, blended along the edges that the picture's luma shows.
     Fxaa,
     /// Alpha from the distance to the nearest edge, blended over a neighbour that extends below the edge.

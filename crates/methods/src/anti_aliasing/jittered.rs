@@ -1,0 +1,70 @@
+//! Accumulation of jittered frames (Haeberli and Akeley 1990).
+
+use super::scenes::EdgeScene;
+use super::{ALL, PICTURE, clear};
+use crate::polygon::{Polygon, cover, mesh};
+use crate::stage::{SIZE, Stage, add, both, draw};
+use etalon_frame::TextureFormat;
+use etalon_scene::{BlendFactor, Draw, Scene, Shader};
+
+/// The format of sums.
+const SUM: TextureFormat = TextureFormat::Rgba16Float;
+
+/// Draws `count` frames, each moved by another part of a texel, and takes their mean. In each frame the pieces
+/// are `speed` texels further to the right; the last frame shows them in their places.
+pub(super) fn jittered(edges: &EdgeScene, count: u32, speed: f64) -> Scene {
+    let mut stage = Stage::new();
+    let picture = stage.color("picture", PICTURE, SIZE, clear(edges));
+    let frame = stage.color("frame", PICTURE, SIZE, clear(edges));
+    let sum = stage.color("sum", SUM, SIZE, [0.0; 4]);
+    for (number, [x, y]) in (1..).zip(offsets(count)) {
+        let behind = f64::from(count - number) * speed;
+        let mut polygons = still(edges);
+        let pieces = edges.pieces();
+        polygons.extend(pieces.iter().map(|piece| moved(piece, [x - behind, y])));
+        let drawn = draw(Shader::FlatColor, mesh(SIZE, &polygons));
+        stage.pass(&[frame], None, vec![drawn]);
+        let mut accumulate = copy(frame);
+        accumulate.targets[0].blend = both(add(BlendFactor::Constant, BlendFactor::One));
+        accumulate.blend_constant = [1.0 / count as f32; 4];
+        stage.pass(&[sum], None, vec![accumulate]);
+    }
+    stage.pass(&[picture], None, vec![copy(sum)]);
+    stage.read(&[picture])
+}
+
+/// Returns a draw that copies a texture.
+fn copy(texture: usize) -> Draw {
+    let mut copy = draw(Shader::TexelColor, cover());
+    copy.textures = vec![texture];
+    copy
+}
+
+/// Returns what does not move: the ground, or a background in its place. It covers the previous frame.
+fn still(edges: &EdgeScene) -> Vec<Polygon> {
+    if edges.ground.is_empty() {
+        return vec![Polygon::rect(ALL, 1.0, clear(edges))];
+    }
+    edges.ground.clone()
+}
+
+fn moved(polygon: &Polygon, [x, y]: [f64; 2]) -> Polygon {
+    let mut moved = polygon.clone();
+    for corner in &mut moved.corners {
+        corner[0] += x;
+        corner[1] += y;
+    }
+    moved
+}
+
+/// Returns offsets around 0, less than half a texel long on each axis. No two of them share a row or a column
+/// of a grid of `count` by `count` cells; `count` is a power of two.
+pub(super) fn offsets(count: u32) -> impl Iterator<Item = [f64; 2]> {
+    let bits = count.trailing_zeros();
+    let middle = move |cell: u32| (f64::from(cell) + 0.5) / f64::from(count) - 0.5;
+    (0..count).map(move |column| {
+        // The digits of the column in reverse spread its neighbours over the rows.
+        let row = column.reverse_bits().checked_shr(32 - bits).unwrap_or(0);
+        [middle(column), middle(row)]
+    })
+}
