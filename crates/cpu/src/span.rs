@@ -310,6 +310,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
             },
             position: window_position(span, point),
             texels: [self.texel(span, 0), self.texel(span, 1)],
+            neighbours: self.neighbours(span, point),
             taps: if self.draw.shader.taps_texture() {
                 Taps::of(&tap)
             } else {
@@ -324,6 +325,37 @@ impl<'a, S: Steps> SpanState<'a, S> {
             params: &self.draw.params,
         };
         fragment(&mut Plain::<LANES>, self.draw.shader, &input)
+    }
+
+    /// Returns texture 0 at the other column and at the other row of each texel's block of two by two texels, if
+    /// the shader reads how it changes.
+    fn neighbours(&self, span: &Span<'_>, point: Point) -> Option<[[Real; 4]; 2]> {
+        let planes = span
+            .uv
+            .as_ref()
+            .filter(|_| self.draw.shader.reads_derivatives())?;
+        let (texture, sampler) = (self.draw.textures.first()?, self.draw.sampler?);
+        let other = |place: usize| {
+            if place.is_multiple_of(2) {
+                UNITS
+            } else {
+                -UNITS
+            }
+        };
+        let beside = std::array::from_fn(|lane| Point {
+            x: point.x + other(span.x + lane),
+            ..point
+        });
+        let below = [Point {
+            y: point.y + other(span.y),
+            ..point
+        }; LANES];
+        Some([beside, below].map(|points| {
+            let [u, v] = planes
+                .each_ref()
+                .map(|plane| plane.at(span.x, span.y, &points));
+            self.steps.sample(&self.surfaces[*texture], sampler, u, v)
+        }))
     }
 
     /// Returns, for each texel, a bit of the sample mask that the run for a sample reads.

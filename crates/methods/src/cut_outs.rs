@@ -59,6 +59,8 @@ pub(crate) enum MethodName {
     Hashed,
     /// Opaque in some of four samples; their number follows alpha.
     AlphaToCoverage,
+    /// Like `alpha-to-coverage`, with alpha sharpened around `cutoff` to the width of a texel (Golus 2017).
+    AlphaToCoverageSharpened,
 }
 
 fn clamp() -> AddressMode {
@@ -78,7 +80,16 @@ pub(crate) fn make(wire: &Wire) -> Result<MethodScene, ParameterError> {
         MethodName::Discard => discard(&cards, wire.address, cutoff),
         MethodName::BlendSorted => blend_sorted(&cards, wire.address),
         MethodName::Hashed => hashed(&cards, wire.address),
-        MethodName::AlphaToCoverage => alpha_to_coverage(&cards, wire.address),
+        MethodName::AlphaToCoverage => {
+            let draw =
+                |stage: &mut Stage| textured(stage, Shader::SampledColor, &cards, wire.address);
+            alpha_to_coverage(draw)
+        }
+        MethodName::AlphaToCoverageSharpened => alpha_to_coverage(|stage| {
+            let mut draw = textured(stage, Shader::SharpenedSample, &cards, wire.address);
+            draw.params = at_cutoff(cutoff);
+            draw
+        }),
     };
     Ok(MethodScene {
         scene,
@@ -214,15 +225,20 @@ fn textured(stage: &mut Stage, shader: Shader, cards: &[Polygon], address: Addre
     draw
 }
 
+/// Returns parameters with a cutoff of alpha.
+fn at_cutoff(cutoff: f64) -> Params {
+    Params {
+        color: [0.0, 0.0, 0.0, cutoff as f32],
+        back_color: [0.0; 4],
+    }
+}
+
 fn discard(cards: &[Polygon], address: AddressMode, cutoff: f64) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear());
     let depth_stencil = stage.depth("depth", DEPTH, SIZE, 1, 1.0);
     let mut draw = textured(&mut stage, Shader::SampledDiscard, cards, address);
-    draw.params = Params {
-        color: [0.0, 0.0, 0.0, cutoff as f32],
-        back_color: [0.0; 4],
-    };
+    draw.params = at_cutoff(cutoff);
     draw.depth = depth(CompareFunction::Less, true);
     stage.pass(&[picture], Some(depth_stencil), vec![draw]);
     stage.read(&[picture])
@@ -276,13 +292,14 @@ fn blend_sorted(cards: &[Polygon], address: AddressMode) -> Scene {
     stage.read(&[picture])
 }
 
-fn alpha_to_coverage(cards: &[Polygon], address: AddressMode) -> Scene {
+/// Covers a number of samples that follows the alpha of a draw.
+fn alpha_to_coverage(cards: impl Fn(&mut Stage) -> Draw) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear());
     let contents = AttachmentContents::Color(clear().map(|c| c as f32));
     let samples = stage.attachment("samples", PICTURE, SIZE, 4, contents);
     let depth_stencil = stage.depth("depth", DEPTH, SIZE, 4, 1.0);
-    let mut draw = textured(&mut stage, Shader::SampledColor, cards, address);
+    let mut draw = cards(&mut stage);
     draw.depth = depth(CompareFunction::Less, true);
     draw.multisample.alpha_to_coverage = true;
     stage.resolving_pass(

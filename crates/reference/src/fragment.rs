@@ -300,6 +300,7 @@ impl Walk<'_> {
                 [Range::exact(0.0); 2]
             },
             texels: [self.texel(place, world, 0), self.texel(place, world, 1)],
+            neighbours: None,
             taps: if draw.shader.taps_texture() {
                 Taps::of(&tap)
             } else {

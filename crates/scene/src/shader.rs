@@ -36,6 +36,8 @@ struct ShaderFacts {
     sampler: bool,
     /// True if the shader also samples at coordinates that it computes.
     taps: bool,
+    /// True if the shader reads how its texture changes from texel to texel of the picture.
+    derivatives: bool,
     /// The number of colour locations that it writes.
     outputs: usize,
     /// True if the shader writes integers.
@@ -132,6 +134,7 @@ impl ShaderFacts {
         textures: 0,
         sampler: false,
         taps: false,
+        derivatives: false,
         outputs: 1,
         integers: false,
         second_source: false,
@@ -209,6 +212,11 @@ impl Shader {
     /// Returns true if the shader samples texture 0 at coordinates that it computes.
     pub fn taps_texture(self) -> bool {
         self.facts().taps
+    }
+
+    /// Returns true if the shader reads how texture 0 changes from texel to texel of the picture.
+    pub fn reads_derivatives(self) -> bool {
+        self.facts().derivatives
     }
 
     /// Returns true if the fragment shader replaces the fragment's depth.
@@ -502,6 +510,9 @@ shaders! {
     SampledColor = "sampled_color" { textures: 1, sampler: true },
     /// Like `sampled_color`, and discards if the alpha is below `params.color`'s.
     SampledDiscard = "sampled_discard" { params: true, textures: 1, sampler: true, discards: true },
+    /// Like `sampled_color`, with sharpened alpha: a half where it is `params.color`'s alpha, and 0 and 1 half a texel
+    /// of the picture away from there.
+    SharpenedSample = "sharpened_sample" { params: true, textures: 1, sampler: true, derivatives: true },
     /// The whole steps of the fragment coordinate's w and depth, times `params.color`'s red and green, as
     /// colours: see `stepped_perspective`.
     SteppedFragCoord = "stepped_frag_coord" { params: true, reads_depth: true, reads_w: true, position_only: true },
@@ -568,6 +579,7 @@ mod tests {
                 "{name}"
             );
             assert_eq!(shader.samples_texture(), has("@binding(4)"), "{name}");
+            assert_eq!(shader.reads_derivatives(), has("fwidth("), "{name}");
             assert_eq!(shader.writes_depth(), has("@builtin(frag_depth)"), "{name}");
             assert_eq!(shader.discards(), has("discard;"), "{name}");
             assert_eq!(

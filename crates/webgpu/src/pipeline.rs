@@ -193,6 +193,7 @@ fn attributes(shader: Shader) -> &'static [VertexAttribute] {
         | Shader::Fxaa
         | Shader::SampledColor
         | Shader::SampledDiscard
+        | Shader::SharpenedSample
         | Shader::SteppedLinear
         | Shader::SteppedLinearCentroid
         | Shader::SteppedLinearSample

@@ -30,4 +30,15 @@ pub(crate) const CLAIMS: &[Claim] = &[
     )
     .of(&["grass"])
     .between(1.0, 4.0),
+    Claim::new(
+        QUESTION,
+        "Alpha to coverage with sharpened alpha leaves less error than discarding at the same cutoff.",
+        "Golus 2017, Anti-Aliased Alpha Test: The Esoteric Alpha to Coverage",
+        Test::Ratio {
+            quantity: Quantity::Rmse,
+            of: one!("alpha-to-coverage-sharpened"),
+            over: one!("discard"),
+            holds: FigureCondition::Below(1.0),
+        },
+    ),
 ];

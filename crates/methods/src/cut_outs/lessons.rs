@@ -27,4 +27,10 @@ pub(crate) const LESSONS: &[Lesson] = &[
         "No order is needed, but the same mask in each card hides what should be visible through two of them.",
         "Akeley 1993, RealityEngine Graphics",
     ),
+    Lesson::new(
+        "alpha-to-coverage-sharpened",
+        "As alpha to coverage, with alpha divided by its change from texel to texel, so that it goes from 0 to 1 over one texel around the cutoff.",
+        "The edge is smooth at any magnification, but the softness of the texture is lost, and parts thinner than two texels change their width.",
+        "Golus 2017, Anti-Aliased Alpha Test: The Esoteric Alpha to Coverage",
+    ),
 ];

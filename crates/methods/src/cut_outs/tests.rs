@@ -13,11 +13,12 @@ fn wire(method: MethodName, address: AddressMode) -> Wire {
     }
 }
 
-const METHODS: [MethodName; 4] = [
+const METHODS: [MethodName; 5] = [
     MethodName::Discard,
     MethodName::BlendSorted,
     MethodName::Hashed,
     MethodName::AlphaToCoverage,
+    MethodName::AlphaToCoverageSharpened,
 ];
 
 #[test]

@@ -21,6 +21,10 @@ pub struct FragmentInput<'a, R> {
     pub position: [R; 2],
     /// The values of textures 0 and 1, fetched at the fragment or sampled; zeros if the shader reads none.
     pub texels: [[R; 4]; 2],
+    /// Texture 0 at the texel beside and at the texel below or above, in the block of two by two texels of the
+    /// fragment; `None` if [`etalon_scene::Shader::reads_derivatives`] is false, or if they are not modelled: a result
+    /// computed from them can be anything.
+    pub neighbours: Option<[[R; 4]; 2]>,
     /// Texture 0 at coordinates that the shader computes, if [`etalon_scene::Shader::taps_texture`].
     pub taps: Taps<'a, R>,
     /// The nodes of the texel, if the shader reads them.

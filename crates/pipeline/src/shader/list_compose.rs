@@ -89,6 +89,7 @@ mod tests {
             mask: InputMask::NONE,
             position: [[0.5]; 2],
             texels: [[[0.0]; 4]; 2],
+            neighbours: None,
             taps: Taps::NONE,
             list: List::Known(&nodes),
             reciprocal_w: [1.0],

@@ -55,6 +55,7 @@ mod sample_depth;
 mod sample_index;
 mod sampled_color;
 mod sampled_discard;
+mod sharpened_sample;
 mod stepped_frag_coord;
 mod stepped_linear;
 mod stepped_linear_centroid;
@@ -141,6 +142,7 @@ pub fn fragment<A: Arithmetic>(
         Shader::SampleIndex => sample_index::fragment(a, input),
         Shader::SampledColor => sampled_color::fragment::<A>(input),
         Shader::SampledDiscard => sampled_discard::fragment(a, input),
+        Shader::SharpenedSample => sharpened_sample::fragment(a, input),
         Shader::SteppedFragCoord => stepped_frag_coord::fragment(a, input),
         Shader::SteppedLinear => stepped_linear::fragment(a, input),
         Shader::SteppedLinearCentroid => stepped_linear_centroid::fragment(a, input),

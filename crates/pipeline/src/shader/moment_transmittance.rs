@@ -130,6 +130,7 @@ mod tests {
             mask: InputMask::NONE,
             position: [[0.5]; 2],
             texels,
+            neighbours: None,
             taps: Taps::NONE,
             list: List::Unknown,
             reciprocal_w: [1.0],
