@@ -1,6 +1,5 @@
 //! Comparison of a frame with its legal set and the yardstick.
 
-use crate::accuracy::{Accuracy, Distances};
 use crate::band::Band;
 use crate::counter::CounterOutcome;
 use crate::encoding::ChannelEncoding;
@@ -82,8 +81,6 @@ pub struct Comparison {
     pub wrong: Vec<WrongTexel>,
     /// One outcome per counter, in the order of the scene's counters.
     pub counters: Vec<CounterOutcome>,
-    /// The distance from the yardstick's middle, for each aspect that was read back.
-    pub accuracy: Vec<Accuracy>,
 }
 
 impl Comparison {
@@ -111,7 +108,7 @@ pub fn compare(
     yardstick: &LegalSet,
     keep: usize,
 ) -> Result<Comparison, FrameError> {
-    check_images(frame, legal)?;
+    legal.check_images(frame)?;
     let mut result = Comparison::default();
     let mut imprecise = Vec::new();
     let mut orders: Vec<i64> = Vec::new();
@@ -134,7 +131,6 @@ pub fn compare(
                 both.all(|(a, b)| a == b)
             })
         };
-        let mut distances = Distances::new(&images);
         let mut start = 0;
         let (mut sets, mut ideals) = (group.runs().peekable(), ideal.runs().peekable());
         while let (Some((end, allowed)), Some((ideal_end, tight))) =
@@ -150,7 +146,6 @@ pub fn compare(
                 orders.extend(channels.map(|(code, e)| e.order_of_code(*code)));
             }
             let times = run.len() as u64;
-            distances.add(tight, &orders, times);
             result.texels.total += times;
             if allowed.is_open() {
                 result.texels.open += times;
@@ -181,7 +176,6 @@ pub fn compare(
             sets.next_if(|(end, _)| *end <= start);
             ideals.next_if(|(end, _)| *end <= start);
         }
-        distances.add_to(&mut result.accuracy);
     }
     for ((set, tight), actual) in legal
         .counters
@@ -198,6 +192,49 @@ pub fn compare(
 }
 
 impl LegalSet {
+    /// Checks that a frame has the images and counters of this set.
+    pub(crate) fn check_images(&self, frame: &Frame) -> Result<(), FrameError> {
+        if frame.images.len() != self.images.len() {
+            return Err(FrameError::ImageCount {
+                actual: frame.images.len(),
+                expected: self.images.len(),
+            });
+        }
+        if frame.counters.len() != self.counters.len() {
+            return Err(FrameError::CounterCount {
+                actual: frame.counters.len(),
+                expected: self.counters.len(),
+            });
+        }
+        for (index, (image, info)) in frame.images.iter().zip(&self.images).enumerate() {
+            if !info.matches(image) {
+                return Err(FrameError::Image {
+                    index,
+                    actual: format!(
+                        "{} {} {:?} x{} {:?} by {:?}, {} codes",
+                        image.attachment,
+                        image.aspect,
+                        image.size,
+                        image.samples,
+                        image.channels,
+                        image.read,
+                        image.codes.len()
+                    ),
+                    expected: format!(
+                        "{} {} {:?} x{} {:?} by {:?}",
+                        info.attachment,
+                        info.aspect,
+                        info.size,
+                        info.samples,
+                        info.channels,
+                        info.read
+                    ),
+                });
+            }
+        }
+        Ok(())
+    }
+
     /// Compares one sample of a frame, whose images are the set's, with another set. The shape selects the
     /// images of one size and sample count; the sample is given by column, row and sample. Returns `None` if
     /// it is legal.
@@ -227,43 +264,6 @@ impl LegalSet {
             channels: mismatches(&images, set, &orders),
         })
     }
-}
-
-fn check_images(frame: &Frame, legal: &LegalSet) -> Result<(), FrameError> {
-    if frame.images.len() != legal.images.len() {
-        return Err(FrameError::ImageCount {
-            actual: frame.images.len(),
-            expected: legal.images.len(),
-        });
-    }
-    if frame.counters.len() != legal.counters.len() {
-        return Err(FrameError::CounterCount {
-            actual: frame.counters.len(),
-            expected: legal.counters.len(),
-        });
-    }
-    for (index, (image, info)) in frame.images.iter().zip(&legal.images).enumerate() {
-        if !info.matches(image) {
-            return Err(FrameError::Image {
-                index,
-                actual: format!(
-                    "{} {} {:?} x{} {:?} by {:?}, {} codes",
-                    image.attachment,
-                    image.aspect,
-                    image.size,
-                    image.samples,
-                    image.channels,
-                    image.read,
-                    image.codes.len()
-                ),
-                expected: format!(
-                    "{} {} {:?} x{} {:?} by {:?}",
-                    info.attachment, info.aspect, info.size, info.samples, info.channels, info.read
-                ),
-            });
-        }
-    }
-    Ok(())
 }
 
 fn mismatches(

@@ -44,7 +44,7 @@ pub mod threads;
 mod version;
 mod work;
 
-pub use accuracy::Accuracy;
+pub use accuracy::{Accuracy, Spread, accuracy};
 pub use adapter_info::AdapterInfo;
 pub use adapter_name::AdapterName;
 pub use api::Api;

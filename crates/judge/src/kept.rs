@@ -24,7 +24,7 @@ pub enum ShownDetail {
 
 /// Shortens a record to what it shows. `has_frame` is true if its frame is kept in a file.
 pub fn shorten(record: &mut Record, shown: ShownDetail, has_frame: bool) {
-    record.accuracy.retain(|aspect| aspect.max > 0.0);
+    record.accuracy.retain(|figures| !figures.is_exact());
     match shown {
         _ if record.verdict == Verdict::Imprecise => {
             // There can be hundreds of legal deviations, and one texel shows what kind they are.

@@ -45,6 +45,7 @@ impl Judgement {
         Ok(match found {
             None => Cow::Borrowed(self),
             Some(FittedRules { rules, legal }) => Cow::Owned(Self {
+                ideal: self.ideal_with_step_of(&rules, scene, sets),
                 rules,
                 legal,
                 yardstick: Arc::clone(&self.yardstick),
@@ -52,6 +53,18 @@ impl Judgement {
                 ..*self
             }),
         })
+    }
+
+    /// Returns the yardstick's values under the depth bias step of some rules. A driver may choose the step, so
+    /// another step than the yardstick's is no inaccuracy.
+    fn ideal_with_step_of(&self, rules: &Rules, scene: &Scene, sets: &Sets<'_>) -> Arc<LegalSet> {
+        match rules.depth_bias_unit.value().assumed {
+            None => Arc::clone(&self.yardstick),
+            Some(step) => {
+                let yardstick = Rules::yardstick(&self.limits).assuming(step);
+                set_by(scene, &self.limits, &yardstick, sets)
+            }
+        }
     }
 }
 

@@ -32,6 +32,9 @@ pub struct Judgement {
     pub legal: Arc<LegalSet>,
     /// The values within the yardstick.
     pub yardstick: Arc<LegalSet>,
+    /// The values that accuracy is measured from: those within the yardstick, under the depth bias step that the
+    /// frame shows.
+    pub ideal: Arc<LegalSet>,
     /// The number of judged samples of all images of one size, summed over sizes and sample counts. Nothing
     /// is asserted about other samples.
     pub looked_at: u64,
@@ -104,6 +107,7 @@ pub fn judgements_by(
                     .map(|g| texels.count(g.size) * u64::from(g.samples))
                     .sum(),
                 legal,
+                ideal: Arc::clone(&yardstick),
                 yardstick,
                 limits,
                 rules,

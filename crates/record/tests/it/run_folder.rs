@@ -259,7 +259,9 @@ prop_compose! {
             yardstick_exact: f[4], yardstick_codes: f[5], yardstick_asserted: f[6],
         };
         let accuracy = |f: &[u64; 7]| Accuracy {
-            aspect: Aspect::Depth, encoding: (f[3].is_multiple_of(2)).then_some(ChannelEncoding::Unorm(24)), channels: f[0], mean: eighths(f[1]), max: eighths(f[2]),
+            channels: f[0], mean: eighths(f[1]), max: eighths(f[2]), overflow: f[4],
+            spread: vec![f[5], f[6]].try_into().unwrap(),
+            ..Accuracy::none(Aspect::Depth, f[3].is_multiple_of(2).then_some(ChannelEncoding::Unorm(24)))
         };
         Record {
             process: lost.map(|(signal, stderr)| ProcessEnd {

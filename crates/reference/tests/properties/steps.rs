@@ -3,7 +3,7 @@
 
 use crate::common::{draw, limits};
 use etalon_case::{Library, Profile};
-use etalon_frame::{Api, Aspect, Frame, compare};
+use etalon_frame::{Api, Aspect, Frame, accuracy, compare};
 use etalon_reference::{Geometries, Texels, judgements, shared_sets};
 use etalon_scene::Scene;
 
@@ -74,17 +74,54 @@ fn the_usual_step_is_found_and_leaves_few_codes() {
     }
 }
 
-#[test]
-fn another_bias_step_is_legal_only_if_all_columns_have_it() {
-    let scene = linear();
-    let larger = |column: usize, code: u32| code + CONSTANTS[column] / 2;
-    // One and a half steps per unit, in the lower half too.
-    let mut stepped = with_depths(&scene, larger);
+/// Returns a depth with one and a half steps per unit.
+fn larger(column: usize, code: u32) -> u32 {
+    code + CONSTANTS[column] / 2
+}
+
+/// Returns a frame of [`larger`] steps, in the lower half too.
+fn with_larger_steps(scene: &Scene) -> Frame {
+    let mut stepped = with_depths(scene, larger);
     let mut images = stepped.images.iter_mut();
     let depth = images.find(|i| i.aspect == Aspect::Depth).expect("a depth");
     for code in &mut depth.codes[8 * 16..] {
         *code -= 1000;
     }
+    stepped
+}
+
+#[test]
+fn the_step_that_a_driver_chose_is_no_inaccuracy() {
+    let scene = linear();
+    let stepped = with_larger_steps(&scene);
+    for api in [Api::Vulkan, Api::OpenGl, Api::OpenGlEs] {
+        let geometries = Geometries::default();
+        let sets = shared_sets(&scene, Texels::All, &geometries);
+        let judgement = judgements(&scene, &limits(api)).remove(0);
+        let fitted = judgement.fitted(&scene, &stepped, &sets);
+        let fitted = fitted.expect("its frame");
+        let depth = |frame: &Frame| {
+            let figures = accuracy(frame, &fitted.legal, &fitted.ideal).expect("its frame");
+            *figures
+                .iter()
+                .find(|a| a.aspect == Aspect::Depth)
+                .expect("a depth")
+        };
+        let found = depth(&stepped);
+        assert!(
+            found.channels >= 192 && found.max <= 2.0,
+            "{api}: {found:?}"
+        );
+        // The frame with the yardstick's step is illegal under this one, and far away.
+        let usual = depth(&draw(&scene));
+        assert!(usual.max > 10_000.0, "{api}: {usual:?}");
+    }
+}
+
+#[test]
+fn another_bias_step_is_legal_only_if_all_columns_have_it() {
+    let scene = linear();
+    let stepped = with_larger_steps(&scene);
     for api in [Api::Vulkan, Api::OpenGl, Api::OpenGlEs] {
         assert_eq!(wrong(&scene, api, &stepped), (0, 0), "{api}");
     }

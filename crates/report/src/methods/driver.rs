@@ -1,15 +1,20 @@
-//! The accuracy of drivers, which is the distance of their codes from the ideal codes, and their speed.
+//! The accuracy of drivers, which is the distance of their codes from the ideal codes. A run draws each case
+//! once with new pipelines, so it has no speed; only method cases can be timed.
 
 use crate::chart::{LEFT, RIGHT, Scale, TOP, chart, key, marker, n};
-use crate::numbers::{digits, duration, median, share};
+use crate::lists::distinct;
+use crate::numbers::{count, digits, duration, median};
 use crate::page::adapter::breakable;
-use crate::run::grid::{RunGrid, rate};
+use crate::run::grid::RunGrid;
 use crate::table::{Cell, Table};
 use crate::words::plain;
 use etalon_frame::{Accuracy, Aspect, ChannelEncoding};
 use etalon_record::{Record, Verdict};
 use maud::{Markup, html};
 use std::collections::BTreeMap;
+
+/// The share of channel values that the table states a bound for.
+const SHARE: f64 = 0.99;
 
 /// The accuracy of one adapter's frames of one area and aspect.
 #[derive(Clone, Copy, Default)]
@@ -44,60 +49,114 @@ impl<'a> DriverFigures<'a> {
 /// encodings are never added.
 type DriverRows<'a> = BTreeMap<(&'a str, Aspect, Option<ChannelEncoding>), Vec<DriverFigures<'a>>>;
 
+/// The judged records of one case, each with its adapter's column.
+type CaseRecords<'a> = Vec<(usize, &'a Record)>;
+
 fn rows<'a>(grid: &RunGrid<'a>) -> DriverRows<'a> {
     let mut rows: DriverRows<'a> = BTreeMap::new();
     for area in &grid.areas {
+        let mut cases: BTreeMap<&str, CaseRecords<'_>> = BTreeMap::new();
         for column in 0..grid.adapters.len() {
             for index in area.on(column) {
                 let record = grid.record(index);
                 // A selftest's frame is compared with a wrong expectation on purpose.
-                if record.due_fail {
-                    continue;
-                }
-                let legal = match record.verdict {
-                    Verdict::Pass | Verdict::Imprecise | Verdict::Measured => true,
-                    Verdict::Fail => false,
-                    _ => continue,
-                };
-                for accuracy in record.accuracy.iter().filter(|a| drawable(a)) {
-                    let row = rows
-                        .entry((area.name, accuracy.aspect, accuracy.encoding))
-                        .or_insert_with(|| vec![DriverFigures::default(); grid.adapters.len()]);
-                    row[column].add(&record.case, accuracy, legal);
+                if !record.due_fail && is_legal(record).is_some() {
+                    let of_case = cases.entry(&record.case).or_default();
+                    of_case.push((column, record));
                 }
             }
+        }
+        for (case, records) in &cases {
+            add_case(grid, &mut rows, (area.name, case), records);
         }
     }
     rows
 }
 
+/// Returns true if a record's frame is legal, and false if it failed; `None` if it was not judged.
+fn is_legal(record: &Record) -> Option<bool> {
+    match record.verdict {
+        Verdict::Pass | Verdict::Imprecise | Verdict::Measured => Some(true),
+        Verdict::Fail => Some(false),
+        _ => None,
+    }
+}
+
+/// Adds the figures of a case on all adapters. Records leave out what is exact. If some adapter is off in a
+/// case, the others count there as exact with the same number of channel values, so that all means are over
+/// the same cases.
+fn add_case<'a>(
+    grid: &RunGrid<'a>,
+    rows: &mut DriverRows<'a>,
+    (area, case): (&'a str, &'a str),
+    records: &CaseRecords<'a>,
+) {
+    let entries = records.iter().flat_map(|(_, record)| &record.accuracy);
+    let entries: Vec<&Accuracy> = entries.filter(|a| drawable(a)).collect();
+    let keys = distinct(entries.iter().map(|a| (a.aspect, a.encoding)));
+    for (aspect, encoding) in keys {
+        let alike = |a: &&Accuracy| (a.aspect, a.encoding) == (aspect, encoding);
+        let sizes = entries.iter().copied().filter(alike);
+        let channels = sizes.map(|a| a.channels.saturating_add(a.overflow)).max();
+        let exact = Accuracy {
+            channels: channels.unwrap_or(0),
+            ..Accuracy::none(aspect, encoding)
+        };
+        for (column, record) in records {
+            let mut of_record = record.accuracy.iter().filter(|a| a.aspect == aspect);
+            let figures = match of_record.clone().find(alike) {
+                Some(found) if drawable(found) => *found,
+                Some(_) => continue,
+                None if of_record.next().is_none()
+                    && asserts(record, aspect)
+                    && has_encoding(grid, *column, aspect, encoding) =>
+                {
+                    exact
+                }
+                None => continue,
+            };
+            let row = rows
+                .entry((area, aspect, encoding))
+                .or_insert_with(|| vec![DriverFigures::default(); grid.adapters.len()]);
+            let legal = is_legal(record) == Some(true);
+            if legal || !figures.is_exact() {
+                row[*column].add(case, &figures, legal);
+            }
+        }
+    }
+}
+
+/// Returns true if the yardstick asserts something about an aspect of a frame.
+fn asserts(record: &Record, aspect: Aspect) -> bool {
+    let mut assertions = record.assertions.iter();
+    assertions.any(|a| a.aspect == aspect && a.yardstick_asserted > 0)
+}
+
+/// Returns true if an adapter can have read this encoding: one format can have several depth encodings.
+fn has_encoding(
+    grid: &RunGrid<'_>,
+    column: usize,
+    aspect: Aspect,
+    encoding: Option<ChannelEncoding>,
+) -> bool {
+    let (Aspect::Depth, Some(encoding)) = (aspect, encoding) else {
+        return encoding.is_some();
+    };
+    let adapter = grid.run.header.adapter(grid.adapters[column]);
+    let mut formats = adapter.into_iter().flat_map(|a| a.limits.formats.values());
+    formats.any(|format| format.depth.contains(&encoding))
+}
+
 /// Returns true if a chart can show the numbers of a record. A run folder can contain any number.
 fn drawable(a: &Accuracy) -> bool {
     let fine = |v: f64| v.is_finite() && (0.0..=1e12).contains(&v);
-    a.channels > 0 && fine(a.mean) && fine(a.max)
+    (a.channels > 0 || a.overflow > 0) && fine(a.mean) && fine(a.max)
 }
 
-/// The speed of an adapter in the run.
-struct Speed {
-    cases_per_second: Option<f64>,
-    /// The median time of drawing and reading back, in seconds, over all judged cases.
-    draw: Option<f64>,
-    /// The median frame time of method cases, in seconds.
-    frame: Option<f64>,
-}
-
-fn speed(grid: &RunGrid<'_>, adapter: &str) -> Speed {
-    let records = grid.run.records.iter();
-    let records: Vec<&Record> = records.filter(|r| r.adapter == adapter).collect();
-    let judged = records.iter().filter(|r| r.verdict.is_judged());
-    let times = records
-        .iter()
-        .filter_map(|r| Some(r.measured.as_ref()?.time?.wall));
-    Speed {
-        cases_per_second: rate(&records),
-        draw: median(judged.map(|r| r.seconds.draw)),
-        frame: median(times),
-    }
+/// Returns the median frame time of an adapter's timed cases, in seconds; `None` if the run timed none.
+fn frame_time(grid: &RunGrid<'_>, adapter: &str) -> Option<f64> {
+    let records = grid.run.records.iter().filter(|r| r.adapter == adapter);
+    median(records.filter_map(|r| Some(r.measured.as_ref()?.time?.wall)))
 }
 
 /// Returns the section of `index.html`; `None` if no record has a distance.
@@ -106,18 +165,15 @@ pub(crate) fn section(grid: &RunGrid<'_>) -> Option<Markup> {
     if rows.is_empty() {
         return None;
     }
-    let aspects: Vec<Aspect> = [Aspect::Color, Aspect::Depth, Aspect::Stencil]
-        .into_iter()
-        .filter(|a| rows.keys().any(|(_, aspect, _)| aspect == a))
-        .collect();
+    let panels = [Aspect::Color, Aspect::Depth].into_iter();
+    let panels = panels.flat_map(|aspect| [(aspect, StepUnit::Code), (aspect, StepUnit::Ulp)]);
     let section = html! {
         section id="accuracy" {
-            h2 { "Accuracy and speed of drivers" }
+            h2 { "Accuracy of drivers" }
             p {
-                "How far the codes of legal frames lie from the ideal ones, the middle of the yardstick's "
-                "interval. Codes of different encodings are steps of different sizes: the charts show shares of the range, from the least "
-                "to the largest value of an encoding, and the table codes too. A float's range is that from a power of two to the next. "
-                "Each mark is an adapter's mean over an area."
+                "The distance of legal frames from the ideal: the middle of the yardstick's interval. Values without an ideal are not measured: "
+                "undefined contents, values beyond the range of their encoding, and outcomes of a choice that the rules leave to the driver. "
+                "Each mark is an adapter's mean over the cases of an area in which any adapter is not exact."
             }
             p.legend {
                 @for (i, adapter) in grid.adapters.iter().enumerate() {
@@ -125,18 +181,21 @@ pub(crate) fn section(grid: &RunGrid<'_>) -> Option<Markup> {
                 }
             }
             div.charts {
-                @for aspect in aspects.iter().filter(|a| **a != Aspect::Stencil) { (panel(grid, &rows, *aspect)) }
+                @for (aspect, unit) in panels { (panel(grid, &rows, aspect, unit)) }
             }
+            p.note {
+                b { "½ code is rounding:" } " if the ideal is halfway between two codes, both are half a code away. After several roundings in a row, "
+                "and in floats or depths of 24 and more bits, the yardstick knows the ideal to a few steps only. " code { "cpu" } ", which computes in 32-bit floats, "
+                "differs from its middle by as much."
+            }
+            (speed(grid))
             details open[rows.len() <= 12] {
                 summary { "Table and command" }
                 p.again { "Drawn by " code { (grid.run.header.provenance.command.join(" ")) } }
                 p.note {
-                    "The mean / the largest distance of legal frames in codes, and below as shares of the range. An ideal value "
-                    "halfway between two codes is half a code away from both. In brackets, if there "
-                    "are any: the largest distance of frames that failed. A draw time covers drawing and reading "
-                    "back one case with new pipelines. A frame time is that of a method case that was drawn many times. Hover "
-                    "over a cell for the case that is farthest off: a depth bias counts in steps that a driver may double, which "
-                    "is legal and millions of codes away."
+                    "The mean / a bound for 99 % of the values / the largest distance of legal frames, in codes of fixed point or ulp of floats. The bound is known to a factor of two, "
+                    "and older runs lack it. Overflows are values of which only the code or the ideal is finite. In brackets, if there "
+                    "are any: the largest distance of frames that failed. Hover over a cell for the case that is farthest off."
                 }
                 (table(grid, &rows))
             }
@@ -145,38 +204,40 @@ pub(crate) fn section(grid: &RunGrid<'_>) -> Option<Markup> {
     Some(section)
 }
 
+/// Returns what the run says about speed: the frame times of its methods, or the command that times frames.
+fn speed(grid: &RunGrid<'_>) -> Markup {
+    let is_timed = grid.adapters.iter().any(|a| frame_time(grid, a).is_some());
+    let adapters = grid.adapters.iter().map(|a| format!(" --adapter {a}"));
+    let command = adapters.fold("etalon bench 'perf/*'".to_owned(), |text, a| text + &a);
+    html! {
+        p {
+            b { "Speed: " }
+            @if is_timed {
+                "this run timed the frames of method cases only, and the table has their median. "
+            } @else {
+                "no frame of this run was timed. "
+            }
+            "To time drivers and see their errors beside it: " code { (command) }
+        }
+    }
+}
+
 fn table(grid: &RunGrid<'_>, rows: &DriverRows<'_>) -> Markup {
     // The names of a row, its class, and a cell per adapter.
     type Row = ([String; 3], &'static str, Vec<Cell>);
-    let speeds: Vec<Speed> = grid.adapters.iter().map(|a| speed(grid, a)).collect();
-    let speed = |name: &str, class, figure: &dyn Fn(&Speed) -> Option<String>| -> Row {
-        let cells = speeds.iter().map(|s| Cell::from(figure(s))).collect();
-        (
-            [name.to_owned(), String::new(), String::new()],
-            class,
-            cells,
-        )
-    };
     let mut lines: Vec<Row> = rows
         .iter()
         .map(|((area, aspect, encoding), figures)| {
             let encoded = encoding.map_or_else(|| "several".to_owned(), |e| e.to_string());
             let names = [(*area).to_owned(), aspect.name().to_owned(), encoded];
-            (
-                names,
-                "",
-                figures.iter().map(|f| cell(f, *encoding)).collect(),
-            )
+            (names, "", figures.iter().map(cell).collect())
         })
         .collect();
-    lines.push(speed("cases per second", "sum", &|s| {
-        s.cases_per_second.map(|rate| digits(rate, 3))
-    }));
-    lines.push(speed("median draw time", "", &|s| s.draw.map(duration)));
-    if speeds.iter().any(|s| s.frame.is_some()) {
-        lines.push(speed("median frame time of methods", "", &|s| {
-            s.frame.map(duration)
-        }));
+    let times: Vec<Option<f64>> = grid.adapters.iter().map(|a| frame_time(grid, a)).collect();
+    if times.iter().any(Option::is_some) {
+        let name = "median frame time of methods".to_owned();
+        let cells = times.into_iter().map(|t| Cell::from(t.map(duration)));
+        lines.push(([name, String::new(), String::new()], "sum", cells.collect()));
     }
     let mut table = Table::<Row>::new("numbers")
         .row_class(|(_, class, _)| *class)
@@ -189,90 +250,104 @@ fn table(grid: &RunGrid<'_>, rows: &DriverRows<'_>) -> Markup {
     table.page(lines)
 }
 
-/// Returns a distance in codes as a fraction of the encoding's range; `None` if the encoding is not known.
-fn of_range(codes: f64, encoding: Option<ChannelEncoding>) -> Option<f64> {
-    let part = codes / encoding?.range();
-    part.is_finite().then_some(part)
-}
-
-/// Returns the text of a fraction of a range; `over 100 %` above 1.
-fn part(value: f64) -> String {
-    if value > 1.0 {
-        "over 100\u{a0}%".to_owned()
-    } else {
-        share(value)
-    }
-}
-
-fn cell(figures: &DriverFigures<'_>, encoding: Option<ChannelEncoding>) -> Cell {
+fn cell(figures: &DriverFigures<'_>) -> Cell {
     let shown = html! {
-        @if let Some(legal) = &figures.legal {
-            (digits(legal.mean, 2)) " / " (digits(legal.max, 3))
-            @if let (Some(mean), Some(max)) = (of_range(legal.mean, encoding), of_range(legal.max, encoding)) {
-                br; small { (part(mean)) " / " (part(max)) }
+        @match &figures.legal {
+            None => "–",
+            Some(legal) if legal.is_exact() => "exact",
+            Some(legal) => {
+                @if legal.max > 0.0 {
+                    (digits(legal.mean, 2)) " / "
+                    @match legal.percentile(SHARE) { Some(bound) => (digits(bound, 3)), None => "–" }
+                    " / " (digits(legal.max, 3))
+                } @else { "exact" }
+                @if legal.overflow > 0 { br; small { (count(legal.overflow, "overflow")) } }
             }
-        } @else { "–" }
+        }
         @if let Some(wrong) = &figures.wrong {
-            " (" (digits(wrong.max, 3)) ")"
+            " (" (digits(wrong.max, 3))
+            @if wrong.overflow > 0 { ", " (count(wrong.overflow, "overflow")) }
+            ")"
         }
     };
     let title = figures
         .legal
+        .filter(|legal| !legal.is_exact())
         .map(|_| format!("The largest: {}", figures.farthest));
     Cell::from(shown).with("title", title)
 }
 
-/// The mean and the largest distance over all encodings, as fractions of their ranges.
-#[derive(Clone, Copy, Default)]
-struct Shares {
-    channels: f64,
-    mean: f64,
-    max: f64,
+/// The step that a distance counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum StepUnit {
+    /// A code of a fixed-point or integer encoding.
+    Code,
+    /// The step of a float.
+    Ulp,
 }
 
-/// Returns the fractions of each area and adapter; none for areas without a known encoding.
-fn shares<'a>(
+impl StepUnit {
+    fn of(encoding: ChannelEncoding) -> Self {
+        if encoding.is_float() {
+            Self::Ulp
+        } else {
+            Self::Code
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Code => "codes",
+            Self::Ulp => "ulp",
+        }
+    }
+
+    fn numbers(self) -> &'static str {
+        match self {
+            Self::Code => "fixed point",
+            Self::Ulp => "floats",
+        }
+    }
+}
+
+/// The figures of an area's frames on each adapter, over all encodings with the same unit.
+type AreaFigures<'a> = BTreeMap<&'a str, Vec<Option<Accuracy>>>;
+
+/// Returns the figures of each area and adapter; none for areas without a known encoding.
+fn of_areas<'a>(
     rows: &DriverRows<'a>,
-    aspect: Aspect,
+    (aspect, unit): (Aspect, StepUnit),
     adapters: usize,
-) -> BTreeMap<&'a str, Vec<Option<Shares>>> {
-    let mut result: BTreeMap<&str, Vec<Option<Shares>>> = BTreeMap::new();
+) -> AreaFigures<'a> {
+    let mut result = AreaFigures::new();
     for ((area, _, encoding), figures) in rows.iter().filter(|((_, a, _), _)| *a == aspect) {
+        if encoding.map(StepUnit::of) != Some(unit) {
+            continue;
+        }
         for (adapter, f) in figures.iter().enumerate() {
-            let Some(legal) = f.legal else { continue };
-            let (Some(mean), Some(max)) = (
-                of_range(legal.mean, *encoding),
-                of_range(legal.max, *encoding),
-            ) else {
+            let Some(legal) = f.legal.filter(|legal| legal.channels > 0) else {
                 continue;
             };
-            let measured = result.entry(area).or_insert_with(|| vec![None; adapters]);
-            let sum = measured[adapter].get_or_insert_default();
-            let channels = legal.channels as f64;
-            sum.channels += channels;
-            sum.mean += (mean - sum.mean) * channels / sum.channels;
-            sum.max = sum.max.max(max);
+            let area = result.entry(area).or_insert_with(|| vec![None; adapters]);
+            area[adapter]
+                .get_or_insert(Accuracy::none(aspect, None))
+                .add(&legal);
         }
     }
     result
 }
 
 /// Returns a chart with a row per area and a mark per adapter at its mean distance.
-fn panel(grid: &RunGrid<'_>, rows: &DriverRows<'_>, aspect: Aspect) -> Markup {
+fn panel(grid: &RunGrid<'_>, rows: &DriverRows<'_>, aspect: Aspect, unit: StepUnit) -> Markup {
     const ROW: f64 = 24.0;
     const NAMES: f64 = 96.0;
     const ZERO: f64 = 30.0;
-    let of_aspect = shares(rows, aspect, grid.adapters.len());
-    if of_aspect.is_empty() {
+    let areas = of_areas(rows, (aspect, unit), grid.adapters.len());
+    if areas.is_empty() {
         return html! {};
     }
-    let means = of_aspect.values().flat_map(|f| f.iter().flatten());
-    let scale = Scale::log(
-        means
-            .map(|s| s.mean)
-            .filter(|m| *m > 0.0)
-            .chain([0.0005, 0.002]),
-    );
+    let means = areas.values().flat_map(|f| f.iter().flatten());
+    let scale = Scale::log(means.map(|s| s.mean).filter(|m| *m > 0.0).chain([0.1, 0.5]));
     let start = LEFT + NAMES - 40.0;
     let x = |mean: f64| {
         if mean > 0.0 {
@@ -281,19 +356,21 @@ fn panel(grid: &RunGrid<'_>, rows: &DriverRows<'_>, aspect: Aspect) -> Markup {
             start + ZERO / 2.0
         }
     };
-    let bottom = TOP + ROW * of_aspect.len() as f64;
+    let bottom = TOP + ROW * areas.len() as f64;
+    let rounding = x(0.5);
     let body = html! {
         rect.zero x=(n(start)) y=(n(TOP)) width=(n(ZERO)) height=(n(bottom - TOP)) {}
         text.tick x=(n(start + ZERO / 2.0)) y=(n(bottom + 14.0)) text-anchor="middle" { "exact" }
         @for tick in scale.ticks(5) {
             path.grid d={ "M" (n(x(tick))) " " (n(TOP)) "V" (n(bottom)) } {}
             @if x(tick) > start + ZERO + 14.0 {
-                text.tick x=(n(x(tick))) y=(n(bottom + 14.0)) text-anchor="middle" { (share(tick)) }
+                text.tick x=(n(x(tick))) y=(n(bottom + 14.0)) text-anchor="middle" { (digits(tick, 2)) }
             }
         }
+        path.level.one d={ "M" (n(rounding)) " " (n(TOP)) "V" (n(bottom)) } {}
         rect.box x=(n(start)) y=(n(TOP)) width=(n(RIGHT - start)) height=(n(bottom - TOP)) {}
-        text.axis x=(n(f64::midpoint(start, RIGHT))) y=(n(bottom + 32.0)) text-anchor="middle" { "← more accurate: mean distance, share of the range" }
-        @for (i, (area, figures)) in of_aspect.iter().enumerate() {
+        text.axis x=(n(f64::midpoint(start, RIGHT))) y=(n(bottom + 32.0)) text-anchor="middle" { "← more accurate: mean distance in " (unit.name()) }
+        @for (i, (area, figures)) in areas.iter().enumerate() {
             @let y = TOP + ROW * (i as f64 + 0.5);
             text.tick x=(n(start - 5.0)) y=(n(y + 3.5)) text-anchor="end" { (plain(area, 18)) }
             @if i > 0 { path.grid d={ "M" (n(start)) " " (n(y - ROW / 2.0)) "H" (n(RIGHT)) } {} }
@@ -301,17 +378,19 @@ fn panel(grid: &RunGrid<'_>, rows: &DriverRows<'_>, aspect: Aspect) -> Markup {
                 @if let Some(legal) = f {
                     // Marks of equal means are shifted apart vertically.
                     @let shift = (adapter as f64 + 0.5) / figures.len() as f64 - 0.5;
-                    @let text = format!("{}, {area}: mean {}, largest {} of the range", grid.adapters[adapter], part(legal.mean), part(legal.max));
+                    @let text = format!("{}, {area}: mean {}, largest {} {}", grid.adapters[adapter], digits(legal.mean, 2), digits(legal.max, 3), unit.name());
                     (marker(adapter, (x(legal.mean), y + shift * (ROW - 10.0)), true, &text))
                 }
             }
         }
     };
     let title = format!(
-        "{}: distance from the ideal",
-        super::name::title(aspect.name())
+        "{} in {}: distance from the ideal",
+        super::name::title(aspect.name()),
+        unit.numbers()
     );
-    let about = "A row per area, a mark per adapter at its mean distance as a share of the range.";
+    let about =
+        "A row per area, a mark per adapter at its mean distance. The dotted line is half a step.";
     chart(bottom + 42.0, &title, about, &body)
 }
 
@@ -319,46 +398,61 @@ fn panel(grid: &RunGrid<'_>, rows: &DriverRows<'_>, aspect: Aspect) -> Markup {
 mod tests {
     use super::*;
 
+    fn accuracy(encoding: Option<ChannelEncoding>, mean: f64, max: f64) -> Accuracy {
+        Accuracy {
+            channels: 100,
+            mean,
+            max,
+            ..Accuracy::none(Aspect::Color, encoding)
+        }
+    }
+
     #[test]
-    fn codes_of_floats_and_of_8_bits_are_compared_only_as_shares() {
+    fn codes_of_fixed_point_and_steps_of_floats_are_never_added() {
         let row = |encoding, mean, max| {
-            let legal = Accuracy {
-                aspect: Aspect::Color,
-                encoding,
-                channels: 100,
-                mean,
-                max,
-            };
             let figures = vec![DriverFigures {
-                legal: Some(legal),
+                legal: Some(accuracy(encoding, mean, max)),
                 ..DriverFigures::default()
             }];
             (("blend", Aspect::Color, encoding), figures)
         };
-        let [eight, float] = [ChannelEncoding::Unorm(8), ChannelEncoding::Float32];
         let rows: DriverRows<'_> = [
-            row(Some(eight), 0.51, 1.0),
-            row(Some(float), 83_886.08, 4_294_967_296.0),
+            row(Some(ChannelEncoding::Unorm(8)), 0.5, 1.0),
+            row(Some(ChannelEncoding::Srgb8), 0.25, 2.0),
+            row(Some(ChannelEncoding::Float32), 8.0, 64.0),
             row(None, 1.0, 7.0),
         ]
         .into();
-        let texts = shares(&rows, Aspect::Color, 1);
-        let mean = texts["blend"][0].unwrap().mean;
-        assert!((mean - (0.002 + 0.01) / 2.0).abs() < 1e-9, "{mean}");
-        let text = |encoding, i: usize| {
-            let figures = rows.values().nth(i).unwrap();
-            cell(&figures[0], encoding).element("td").into_string()
+        let figures = |unit| {
+            let of_unit = of_areas(&rows, (Aspect::Color, unit), 1);
+            let sum = of_unit["blend"][0].unwrap();
+            (sum.channels, sum.mean, sum.max)
         };
-        assert!(text(None, 0).contains("1 / 7<"), "{}", text(None, 0));
+        assert_eq!(figures(StepUnit::Code), (200, 0.375, 2.0));
+        assert_eq!(figures(StepUnit::Ulp), (100, 8.0, 64.0));
+    }
+
+    #[test]
+    fn a_cell_has_mean_bound_largest_and_overflows() {
+        let encoding = Some(ChannelEncoding::Float16);
+        let text = |legal: Accuracy| {
+            let figures = DriverFigures {
+                legal: Some(legal),
+                ..DriverFigures::default()
+            };
+            cell(&figures).element("td").into_string()
+        };
+        // A record of an older version has no spread, so nothing bounds 99 % of its values.
+        let old = accuracy(encoding, 0.5, 3.0);
+        assert!(text(old).contains(">0.5 / – / 3<"), "{}", text(old));
+        let mut new = Accuracy { overflow: 2, ..old };
+        new.spread.count(3.0);
         assert!(
-            text(Some(eight), 1).contains("<small>0.2\u{a0}% / 0.392\u{a0}%"),
+            text(new).contains(">0.5 / 0 / 3<br><small>2 overflows<"),
             "{}",
-            text(Some(eight), 1)
+            text(new)
         );
-        assert!(
-            text(Some(float), 2).contains("<small>1\u{a0}% / over 100\u{a0}%"),
-            "{}",
-            text(Some(float), 2)
-        );
+        let exact = accuracy(encoding, 0.0, 0.0);
+        assert!(text(exact).contains(">exact<"));
     }
 }

@@ -506,11 +506,10 @@ fn hostile_names_of_methods_stay_text() {
     let [first, second] = [0.1, 2.0].map(|value| {
         let mut record = Record::new(format!("{hostile}/b={hostile}"), hostile, Verdict::Measured);
         record.accuracy = vec![Accuracy {
-            aspect: Aspect::Color,
-            encoding: None,
             channels: 1,
             mean: value,
             max: 1e300,
+            ..Accuracy::none(Aspect::Color, None)
         }];
         record.measured = Some(Measured {
             question: hostile.to_owned(),

@@ -55,11 +55,10 @@ pub(crate) fn rich(case: &str) -> Record {
     record.texels.total = 256;
     record.texels.imprecise = 3;
     record.accuracy = vec![Accuracy {
-        aspect: Aspect::Color,
-        encoding: None,
         channels: 1024,
         mean: 0.25,
         max: 1.0,
+        ..Accuracy::none(Aspect::Color, None)
     }];
     record.counters = vec![CounterOutcome {
         name: "samples".to_owned(),

@@ -189,9 +189,8 @@ fn accuracy(found: &mut Details, before: &[Accuracy], after: &[Accuracy]) {
     // Old formats add up several encodings, so their figures compare with each other only.
     let is_old = all().any(|a| a.encoding.is_none());
     let exact = |like: &Accuracy| Accuracy {
-        mean: 0.0,
-        max: 0.0,
-        ..*like
+        channels: like.channels,
+        ..Accuracy::none(like.aspect, like.encoding)
     };
     let mut seen: Vec<&Accuracy> = Vec::new();
     for like in all() {
@@ -212,5 +211,7 @@ fn accuracy(found: &mut Details, before: &[Accuracy], after: &[Accuracy]) {
         };
         found.add("accuracy", format!("{aspect} mean"), old.mean, new.mean);
         found.add("accuracy", format!("{aspect} largest"), old.max, new.max);
+        let overflow = format!("{aspect} overflows");
+        found.add("accuracy", overflow, old.overflow, new.overflow);
     }
 }

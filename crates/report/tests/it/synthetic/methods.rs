@@ -109,11 +109,10 @@ fn record(
         judge: 0.001,
     };
     r.accuracy.push(Accuracy {
-        aspect: Aspect::Color,
-        encoding: Some(etalon_frame::ChannelEncoding::Unorm(8)),
         channels: 65536,
         mean: 0.11 * slow,
         max: 2.0,
+        ..Accuracy::none(Aspect::Color, Some(etalon_frame::ChannelEncoding::Unorm(8)))
     });
     r.measured = Some(Measured {
         question: question.to_owned(),
