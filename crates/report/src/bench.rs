@@ -2,7 +2,9 @@
 //! from the recorded samples, so a later version can report an old bench again.
 
 mod charts;
+mod drivers;
 pub(crate) mod figures;
+mod kind;
 mod page;
 mod table;
 mod write;

@@ -288,8 +288,9 @@ impl RunningBench<'_, '_> {
                     adapter: record.adapter.clone(),
                     verdict: record.verdict,
                     asserted: asserted as f64 / channels.max(1) as f64,
+                    accuracy: record.accuracy.clone(),
                     reasons: reasons(record),
-                    work: cell(&case.id).map(|_| case.scene.work()),
+                    work: Some(case.scene.work()),
                 };
                 let rounds = known.as_ref().map_or(0, |k| k.rounds.len() as u32);
                 if known.is_none() {

@@ -54,6 +54,16 @@ fn right_pictures_are_timed_and_wrong_ones_are_not() {
     let right = bench.record("perf/right", "cpu").unwrap();
     assert_eq!(right.picture.verdict, Verdict::Pass);
     assert_eq!(right.rounds.len(), 2);
+    let [accuracy] = &right.picture.accuracy[..] else {
+        panic!("{:?}", right.picture)
+    };
+    assert!(accuracy.channels > 0 && accuracy.is_exact());
+    assert!(
+        right
+            .picture
+            .work
+            .is_some_and(|work| work.texels > 0 || work.cleared > 0)
+    );
     let wrong = bench.record("perf/wrong", "cpu").unwrap();
     assert_eq!(wrong.picture.verdict, Verdict::Fail);
     assert!(wrong.rounds.is_empty());

@@ -53,6 +53,7 @@ fn bench(folder: &Path, seconds: f64) {
         asserted: 1.0,
         reasons: Vec::new(),
         work: None,
+        accuracy: Vec::new(),
     };
     writer.append(&BenchLine::Picture(picture)).unwrap();
     for round in 0..9 {

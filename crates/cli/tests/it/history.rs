@@ -97,6 +97,7 @@ impl HistoryFolder {
             asserted: 1.0,
             reasons: Vec::new(),
             work: None,
+            accuracy: Vec::new(),
         };
         writer.append(&BenchLine::Picture(picture)).unwrap();
         for round in 0..7 {

@@ -4,7 +4,7 @@ use super::counted::CountedInstructions;
 use super::time::Time;
 use crate::reason::{self, Reason};
 use crate::verdict::Verdict;
-use etalon_frame::{Work, state_enum};
+use etalon_frame::{Accuracy, Work, state_enum};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::slice;
@@ -45,9 +45,13 @@ pub struct Picture {
         skip_serializing_if = "Vec::is_empty"
     )]
     pub reasons: Vec<Reason>,
-    /// The work of a frame, for cells of the performance matrix.
+    /// The work of a frame. Older versions have it for cells of the performance matrix only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub work: Option<Work>,
+    /// The distance of the picture from the ideal, for each aspect and encoding that was read back, exact ones
+    /// too. Older versions lack it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub accuracy: Vec<Accuracy>,
 }
 
 impl Picture {

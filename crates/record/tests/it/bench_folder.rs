@@ -43,6 +43,7 @@ fn picture(verdict: Verdict) -> BenchLine {
         asserted: 1.0,
         reasons: Vec::new(),
         work: None,
+        accuracy: Vec::new(),
     })
 }
 

@@ -1,6 +1,7 @@
 //! `index.html` of a bench.
 
 use super::charts::{TimeRange, drift, strip};
+use super::drivers;
 use super::figures::{CaseFigures, KINDS, TimedCase, end, incomplete, limits};
 use crate::chart;
 use crate::numbers::{between, change, count, duration, percent};
@@ -20,18 +21,20 @@ const OWN_STYLE: &str = include_str!("bench.css");
 pub(super) fn page(bench: &Bench, figures: &[CaseFigures<'_>]) -> String {
     let main = html! {
         (head(bench, figures))
-        (explanation())
         @if figures.is_empty() {
             p { "No case was drawn, so there is nothing to report." }
         } @else {
+            @if let Some(chart) = drivers::section(bench, figures) { (chart) }
             @for (kind, title) in KINDS { (overview(figures, kind, title)) }
-            (ruler(bench))
             section id="cases" {
                 h2 { "Cases" }
                 @for (i, case) in figures.iter().enumerate() { (of_case(case, i)) }
             }
+            (explanation())
         }
         (adapters(&bench.header.adapters, &bench.header.absent))
+        (about(bench))
+        @if !figures.is_empty() { (ruler(bench)) }
     };
     Page::new(
         &format!("etalon bench {}", bench.header.provenance.started),
@@ -50,7 +53,7 @@ fn head(bench: &Bench, figures: &[CaseFigures<'_>]) -> Markup {
     html! {
         header {
             h1 { "etalon bench" }
-            p.lead { "Frame times of graphics drivers, of frames that were judged right." }
+            p.lead { "Errors and frame times of graphics drivers, of frames that were judged right." }
             (incomplete(bench))
             @if bad > 0 {
                 p.state.bad {
@@ -58,15 +61,9 @@ fn head(bench: &Bench, figures: &[CaseFigures<'_>]) -> Markup {
                     ": no frame time, and listed below with the reason."
                 }
             }
-            dl.facts {
-                (origin(&h.provenance))
-                dt { "Scope" } dd {
-                    (count(h.cases, "case")) " (" (h.profile) ") on " (count(h.adapters.len() as u64, "adapter"))
-                    ", " (count(u64::from(h.rounds), "round")) " each"
-                }
-                dt { "Shader caches" } dd { (h.shader_cache.name()) }
-                dt { "Ruler" } dd { (h.ruler) }
-                (limits(&h.settings))
+            p.soft {
+                (count(h.cases, "case")) " (" (h.profile) ") on " (count(h.adapters.len() as u64, "adapter"))
+                ", " (count(u64::from(h.rounds), "round")) " each."
             }
             @if figures.iter().any(|c| cell(c.case).is_some()) {
                 nav { a href="matrix.html" { "Performance matrix" } }
@@ -75,10 +72,26 @@ fn head(bench: &Bench, figures: &[CaseFigures<'_>]) -> Markup {
     }
 }
 
+/// Returns the section on the origin of the bench.
+fn about(bench: &Bench) -> Markup {
+    let h = &bench.header;
+    html! {
+        section id="about" {
+            h2 { "About the bench" }
+            dl.facts {
+                (origin(&h.provenance))
+                dt { "Shader caches" } dd { (h.shader_cache.name()) }
+                dt { "Ruler" } dd { (h.ruler) }
+                (limits(&h.settings))
+            }
+        }
+    }
+}
+
 fn explanation() -> Markup {
     html! {
         details {
-            summary { "Reading this page" }
+            summary { "Reading the tables" }
             p {
                 "A round prepares the scene anew, draws some frames of warm-up, which are counted and discarded, and "
                 "some timed frames, which all count. Rounds of all cases and adapters interleave, so that drift "

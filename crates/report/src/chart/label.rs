@@ -9,6 +9,7 @@ const STEP: f64 = 4.0;
 /// out; the legend, hover text and table also show it.
 pub(crate) struct LabelPlaces {
     taken: Vec<[f64; 4]>,
+    bottom: f64,
 }
 
 impl LabelPlaces {
@@ -17,7 +18,13 @@ impl LabelPlaces {
         let around = |(x, y): (f64, f64)| [x - 5.0, y - 5.0, x + 5.0, y + 5.0];
         Self {
             taken: points.into_iter().map(around).collect(),
+            bottom: BOTTOM,
         }
+    }
+
+    /// Sets the bottom of a chart that is lower or higher than usual.
+    pub(crate) fn down_to(self, bottom: f64) -> Self {
+        Self { bottom, ..self }
     }
 
     /// Keeps texts clear of a line through these corners.
@@ -51,7 +58,7 @@ impl LabelPlaces {
             let inside = text[0] >= LEFT + 2.0
                 && text[2] <= RIGHT - 2.0
                 && text[1] >= TOP + 1.0
-                && text[3] <= BOTTOM - 1.0;
+                && text[3] <= self.bottom - 1.0;
             let apart =
                 |o: &[f64; 4]| text[2] < o[0] || o[2] < text[0] || text[3] < o[1] || o[3] < text[1];
             inside && self.taken.iter().all(apart)

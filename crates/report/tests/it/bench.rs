@@ -1,7 +1,7 @@
 //! Reports of benches, made from bench folders.
 
 use crate::synthetic::adapter;
-use etalon_frame::Api;
+use etalon_frame::{Accuracy, Api, Aspect, ChannelEncoding, Work};
 use etalon_record::{
     BENCH_FORMAT, Bench, BenchHeader, BenchLine, BenchWriter, Ended, Machine, Picture,
     ProcessorLimits, Provenance, Reason, Round, ShaderCache, Time, Verdict,
@@ -69,8 +69,27 @@ fn picture(case: &str, adapter: &str, verdict: Verdict, message: &str) -> BenchL
         verdict,
         asserted: 0.995,
         reasons: text(message),
-        work: None,
+        work: Some(Work {
+            texels: 65536,
+            cleared: 131_072,
+            ..Work::default()
+        }),
+        accuracy: vec![accuracy(adapter)],
     })
+}
+
+/// The distances of an adapter's pictures: only `cpu` is exact, and the card overflows once.
+fn accuracy(adapter: &str) -> Accuracy {
+    let mut accuracy = Accuracy {
+        channels: 1000,
+        ..Accuracy::none(Aspect::Color, Some(ChannelEncoding::Unorm(8)))
+    };
+    if adapter != "cpu" {
+        (0..20).for_each(|_| accuracy.spread.count(1.0));
+        (accuracy.mean, accuracy.max) = (0.02, 1.0);
+    }
+    accuracy.overflow = u64::from(adapter == "vulkan:card");
+    accuracy
 }
 
 fn round(case: &str, adapter: &str, number: u32, median: f64, gpu: bool) -> BenchLine {
@@ -176,6 +195,111 @@ fn the_page_keeps_software_and_hardware_apart() {
         "counted"
     );
     assert!(html.contains("<path class=\"band\"") && html.contains("<svg class=\"strip\""));
+}
+
+/// The part of a page between two of its texts.
+fn part<'h>(html: &'h str, from: &str, to: &str) -> &'h str {
+    let start = html.find(from).unwrap();
+    let end = start + html[start..].find(to).unwrap();
+    &html[start..end]
+}
+
+/// The panels of the chart: the title and the rest of each.
+fn panels(html: &str) -> Vec<(&str, &str)> {
+    let chart = part(html, "<section id=\"drivers\">", "</section>");
+    let figures = chart.split("<figcaption class=\"head\">").skip(1);
+    figures
+        .map(|panel| panel.split_once("</figcaption>").unwrap())
+        .collect()
+}
+
+#[test]
+fn the_page_opens_with_a_chart_that_has_every_adapter_and_ends_with_the_ruler() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), &header(), 2e-3, Verdict::Fail);
+    let html = page(&write_bench(folder.path()).unwrap().html);
+    let order = ["drivers", "cases", "adapters", "about", "ruler"]
+        .map(|id| html.find(&format!("<section id=\"{id}\">")).unwrap());
+    assert!(order.is_sorted(), "{order:?}");
+    assert!(order[0] < html.find("wall time per frame").unwrap());
+    let command = html.find("<dt>Command</dt>").unwrap();
+    assert!(order[3] < command && command < order[4]);
+
+    let panels = panels(&html);
+    let titles: Vec<&str> = panels.iter().map(|(title, _)| *title).collect();
+    assert_eq!(titles, ["Clear, 1 case", "&lt;b&gt;&amp;quad, 1 case"]);
+    for (_, panel) in &panels {
+        let marks = panel.matches("class=\"mark ").count();
+        let rings = panel.matches("class=\"ring\"").count();
+        assert_eq!((marks, rings), (3, 1), "{panel}");
+        for adapter in ["cpu", "vulkan:lavapipe", "vulkan:card"] {
+            assert!(panel.contains(&format!(">{adapter}</text>")), "{panel}");
+        }
+    }
+    // 3 ms for 131,072 cleared texels; the card has timestamps, which are half of its wall time.
+    let hovers = [
+        "<title>cpu: 15.26 ms per megatexel; error exact</title>",
+        "<title>vulkan:lavapipe: 22.89 ms per megatexel; error 0.02 / 1 / 1 codes</title>",
+        "<title>vulkan:card: 381.5 µs per megatexel; error 0.02 / 1 / 1 codes, 1 overflow</title>",
+    ];
+    for hover in hovers {
+        assert!(panels[0].1.contains(hover), "{hover}: {}", panels[0].1);
+    }
+    // An adapter without a time has no mark, and the legend says so.
+    let legend = part(&html, "<p class=\"legend\">", "<div class=\"charts\">");
+    assert_eq!(legend.matches("class=\"keymark\"").count(), 4);
+    assert!(legend.contains("gl:<wbr>softpipe<small> not timed</small>"));
+    assert_eq!(legend.matches("not timed").count(), 1);
+}
+
+#[test]
+fn marks_are_means_over_the_cases_that_all_adapters_have() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut writer = BenchWriter::create(folder.path(), &header()).unwrap();
+    let timed = [
+        ("perf/quad/size=1", "cpu", 1e-3),
+        ("perf/quad/size=1", "vulkan:lavapipe", 2e-3),
+        ("perf/quad/size=2", "cpu", 4e-3),
+        ("perf/quad/size=2", "vulkan:lavapipe", 8e-3),
+        // Only one adapter has this case, so it does not slow its mark down.
+        ("perf/quad/size=3", "cpu", 1.0),
+    ];
+    for (case, adapter, median) in timed {
+        let line = picture(case, adapter, Verdict::Pass, "");
+        writer.append(&line).unwrap();
+        writer
+            .append(&round(case, adapter, 0, median, false))
+            .unwrap();
+    }
+    let html = page(&write_bench(folder.path()).unwrap().html);
+    let panels = panels(&html);
+    assert_eq!(panels.len(), 1);
+    assert_eq!(panels[0].0, "Fill, 2 cases");
+    // The geometric means are 2 ms and 4 ms for 65,536 texels, and the jitter of round 0 adds 0.3 %.
+    for hover in ["cpu: 30.61 ms per", "vulkan:lavapipe: 61.22 ms per"] {
+        assert!(panels[0].1.contains(hover), "{hover}: {}", panels[0].1);
+    }
+}
+
+#[test]
+fn a_bench_of_an_older_version_has_no_chart_and_says_why() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), &header(), 2e-3, Verdict::Pass);
+    let path = folder.path().join("bench.jsonl");
+    let lines = fs::read_to_string(&path).unwrap();
+    let old = lines.lines().map(|line| {
+        let mut line: serde_json::Value = serde_json::from_str(line).unwrap();
+        if let Some(picture) = line.get_mut("picture").and_then(|p| p.as_object_mut()) {
+            assert!(picture.remove("accuracy").is_some() && picture.remove("work").is_some());
+        }
+        line.to_string() + "\n"
+    });
+    let old: String = old.collect();
+    fs::write(&path, old).unwrap();
+    let html = page(&write_bench(folder.path()).unwrap().html);
+    let chart = part(&html, "<section id=\"drivers\">", "</section>");
+    assert!(chart.contains("An older version recorded this bench") && !chart.contains("<svg"));
+    assert!(html.contains("Software adapters, wall time per frame"));
 }
 
 /// Bencher's schema: an object of objects of metrics, each with a value and two optional bounds.

@@ -57,6 +57,7 @@ fn picture(case: &str, adapter: &str, verdict: Verdict, layers: u64) -> BenchLin
             operations: 16 * TEXELS * layers,
             read_bytes: 0,
         }),
+        accuracy: Vec::new(),
     })
 }
 
