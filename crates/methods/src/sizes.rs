@@ -6,7 +6,7 @@
 
 use crate::method_scene::MethodScene;
 use crate::truth::Truth;
-use etalon_scene::{AttachmentContents, Draw, Mesh, Pool, Scene, Shader};
+use etalon_scene::{AttachmentContents, Draw, Mesh, Pool, Scene, Shader, SharedMesh};
 
 /// A change of a picture's size.
 #[derive(Clone, Copy, Debug)]
@@ -60,6 +60,7 @@ pub fn at_size(scene: &Scene, truth: &Truth, size: [u32; 2]) -> MethodScene {
         *pool = Pool {
             size,
             nodes: u32::try_from(per_texel * texels).unwrap_or(u32::MAX),
+            ..*pool
         };
     }
     let [across, down] = resizing.factors();
@@ -116,8 +117,25 @@ fn resize_parameters(draw: &mut Draw, resizing: Resizing) {
     }
     match draw.shader {
         Shader::Fxaa => draw.params.color[..2].copy_from_slice(&size.map(f32::recip)),
+        Shader::HashedColor | Shader::HashedSample => draw.params.color[..2].copy_from_slice(&size),
         Shader::EdgeAlpha => measure_distances(&mut draw.mesh, size),
+        Shader::FlatColor => jitter(&mut draw.mesh, resizing),
         _ => {}
+    }
+}
+
+/// Moves the vertices of jittered frames, whose texture coordinates hold the move in texels (`anti_aliasing::jittered`), by
+/// as many texels of the other size. No other mesh without a texture has texture coordinates.
+fn jitter(mesh: &mut SharedMesh, Resizing { from, to }: Resizing) {
+    if mesh.vertices.iter().all(|vertex| vertex.uv == [0.0; 2]) {
+        return;
+    }
+    for vertex in &mut mesh.vertices {
+        let [x, y, _, w] = vertex.position;
+        // Clip space is two units wide, and its y points up.
+        let step = |axis: usize| (2.0 / to[axis] as f32 - 2.0 / from[axis] as f32) * w;
+        vertex.position[0] = x + vertex.uv[0] * step(0);
+        vertex.position[1] = y - vertex.uv[1] * step(1);
     }
 }
 
@@ -157,6 +175,27 @@ mod tests {
         assert_eq!(filled(&codes, 1, sizes, false), [1, 1, 2, 2, 3, 3, 4, 4]);
         let two = filled(&codes, 2, [[2, 1], [3, 1]], true);
         assert_eq!(two, [1, 2, 3, 4, 1, 2]);
+    }
+
+    #[test]
+    fn a_jittered_vertex_moves_by_as_many_texels_at_every_size() {
+        let vertex = etalon_scene::Vertex {
+            // The middle of a picture of 8 by 8 texels, moved by half a texel to the right and a quarter down.
+            position: [0.125, -0.0625, 0.5, 1.0],
+            color: [1.0; 4],
+            uv: [0.5, 0.25],
+        };
+        let mut mesh = SharedMesh::from(Mesh {
+            vertices: vec![vertex],
+            indices: None,
+        });
+        let resizing = Resizing {
+            from: [8, 8],
+            to: [64, 32],
+        };
+        jitter(&mut mesh, resizing);
+        let [x, y, ..] = mesh.vertices[0].position;
+        assert_eq!([x * 32.0, y * 16.0], [0.5, -0.25]);
     }
 
     #[test]

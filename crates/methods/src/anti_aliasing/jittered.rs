@@ -48,8 +48,11 @@ fn still(edges: &EdgeScene) -> Vec<Polygon> {
     edges.ground.clone()
 }
 
+/// Returns the polygon moved by a number of texels. Its texture coordinates hold the move, which is the same number of
+/// texels in a frame of any size.
 fn moved(polygon: &Polygon, [x, y]: [f64; 2]) -> Polygon {
     let mut moved = polygon.clone();
+    moved.uv = vec![[x, y]; moved.corners.len()];
     for corner in &mut moved.corners {
         corner[0] += x;
         corner[1] += y;
