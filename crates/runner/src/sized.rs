@@ -14,13 +14,17 @@ use std::time::{Duration, Instant};
 
 /// The minimum and the maximum number of rounds. Fewer than six have no interval with 95 % confidence.
 const ROUNDS: [usize; 2] = [6, 15];
+/// The minimum number of rounds with a long frame.
+const ROUNDS_OF_LONG: usize = 2;
+/// The time in seconds from which a frame is long: a run would take too much time for an interval.
+const LONG: f64 = 0.25;
 /// The time in seconds after which no round begins that is not needed.
 const BUDGET: f64 = 0.5;
 /// The least time of a size in a round, in seconds: shorter frames are drawn several times.
 const ROUND: f64 = 0.002;
 /// The maximum number of frames of a size in a round.
 const FRAMES: f64 = 16.0;
-/// The longest frame in seconds that is timed in rounds, and the longest after which a larger size is tried.
+/// The longest frame in seconds after which a larger size is tried.
 const LONGEST: f64 = 2.0;
 
 /// The facts about an adapter that decide what is drawn and which clock counts.
@@ -78,7 +82,12 @@ impl WorkerProcess {
         let began = Instant::now();
         for round in 0..ROUNDS[1] {
             let elapsed = began.elapsed().as_secs_f64();
-            if (round >= ROUNDS[0] || longest > LONGEST / 2.0) && elapsed > BUDGET {
+            let fewest = if longest > LONG {
+                ROUNDS_OF_LONG
+            } else {
+                ROUNDS[0]
+            };
+            if round >= fewest && elapsed > BUDGET {
                 break;
             }
             for size in &mut timed {
@@ -132,7 +141,7 @@ impl WorkerProcess {
             )
             .and_then(|_| self.submit(slot, 1, timeout))
             .and_then(|first| match first.first() {
-                Some(time) if seconds(time).wall < LONGEST => self.submit(slot, 2, timeout),
+                Some(time) if seconds(time).wall < LONG => self.submit(slot, 2, timeout),
                 _ => Ok(first),
             });
         let times = match times {

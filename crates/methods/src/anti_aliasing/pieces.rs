@@ -97,7 +97,11 @@ impl Piece {
     /// Returns the piece clipped to its rectangle; `None` if nothing is left.
     pub(super) fn polygon(&self) -> Option<Polygon> {
         let distances: Vec<_> = self.lines.iter().map(|l| l.signed_distance).collect();
-        self.to_polygon(self.clipped(&distances), |_| 1.0)
+        let polygon = self.to_polygon(self.clipped(&distances), |_| 0.0)?;
+        Some(Polygon {
+            uv: Vec::new(),
+            ..polygon
+        })
     }
 
     /// Returns one polygon per smoothed edge. It contains the points nearest to that edge, up to [`MARGIN`]

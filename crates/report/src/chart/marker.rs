@@ -5,7 +5,7 @@ use maud::{Markup, html};
 
 /// The number of colours, shapes and line patterns. Colour alone, shape alone or pattern alone distinguishes
 /// this number of methods.
-pub(crate) const STYLES: usize = 14;
+pub(crate) const STYLES: usize = 16;
 
 /// Outlines around the origin, of about the same visual weight, one for each method of a chart. Colours alone
 /// are lost in greyscale and to some eyes.
@@ -29,6 +29,9 @@ const SHAPES: [&str; STYLES] = [
     // An hourglass and a bow.
     "M-4.6-5H4.6L0 0L4.6 5H-4.6L0 0z",
     "M-5-4.6V4.6L0 0L5 4.6V-4.6L0 0z",
+    // A pentagon and a bar.
+    "M0-5.6L5.3-1.7L3.3 4.6H-3.3L-5.3-1.7z",
+    "M-5.8-2.2H5.8V2.2H-5.8z",
 ];
 
 /// Patterns of lines: lengths of strokes and gaps.
@@ -47,6 +50,8 @@ const DASHES: [&str; STYLES] = [
     "3 1 1 1",
     "8 2 1 2 1 2 1 2",
     "1 1.5",
+    "10 3 3 3",
+    "6 6",
 ];
 
 /// Returns the classes of the `index`-th method: its colour, and the name by which a legend finds it.
@@ -100,7 +105,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     #[test]
-    fn fourteen_methods_differ_in_shape_line_and_hue() {
+    fn sixteen_methods_differ_in_shape_line_and_hue() {
         let different = |style: &dyn Fn(usize) -> String| {
             let styles: BTreeSet<String> = (0..STYLES).map(style).collect();
             assert_eq!(styles.len(), STYLES, "{styles:?}");

@@ -93,8 +93,14 @@ struct QuestionPoints<'s, 'a> {
 
 impl<'s, 'a> QuestionPoints<'s, 'a> {
     fn new(question: &'s Question<'a>, shown: &'s [ShownScene<'s, 'a>]) -> Self {
-        let of_question = shown.iter().filter(|s| std::ptr::eq(s.question, question));
-        let scenes: Vec<&ShownScene<'_, '_>> = of_question.collect();
+        let of_question = || shown.iter().filter(|s| std::ptr::eq(s.question, question));
+        // Where the parameter is that of the methods themselves, they are not drawn as people draw them.
+        let usual = || of_question().filter(|s| !is_along(s, OWN));
+        let scenes: Vec<&ShownScene<'_, '_>> = if usual().next().is_some() {
+            usual().collect()
+        } else {
+            of_question().collect()
+        };
         let mut points = Vec::new();
         for (scene, shown) in scenes.iter().enumerate() {
             let Some(setting) = shown.settings.get(shown.main) else {
@@ -154,6 +160,15 @@ impl<'s, 'a> QuestionPoints<'s, 'a> {
         let found = found.into_iter().filter(|(_, points)| enough(points));
         found.map(candidate).collect()
     }
+}
+
+/// The parameter of the methods themselves: the number of peels, layers or nodes.
+const OWN: &str = "k";
+
+/// Returns true if a scene is drawn along a parameter.
+fn is_along(shown: &ShownScene<'_, '_>, parameter: &str) -> bool {
+    let main = shown.settings.get(shown.main).and_then(|s| s.parameter);
+    main.is_some_and(|(name, _)| name == parameter)
 }
 
 /// Returns the median of one or more numbers.

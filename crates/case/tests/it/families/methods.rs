@@ -2,6 +2,7 @@
 
 use etalon_case::{CaseFile, Library, Profile};
 use etalon_methods::{at_size, claims, lessons};
+use etalon_scene::Shader;
 use std::collections::BTreeSet;
 
 #[test]
@@ -200,6 +201,13 @@ fn every_method_can_be_drawn_at_the_sizes_of_frames() {
                 for draw in &pass.draws {
                     // Nothing else is meant in texels.
                     assert_eq!(draw.scissor, None, "{id}");
+                    // Only the vertices of jittered frames move.
+                    let at_home = draw.mesh.vertices.iter().all(|v| v.uv == [0.0; 2]);
+                    let is_flat = draw.shader == Shader::FlatColor;
+                    assert!(
+                        !is_flat || at_home || id.contains("method=jittered"),
+                        "{id}"
+                    );
                     let [_, _, width, height] = draw.viewport.rect;
                     assert_eq!([width, height], drawn.map(|side| side as f32), "{id}");
                     let fetched = draw
