@@ -92,8 +92,8 @@ pub(crate) const CLAIMS: &[Claim] = &[
     .of(&STILL),
     Claim::new(
         QUESTION,
-        "Sixteen samples in sixteen rows leave less error than sixteen in a grid of four rows.",
-        "Cook 1986, Stochastic Sampling in Computer Graphics: regular grids alias",
+        "Along nearly level edges, sixteen samples in sixteen rows leave less error than sixteen in a grid of four rows.",
+        "Akenine-Möller and others, Real-Time Rendering, 4th edition, 5.4: N-rooks sampling",
         Test::Ratio {
             quantity: Quantity::Rmse,
             of: one!("jittered-16"),
@@ -101,7 +101,7 @@ pub(crate) const CLAIMS: &[Claim] = &[
             holds: FigureCondition::Below(1.0),
         },
     )
-    .of(&STILL),
+    .of(&["thin-wedge"]),
     Claim::new(
         QUESTION,
         "The mean of the frames of a moving scene is a trail: its error grows with the speed.",

@@ -60,7 +60,7 @@ pub(crate) const LESSONS: &[Lesson] = &[
     Lesson::new(
         "jittered-16",
         "Sixteen frames, each moved by another part of a texel, are summed up and divided by sixteen: as many heights as samples, unlike a grid of 4 by 4.",
-        "It takes 33 passes, the sum needs more than 8 bits, and anything that moves leaves a trail of sixteen frames.",
+        "It takes 33 passes, the sum needs more than 8 bits, anything that moves leaves a trail of sixteen frames, and on slanted edges a grid of 4 by 4 has less error.",
         "Haeberli and Akeley 1990, The Accumulation Buffer",
     ),
     Lesson::new(

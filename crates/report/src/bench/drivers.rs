@@ -176,7 +176,7 @@ pub(super) fn section(bench: &Bench, figures: &[CaseFigures<'_>]) -> Option<Mark
             (legend(bench, &panels))
             div.charts { @for panel in &panels { (drawn(bench, panel)) } }
             (caption(&panels))
-            details open {
+            details open="open" {
                 summary { "The same as a table" }
                 (table(bench, &panels))
                 p.cap {
