@@ -343,7 +343,7 @@ const CONVERSIONS: f64 = 2.4;
 const OPERATIONS: f64 = 32.0;
 
 /// Returns the largest number of codes between the ends of an interval that rounding makes. A wider one comes
-/// from something else than rounding, or from so many roundings that its middle is no ideal.
+/// from something else than rounding, or from more roundings than leave its middle an ideal.
 fn widest(encoding: ChannelEncoding) -> u64 {
     // The steps of the encoding in one step of a 32-bit float, for values just below 1.
     let precision = mantissa(encoding).map_or(encoding.bits(), |bits| u32::from(bits) + 1);

@@ -1,7 +1,6 @@
 //! Accumulation of jittered frames (Haeberli and Akeley 1990).
 
-use super::scenes::EdgeScene;
-use super::{ALL, PICTURE, clear};
+use super::scenes::{ALL, EdgeScene, PICTURE};
 use crate::polygon::{Polygon, cover, mesh};
 use crate::stage::{SIZE, Stage, add, both, draw};
 use etalon_frame::TextureFormat;
@@ -14,8 +13,8 @@ const SUM: TextureFormat = TextureFormat::Rgba16Float;
 /// are `speed` texels further to the right; the last frame shows them in their places.
 pub(super) fn jittered(edges: &EdgeScene, count: u32, speed: f64) -> Scene {
     let mut stage = Stage::new();
-    let picture = stage.color("picture", PICTURE, SIZE, clear(edges));
-    let frame = stage.color("frame", PICTURE, SIZE, clear(edges));
+    let picture = stage.color("picture", PICTURE, SIZE, edges.clear());
+    let frame = stage.color("frame", PICTURE, SIZE, edges.clear());
     let sum = stage.color("sum", SUM, SIZE, [0.0; 4]);
     for (number, [x, y]) in (1..).zip(offsets(count)) {
         let behind = f64::from(count - number) * speed;
@@ -43,7 +42,7 @@ fn copy(texture: usize) -> Draw {
 /// Returns what does not move: the ground, or a background in its place. It covers the previous frame.
 fn still(edges: &EdgeScene) -> Vec<Polygon> {
     if edges.ground.is_empty() {
-        return vec![Polygon::rect(ALL, 1.0, clear(edges))];
+        return vec![Polygon::rect(ALL, 1.0, edges.clear())];
     }
     edges.ground.clone()
 }

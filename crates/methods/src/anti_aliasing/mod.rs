@@ -20,9 +20,8 @@ use crate::error::{ParameterError, within};
 use crate::method_scene::MethodScene;
 use crate::polygon::{Polygon, cover, mesh};
 use crate::stage::{SIZE, Stage, draw, over};
-use etalon_frame::TextureFormat;
 use etalon_scene::{AddressMode, AttachmentContents, FilterMode, Sampler, Scene, Shader};
-use scenes::{ALL, EdgeScene};
+use scenes::{EdgeScene, PICTURE};
 use wire::AntiAliasingMethod;
 
 /// Draws the scene by the method.
@@ -53,17 +52,9 @@ pub(crate) fn make(wire: &AntiAliasingWire) -> Result<MethodScene, ParameterErro
     })
 }
 
-/// The format of pictures.
-const PICTURE: TextureFormat = TextureFormat::Rgba8Unorm;
-
-fn clear(edges: &EdgeScene) -> [f64; 4] {
-    let [r, g, b] = edges.background;
-    [r, g, b, 1.0]
-}
-
 fn plain(edges: &EdgeScene) -> Scene {
     let mut stage = Stage::new();
-    let picture = stage.color("picture", PICTURE, SIZE, clear(edges));
+    let picture = stage.color("picture", PICTURE, SIZE, edges.clear());
     let drawn = draw(Shader::FlatColor, mesh(SIZE, &edges.polygons()));
     stage.pass(&[picture], None, vec![drawn]);
     stage.read(&[picture])
@@ -71,8 +62,8 @@ fn plain(edges: &EdgeScene) -> Scene {
 
 fn multisampled(edges: &EdgeScene, count: u32) -> Scene {
     let mut stage = Stage::new();
-    let picture = stage.color("picture", PICTURE, SIZE, clear(edges));
-    let contents = AttachmentContents::Color(clear(edges).map(|c| c as f32));
+    let picture = stage.color("picture", PICTURE, SIZE, edges.clear());
+    let contents = AttachmentContents::Color(edges.clear().map(|c| c as f32));
     let samples = stage.attachment("samples", PICTURE, SIZE, count, contents);
     let drawn = draw(Shader::FlatColor, mesh(SIZE, &edges.polygons()));
     stage.resolving_pass(&[samples], vec![Some(picture)], None, vec![drawn]);
@@ -81,9 +72,9 @@ fn multisampled(edges: &EdgeScene, count: u32) -> Scene {
 
 fn supersampled(edges: &EdgeScene, doublings: u32) -> Scene {
     let mut stage = Stage::new();
-    let picture = stage.color("picture", PICTURE, SIZE, clear(edges));
+    let picture = stage.color("picture", PICTURE, SIZE, edges.clear());
     let drawn = draw(Shader::FlatColor, mesh(SIZE, &edges.polygons()));
-    stage.supersampled(picture, clear(edges), doublings, drawn);
+    stage.supersampled(picture, edges.clear(), doublings, drawn);
     stage.read(&[picture])
 }
 
@@ -95,8 +86,8 @@ const SINGLE: f32 = 0.75;
 /// Draws with one sample, then blends along the picture's edges in a second pass.
 fn fxaa(edges: &EdgeScene) -> Scene {
     let mut stage = Stage::new();
-    let picture = stage.color("picture", PICTURE, SIZE, clear(edges));
-    let jagged = stage.color("jagged", PICTURE, SIZE, clear(edges));
+    let picture = stage.color("picture", PICTURE, SIZE, edges.clear());
+    let jagged = stage.color("jagged", PICTURE, SIZE, edges.clear());
     let drawn = draw(Shader::FlatColor, mesh(SIZE, &edges.polygons()));
     stage.pass(&[jagged], None, vec![drawn]);
     let mut over_edges = draw(Shader::Fxaa, cover());
@@ -114,7 +105,7 @@ fn fxaa(edges: &EdgeScene) -> Scene {
 
 fn coverage_to_alpha(edges: &EdgeScene) -> Scene {
     let mut stage = Stage::new();
-    let picture = stage.color("picture", PICTURE, SIZE, clear(edges));
+    let picture = stage.color("picture", PICTURE, SIZE, edges.clear());
     let mut draws = Vec::new();
     if !edges.ground.is_empty() {
         draws.push(draw(Shader::FlatColor, mesh(SIZE, &edges.ground)));
@@ -127,7 +118,7 @@ fn coverage_to_alpha(edges: &EdgeScene) -> Scene {
 
 fn coverage_to_alpha_overlap(edges: &EdgeScene) -> Scene {
     let mut stage = Stage::new();
-    let picture = stage.color("picture", PICTURE, SIZE, clear(edges));
+    let picture = stage.color("picture", PICTURE, SIZE, edges.clear());
     let pieces = edges.back.iter().chain(&edges.front);
     let smooth: Vec<Polygon> = pieces.flat_map(|piece| piece.smooth(true)).collect();
     stage.pass(&[picture], None, vec![smoothed(&smooth)]);

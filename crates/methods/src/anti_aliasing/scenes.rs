@@ -6,6 +6,7 @@ use crate::error::{ParameterError, within};
 use crate::polygon::Polygon;
 use crate::stage::SIZE;
 use crate::truth::{TexelCoverage, Truth};
+use etalon_frame::TextureFormat;
 use std::f64::consts::TAU;
 
 /// A ground on texel borders, and pieces on it.
@@ -28,7 +29,16 @@ const BEHIND: [f64; 3] = [0.0, 0.0, 0.0];
 /// The whole picture.
 pub(super) const ALL: [f64; 4] = [0.0, 0.0, SIZE[0] as f64, SIZE[1] as f64];
 
+/// The format of pictures.
+pub(super) const PICTURE: TextureFormat = TextureFormat::Rgba8Unorm;
+
 impl EdgeScene {
+    /// Returns the colour behind everything.
+    pub(super) fn clear(&self) -> [f64; 4] {
+        let [r, g, b] = self.background;
+        [r, g, b, 1.0]
+    }
+
     /// Returns the scene of a case.
     ///
     /// # Errors

@@ -108,10 +108,8 @@ fn the_step_that_a_driver_chose_is_no_inaccuracy() {
                 .expect("a depth")
         };
         let found = depth(&stepped);
-        assert!(
-            found.channels >= 192 && found.max <= 2.0,
-            "{api}: {found:?}"
-        );
+        // The frame was made in whole codes, so it misses the middle by a few.
+        assert!(found.channels >= 192 && found.max < 4.0, "{api}: {found:?}");
         // The frame with the yardstick's step is illegal under this one, and far away.
         let usual = depth(&draw(&scene));
         assert!(usual.max > 10_000.0, "{api}: {usual:?}");

@@ -189,7 +189,7 @@ pub(super) fn section(bench: &Bench, figures: &[CaseFigures<'_>]) -> Option<Mark
     Some(html! { section id="drivers" { h2 { "Error against time" } (body) } })
 }
 
-/// Returns the scale of a panel's errors above 0; `None` if there are none.
+/// Returns the scale of the errors of a panel that are above 0; `None` if all are 0.
 fn errors(panel: &Panel<'_>) -> Option<Scale> {
     let means = panel.marks.iter().filter_map(AdapterMark::mean);
     let means: Vec<f64> = means.filter(|e| *e > 0.0).collect();

@@ -98,7 +98,7 @@ fn sections(run: &Run, methods: &Methods<'_>, pictures: &mut PagePictures<'_>) -
 fn head(methods: &Methods<'_>) -> Markup {
     html! {
         header {
-            h1 { "Methods: accuracy against speed" }
+            h1 { "Methods: which one, at which price?" }
             nav {
                 a href="#breaks" { "Break points" } " "
                 @for (q, question) in methods.questions.iter().enumerate() {
@@ -232,7 +232,7 @@ fn explained(question: &Question<'_>) -> Markup {
     let known: Vec<&Lesson> = question.methods.iter().filter_map(lesson_of).collect();
     html! {
         @if !known.is_empty() {
-            details open {
+            details {
                 summary { "The methods, and where they fail" }
                 dl.lessons {
                     @for lesson in known {

@@ -59,7 +59,10 @@ pub(super) fn charts(shown: &ShownScene<'_, '_>) -> Vec<OfKind> {
         let adapters = methods.adapters.iter().enumerate();
         let panels = adapters.filter_map(|(index, adapter)| {
             let drew = of_kind.iter().any(|d| d.point.adapter == index);
-            let title = format!("{} on {}", shown.scene.name, adapter.name);
+            let title = format!(
+                "{} on {}, as a small picture",
+                shown.scene.name, adapter.name
+            );
             drew.then(|| panel(shown, &title, &plot, &of_kind, index))
         });
         result.push(OfKind {

@@ -184,7 +184,9 @@ fn the_page_keeps_software_and_hardware_apart() {
     let software = html.find("Software adapters, wall time").unwrap();
     let hardware = html.find("Hardware adapters, wall time").unwrap();
     let ruler = html.find("id=\"ruler\"").unwrap();
-    let card = html.find("vulkan:<wbr>card").unwrap();
+    // The chart and its legend come first.
+    let tables = &html[software..];
+    let card = software + tables.find("vulkan:<wbr>card").unwrap();
     assert!(software < hardware && hardware < card && card < ruler);
     assert!(html[software..hardware].contains("2.000 ms"));
     assert!(!html[software..hardware].contains("100.0 µs"));

@@ -113,8 +113,13 @@ pub(super) fn sentence(candidates: &[Candidate<'_>], budget: MethodBudget, place
             (best, text)
         }
     };
-    let exact = exact(candidates, &best);
-    format!("{head}: {first}{exact}.")
+    let any_order = any_order(candidates, &best, budget);
+    let named: Vec<usize> = best.into_iter().chain(any_order).collect();
+    let any_order = any_order.map_or_else(String::new, |i| {
+        format!("; in any order: {}", figures(&candidates[i]))
+    });
+    let exact = exact(candidates, &named);
+    format!("{head}: {first}{any_order}{exact}.")
 }
 
 /// Returns a method with its error and its time.
@@ -129,16 +134,30 @@ fn figures(candidate: &Candidate<'_>) -> String {
     } else {
         String::new()
     };
+    let error = match error {
+        0.0 => "no error".to_owned(),
+        error if candidate.scenes > 1 => format!("median error {}", share(error)),
+        error => format!("error {}", share(error)),
+    };
     format!(
-        "{}, {}{range}, {}",
+        "{}, {error}{range}, {}",
         in_words(candidate.method),
-        if error == 0.0 {
-            "no error".to_owned()
-        } else {
-            share(error)
-        },
         round_duration(candidate.time[1])
     )
+}
+
+/// Returns the best method within the budget that needs no order, unless one was named.
+fn any_order(candidates: &[Candidate<'_>], named: &[usize], budget: MethodBudget) -> Option<usize> {
+    let is_free = |c: &Candidate<'_>| c.order.is_none_or(|order| order == Order::Independent);
+    if named.iter().any(|i| is_free(&candidates[*i])) {
+        return None;
+    }
+    let free: Vec<Candidate<'_>> = candidates.iter().filter(|c| is_free(c)).cloned().collect();
+    let Choice::Best(best) = choose(&free, budget) else {
+        return None;
+    };
+    let method = free[*best.first()?].method;
+    candidates.iter().position(|c| c.method == method)
 }
 
 /// Returns the end of a sentence: the fastest exact method that needs no sorting, unless it was named.
@@ -206,13 +225,13 @@ mod tests {
         let say = |budget| sentence(&candidates, budget, "1920\u{d7}1080 on gpu");
         assert_eq!(
             say(within(0.002)),
-            "Within 2 ms at 1920\u{d7}1080 on gpu: weighted, 1.8\u{a0}% (0.4\u{a0}% to 6.1\u{a0}% over 7 scenes), 300 µs; \
+            "Within 2 ms at 1920\u{d7}1080 on gpu: weighted, median error 1.8\u{a0}% (0.4\u{a0}% to 6.1\u{a0}% over 7 scenes), 300 µs; \
              exact: lists, 2.5 ms."
         );
         assert!(say(within(0.01)).ends_with("gpu: lists, no error, 2.5 ms."));
         assert_eq!(
             say(within(0.0001)),
-            "Within 100 µs at 1920\u{d7}1080 on gpu: nothing. The fastest is rough, 20\u{a0}%, 200 µs."
+            "Within 100 µs at 1920\u{d7}1080 on gpu: nothing. The fastest is rough, error 20\u{a0}%, 200 µs."
         );
         let cheap = MethodBudget {
             time: None,
@@ -251,7 +270,7 @@ mod tests {
         assert_eq!(choose(&unsure, within(0.00105)), Choice::Best(vec![1]));
         let text = sentence(&unsure[1..], within(0.002), "p");
         assert!(
-            text.contains("either b, 10\u{a0}%, 1 ms; or c, 10\u{a0}%, 1.1 ms"),
+            text.contains("either b, error 10\u{a0}%, 1 ms; or c, error 10\u{a0}%, 1.1 ms"),
             "{text}"
         );
     }
@@ -265,11 +284,13 @@ mod tests {
         let candidates = [
             with(Order::Sorted, at("sorted", 0.001, 0.0)),
             with(Order::Independent, at("lists", 0.004, 0.0)),
+            with(Order::Independent, at("weighted", 0.0015, 0.02)),
         ];
         let text = sentence(&candidates, within(0.002), "p");
         assert_eq!(
             text,
-            "Within 2 ms at p: sorted, no error, 1 ms; exact and order-independent: lists, 4 ms."
+            "Within 2 ms at p: sorted, no error, 1 ms; in any order: weighted, error 2\u{a0}%, 1.5 ms; exact and \
+             order-independent: lists, 4 ms."
         );
     }
 }

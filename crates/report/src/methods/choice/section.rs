@@ -41,7 +41,7 @@ pub(in crate::methods) fn section(methods: &Methods<'_>, shown: &[ShownScene<'_,
     };
     html! {
         section id="overview" data-sizes=(json!(sizes.iter().map(|s| sides(*s)).collect::<Vec<_>>())) {
-            h2 { "Which method, at which price?" }
+            h2.vh { "Which method, at which price?" }
             (form(methods, &sizes, &beginning))
             p.note { (caveat(methods, &sizes)) }
             div.cards {
@@ -49,10 +49,10 @@ pub(in crate::methods) fn section(methods: &Methods<'_>, shown: &[ShownScene<'_,
                     (card(methods, q, &QuestionPoints::new(question, shown), &sizes, &beginning))
                 }
             }
-            p.legend {
+            p.note {
                 "Each mark is a method: its median over the scenes of the question. The thin upright line is the range of its error over "
-                "scenes, the bar the interval of its time. Below the name: "
-                b { "⇅" } " the method sorts what it draws, " b { "!" } " its picture depends on the order of draws. "
+                "scenes, the bar the interval of its time. After the name: "
+                b { "⇅" } " the method sorts what it draws, " b { "!" } " its picture depends on the order of draws. Faint marks are beyond the budget. "
                 "Dotted: an error of 1 %. A click on a mark leads to its scenes."
             }
         }
@@ -112,10 +112,10 @@ fn caveat(methods: &Methods<'_>, sizes: &[FrameSize]) -> String {
         costs.iter().any(|c| c.clock == Clock::Wall),
     ) {
         (true, true) => {
-            "the device's clock on hardware that has one, and the processor's otherwise"
+            "between timestamps of the device where hardware has them, else until the device was done"
         }
-        (true, false) => "the device's clock",
-        _ => "the processor's clock, with what a submission takes",
+        (true, false) => "between timestamps of the device",
+        _ => "until the device was done",
     };
     let crooked = costs.iter().filter(|c| c.is_crooked()).count();
     let crooked = match crooked {
@@ -128,8 +128,7 @@ fn caveat(methods: &Methods<'_>, sizes: &[FrameSize]) -> String {
     };
     let measured: Vec<String> = sizes.iter().skip(1).map(|size| size.text()).collect();
     format!(
-        "Times by {clocks}; measured at {}, and computed in between as a fixed cost and a cost per megapixel. Errors are those of \
-         the nearest measured size.{crooked}",
+        "A frame's time is measured at {}, {clocks}. At another size it is computed, as a fixed cost plus a cost per megapixel.{crooked}",
         measured.join(", ")
     )
 }
@@ -143,16 +142,16 @@ pub(in crate::methods) fn tables(
     let sizes = sizes(methods);
     let size = sizes[default_size(&sizes)];
     let points = QuestionPoints::new(question, shown);
-    let Some(adapter) = methods
-        .adapters
-        .first()
-        .filter(|_| !points.points.is_empty())
-    else {
+    if points.points.is_empty() {
         return html! {};
-    };
+    }
     html! {
-        p.cap { "Error, frame time and break point in each scene, at " (size.text()) " on " (adapter.name) ". A click on a heading sorts." }
-        (super::table::table(methods, &points, 0, size))
+        @for (number, adapter) in methods.adapters.iter().enumerate() {
+            div.off[number > 0] data-on=(number) {
+                p.cap { "Error, frame time and break point in each scene, at " (size.text()) " on " (adapter.name) ". A click on a heading sorts." }
+                (super::table::table(methods, &points, number, size))
+            }
+        }
     }
 }
 
@@ -222,8 +221,23 @@ fn card(
             p.legend aria-hidden="true" {
                 @for method in &points.question.methods { span.key { (key(points.question.style(method))) " " (method) } " " }
             }
-            p.of { (count(points.scenes.len() as u64, "scene")) }
+            p.of {
+                (count(points.scenes.len() as u64, "scene")) ". "
+                span.untimed { (untimed(points, &candidates)) }
+            }
         }
+    }
+}
+
+/// Returns the methods of a question that have no mark.
+fn untimed(points: &QuestionPoints<'_, '_>, candidates: &[Candidate<'_>]) -> String {
+    let has_mark = |method: &&&str| candidates.iter().any(|c| c.method == **method);
+    let methods = points.question.methods.iter();
+    let missing: Vec<&str> = methods.filter(|m| !has_mark(m)).copied().collect();
+    if missing.is_empty() {
+        String::new()
+    } else {
+        format!("Not timed here: {}.", missing.join(", "))
     }
 }
 
@@ -305,7 +319,7 @@ fn marks(
             @let (x, y) = place(c);
             @let about = format!("{}: {} ({}), {} ({})", c.method, share(c.error[1]), between([c.error[0], c.error[2]], share),
                 round_duration(c.time[1]), between([c.time[0], c.time[2]], round_duration));
-            a.of class=(color(style)) href={ "#q" (question) } {
+            a class={ "of " (color(style)) } href={ "#q" (question) } {
                 path.spread d={ "M" (n(x)) " " (n(plot.y(c.error[0]))) "V" (n(plot.y(c.error[2]))) } {}
                 path.spread.wide d={ "M" (n(plot.x(c.time[0]))) " " (n(y)) "H" (n(plot.x(c.time[2]))) } {}
                 (marker(style, (x, y), false, &about))

@@ -34,7 +34,9 @@ pub(super) fn table(
                 p.method == *method && p.adapter == adapter && p.scene == scene
             };
             let measured = point.clone().find(here).map(|p| p.measured)?;
-            let [rmse, _] = error(measured, size)?;
+            let Some([rmse, _]) = error(measured, size) else {
+                return Some(Cell::from("not at this size"));
+            };
             let time = time(measured, size).map(|[_, time, _]| round_duration(time));
             let broken = broken_at(&breaks, method, name, shown);
             let shown = html! {

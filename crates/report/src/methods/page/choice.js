@@ -75,17 +75,21 @@ function answer(all, most, limit, place) {
   const figures = one => {
     const [low, error, high] = one.error;
     const range = one.scenes > 1 && low < high ? ` (${percent(low)} to ${percent(high)} over ${one.scenes} scenes)` : "";
-    return `${words(one.name)}, ${error === 0 ? "no error" : percent(error)}${range}, ${seconds(one.time[1])}`;
+    const kind = error === 0 ? "no error" : (one.scenes > 1 ? "median error " : "error ") + percent(error);
+    return `${words(one.name)}, ${kind}${range}, ${seconds(one.time[1])}`;
   };
   const { nothing, best } = choose(all, most, limit);
   if (nothing === null) return `${head}: not timed.`;
   if (nothing) return `${head}: nothing. The fastest is ${figures(nothing)}.`;
   const texts = best.map(figures), first = texts.length === 1 ? texts[0] : "either " + texts.join("; or ");
-  const hasOrder = all.some(one => one.order !== null), fits = one => one.exact && (!hasOrder || one.order === "");
-  if (best.some(fits)) return `${head}: ${first}.`;
+  const hasOrder = all.some(one => one.order !== null), isFree = one => !one.order;
+  const free = best.some(isFree) ? null : choose(all.filter(isFree), most, limit).best?.[0];
+  const anyOrder = free ? `; in any order: ${figures(free)}` : "";
+  const fits = one => one.exact && isFree(one);
+  if ([...best, free].some(one => one && fits(one))) return `${head}: ${first}${anyOrder}.`;
   const exact = all.filter(fits).sort((a, b) => a.time[1] - b.time[1])[0];
   const name = hasOrder ? "exact and order-independent" : "exact";
-  return `${head}: ${first}${exact ? `; ${name}: ${words(exact.name)}, ${seconds(exact.time[1])}` : ""}.`;
+  return `${head}: ${first}${anyOrder}${exact ? `; ${name}: ${words(exact.name)}, ${seconds(exact.time[1])}` : ""}.`;
 }
 
 // Returns an element of a chart; its namespace is that of the charts on the page.
@@ -122,7 +126,8 @@ function plotMarks(card, all, most, limit) {
   });
   plotted.querySelector(".marks").replaceChildren(...marks);
   const limits = [most !== Infinity && `M${x(most)} ${top}V${bottom}`, limit !== Infinity && `M${left} ${y(limit)}H${right}`];
-  plotted.querySelector(".limits").replaceChildren(...limits.filter(Boolean).map(d => drawn("path", { class: "limit", d })));
+  const named = most === Infinity ? [] : [drawn("text", { class: "tick", x: x(most) + 3, y: bottom - 4 }, seconds(most))];
+  plotted.querySelector(".limits").replaceChildren(...limits.filter(Boolean).map(d => drawn("path", { class: "limit", d })), ...named);
 }
 
 // Rectangles by their left end, their bottom, width and height.
@@ -150,7 +155,10 @@ function weigh() {
     const all = candidates(card, on, frame);
     card.querySelector(".answer").textContent = answer(all, most, limit, place);
     plotMarks(card, all, most, limit);
+    const missing = JSON.parse(card.dataset.methods).map(([name]) => name).filter(name => !all.some(one => one.name === name));
+    card.querySelector(".untimed").textContent = missing.length ? `Not timed here: ${missing.join(", ")}.` : "";
   }
+  for (const part of document.querySelectorAll("[data-on]")) part.classList.toggle("off", Number(part.dataset.on) !== on);
 }
 
 if ($("budget")) {
