@@ -126,8 +126,7 @@ function plotMarks(card, all, most, limit) {
   });
   plotted.querySelector(".marks").replaceChildren(...marks);
   const limits = [most !== Infinity && `M${x(most)} ${top}V${bottom}`, limit !== Infinity && `M${left} ${y(limit)}H${right}`];
-  const named = most === Infinity ? [] : [drawn("text", { class: "tick", x: x(most) + 3, y: bottom - 4 }, seconds(most))];
-  plotted.querySelector(".limits").replaceChildren(...limits.filter(Boolean).map(d => drawn("path", { class: "limit", d })), ...named);
+  plotted.querySelector(".limits").replaceChildren(...limits.filter(Boolean).map(d => drawn("path", { class: "limit", d })));
 }
 
 // Rectangles by their left end, their bottom, width and height.
