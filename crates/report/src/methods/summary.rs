@@ -12,7 +12,7 @@ use maud::{Markup, html};
 /// The maximum number of lines of each part on a terminal.
 const LISTED: usize = 60;
 /// The maximum number of characters of a line on a terminal.
-const LONGEST: usize = 300;
+const LONGEST: usize = 500;
 
 /// The best methods of a scene on adapters of a kind, all at one setting.
 struct Best<'a> {
