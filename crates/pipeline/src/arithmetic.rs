@@ -37,7 +37,7 @@ pub trait Arithmetic {
     fn exp2(&mut self, value: Self::Real) -> Self::Real;
     /// Returns the square root as a shader computes it; NaN if the value is negative.
     fn sqrt(&mut self, value: Self::Real) -> Self::Real;
-    /// Returns the hash of the unit square that contains a point ([`crate::cell_hash`]). The result matters only
+    /// Returns the hash of the unit square that contains a point ([`crate::cell_hash()`]). The result matters only
     /// if no coordinate is negative.
     fn cell_hash(&mut self, point: [Self::Real; 2]) -> Self::Real;
     /// Returns the third value if the first is less than the second, otherwise the fourth.

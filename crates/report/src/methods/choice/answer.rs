@@ -105,21 +105,18 @@ pub(super) fn sentence(candidates: &[Candidate<'_>], budget: MethodBudget, place
             return format!("{head}: nothing. The fastest is {text}.");
         }
         Choice::Best(best) => {
-            let texts: Vec<String> = best.iter().map(|i| figures(&candidates[*i])).collect();
-            let text = match texts.as_slice() {
-                [only] => only.clone(),
-                several => format!("either {}", several.join("; or ")),
-            };
+            let text = either(candidates, &best);
             (best, text)
         }
     };
     let any_order = any_order(candidates, &best, budget);
+    let free = match any_order.as_slice() {
+        [] => String::new(),
+        some => format!("; in any order: {}", either(candidates, some)),
+    };
     let named: Vec<usize> = best.into_iter().chain(any_order).collect();
-    let any_order = any_order.map_or_else(String::new, |i| {
-        format!("; in any order: {}", figures(&candidates[i]))
-    });
     let exact = exact(candidates, &named);
-    format!("{head}: {first}{any_order}{exact}.")
+    format!("{head}: {first}{free}{exact}.")
 }
 
 /// Returns a method with its error and its time.
@@ -146,18 +143,29 @@ fn figures(candidate: &Candidate<'_>) -> String {
     )
 }
 
-/// Returns the best method within the budget that needs no order, unless one was named.
-fn any_order(candidates: &[Candidate<'_>], named: &[usize], budget: MethodBudget) -> Option<usize> {
+/// Returns the figures of one method, or of several if times cannot tell which is the best.
+fn either(candidates: &[Candidate<'_>], some: &[usize]) -> String {
+    let texts: Vec<String> = some.iter().map(|i| figures(&candidates[*i])).collect();
+    match texts.as_slice() {
+        [only] => only.clone(),
+        several => format!("either {}", several.join("; or ")),
+    }
+}
+
+/// Returns the best methods within the budget that need no order; none if one was named.
+fn any_order(candidates: &[Candidate<'_>], named: &[usize], budget: MethodBudget) -> Vec<usize> {
     let is_free = |c: &Candidate<'_>| c.order.is_none_or(|order| order == Order::Independent);
     if named.iter().any(|i| is_free(&candidates[*i])) {
-        return None;
+        return Vec::new();
     }
-    let free: Vec<Candidate<'_>> = candidates.iter().filter(|c| is_free(c)).cloned().collect();
-    let Choice::Best(best) = choose(&free, budget) else {
-        return None;
-    };
-    let method = free[*best.first()?].method;
-    candidates.iter().position(|c| c.method == method)
+    let places: Vec<usize> = (0..candidates.len())
+        .filter(|i| is_free(&candidates[*i]))
+        .collect();
+    let free: Vec<Candidate<'_>> = places.iter().map(|i| candidates[*i].clone()).collect();
+    match choose(&free, budget) {
+        Choice::Best(best) => best.into_iter().map(|i| places[i]).collect(),
+        Choice::Unknown | Choice::Nothing(_) => Vec::new(),
+    }
 }
 
 /// Returns the end of a sentence: the fastest exact method that needs no sorting, unless it was named.

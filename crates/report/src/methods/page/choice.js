@@ -81,12 +81,13 @@ function answer(all, most, limit, place) {
   const { nothing, best } = choose(all, most, limit);
   if (nothing === null) return `${head}: not timed.`;
   if (nothing) return `${head}: nothing. The fastest is ${figures(nothing)}.`;
-  const texts = best.map(figures), first = texts.length === 1 ? texts[0] : "either " + texts.join("; or ");
+  const either = some => some.length === 1 ? figures(some[0]) : "either " + some.map(figures).join("; or ");
+  const first = either(best);
   const hasOrder = all.some(one => one.order !== null), isFree = one => !one.order;
-  const free = best.some(isFree) ? null : choose(all.filter(isFree), most, limit).best?.[0];
-  const anyOrder = free ? `; in any order: ${figures(free)}` : "";
+  const free = best.some(isFree) ? [] : choose(all.filter(isFree), most, limit).best ?? [];
+  const anyOrder = free.length ? `; in any order: ${either(free)}` : "";
   const fits = one => one.exact && isFree(one);
-  if ([...best, free].some(one => one && fits(one))) return `${head}: ${first}${anyOrder}.`;
+  if ([...best, ...free].some(fits)) return `${head}: ${first}${anyOrder}.`;
   const exact = all.filter(fits).sort((a, b) => a.time[1] - b.time[1])[0];
   const name = hasOrder ? "exact and order-independent" : "exact";
   return `${head}: ${first}${anyOrder}${exact ? `; ${name}: ${words(exact.name)}, ${seconds(exact.time[1])}` : ""}.`;
