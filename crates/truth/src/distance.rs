@@ -18,10 +18,15 @@ const WRONG: f64 = 2.0 / 255.0 + 1e-9;
 /// Returns `None` if the picture cannot be measured: the image is not colour, has several samples or integer
 /// channels, differs from the truth in size, or is empty.
 pub fn distance(truth: &TruthPicture, picture: &Image) -> Option<Distance> {
-    if picture.size != truth.size || truth.rgb.is_empty() || !is_comparable(picture) {
+    let [width, height] = picture.size;
+    let texels = truth.rgb.len();
+    let fits = picture.size == truth.size
+        && texels > 0
+        && texels == width as usize * height as usize
+        && is_comparable(picture);
+    if !fits {
         return None;
     }
-    let texels = truth.rgb.len();
     let mut sum = Differences::default();
     let (mut should, mut is) = (
         Vec::with_capacity(3 * texels),
@@ -62,7 +67,8 @@ pub struct LatticeDistance {
     pub max: f64,
 }
 
-/// Returns the distance of a frame from the truth over the texels of its lattice that are compared. Channels, values and refusals are those of [`distance`].
+/// Returns the distance of a frame from the truth over the texels of its lattice that are compared. Channels, values and
+/// refusals are those of [`distance`].
 pub fn lattice_distance(truth: &LatticeTruth, frame: &Image) -> Option<LatticeDistance> {
     let lattice = truth.lattice;
     if frame.size != lattice.size || !is_comparable(frame) {

@@ -5,15 +5,16 @@ use crate::chart::key;
 use crate::methods::breaks::Break;
 use crate::methods::data::{Methods, SceneSetting, ShownScene};
 use crate::methods::name::title;
-use crate::methods::stability;
+use crate::methods::stability::CurveBreak;
 use crate::numbers::{round_duration, share};
 use crate::table::{Cell, Table};
 use maud::{Markup, html};
 
-/// Returns the table of a question on an adapter at a size.
+/// Returns the table of a question on an adapter at a size; `breaks` are those of each scene.
 pub(super) fn table(
     methods: &Methods<'_>,
     points: &QuestionPoints<'_, '_>,
+    breaks: &[Vec<CurveBreak<'_>>],
     adapter: usize,
     size: FrameSize,
 ) -> Markup {
@@ -21,24 +22,22 @@ pub(super) fn table(
     let mut table = Table::<&str>::new("numbers sortable").head("Method", |method| {
         html! { (key(points.question.style(method))) " " (method) }
     });
-    for (scene, shown) in points.scenes.iter().enumerate() {
+    for (scene, (shown, breaks)) in points.scenes.iter().zip(breaks).enumerate() {
         let heading = html! {
             a href={ "#" (shown.anchor) } { (title(shown.scene.name)) }
             @let setting = shown.settings.get(shown.main).map(SceneSetting::text).unwrap_or_default();
             @if !setting.is_empty() { br; small { (setting) } }
         };
-        let breaks = stability::found(shown);
         table = table.text(heading, move |method| {
-            let point = points.points.iter();
             let here = |p: &&super::ScenePoint<'_>| {
                 p.method == *method && p.adapter == adapter && p.scene == scene
             };
-            let measured = point.clone().find(here).map(|p| p.measured)?;
+            let measured = points.points.iter().find(here).map(|p| p.measured)?;
             let Some([rmse, _]) = error(measured, size) else {
                 return Some(Cell::from("not at this size"));
             };
             let time = time(measured, size).map(|[_, time, _]| round_duration(time));
-            let broken = broken_at(&breaks, method, name, shown);
+            let broken = broken_at(breaks, method, name, shown);
             let shown = html! {
                 (share(rmse))
                 @if let Some(time) = time { br; small { (time) } }
@@ -52,13 +51,12 @@ pub(super) fn table(
 
 /// Returns the first value of the parameter at which a method's error crosses the limit, if it does.
 fn broken_at(
-    breaks: &[stability::CurveBreak<'_>],
+    breaks: &[CurveBreak<'_>],
     method: &str,
     adapter: &str,
     shown: &ShownScene<'_, '_>,
 ) -> Option<String> {
-    let of_method =
-        |b: &&stability::CurveBreak<'_>| b.method == method && b.adapters.contains(&adapter);
+    let of_method = |b: &&CurveBreak<'_>| b.method == method && b.adapters.contains(&adapter);
     let Break::Crossings(crossings) = &breaks.iter().find(of_method)?.found else {
         return None;
     };
