@@ -64,11 +64,16 @@ impl WorkerProcess {
         if let Err(RequestError::Lost(loss)) = timed {
             return Err(loss);
         }
-        // A failed drop does not matter unless the worker is lost.
-        if let Err(RequestError::Lost(loss)) = self.ask(Request::Drop { slot }, timeout) {
-            return Err(loss);
-        }
+        self.forget(slot, timeout)?;
         Ok(timed.ok().and_then(|times| medians(&times, EXACT_CLOCK)))
+    }
+
+    /// Forgets a prepared scene. A failed drop does not matter unless the worker is lost.
+    pub(crate) fn forget(&mut self, slot: u32, timeout: Duration) -> Result<(), Loss> {
+        match self.ask(Request::Drop { slot }, timeout) {
+            Err(RequestError::Lost(loss)) => Err(loss),
+            Ok(_) | Err(RequestError::Backend(_)) => Ok(()),
+        }
     }
 
     fn prepare_and_time(

@@ -37,6 +37,8 @@ pub(crate) struct SizingAdapter<'a> {
 
 /// One size while it is being timed.
 struct TimedSize<'s> {
+    /// The index of its frame.
+    index: usize,
     slot: u32,
     scene: &'s SizedScene,
     /// The frames drawn in each round, which take at least [`ROUND`] seconds together.
@@ -58,11 +60,10 @@ impl WorkerProcess {
         let mut frames: Vec<SizedFrame> = Vec::new();
         let mut timed: Vec<TimedSize<'_>> = Vec::new();
         let mut longest = 0.0_f64;
-        for (slot, scene) in (first_slot..).zip(scenes) {
-            let (size, reason) = (scene.size, obstacle(scene, adapter, longest));
-            let began = match reason {
+        for (index, scene) in scenes.iter().enumerate() {
+            let began = match obstacle(scene, adapter, longest) {
                 Some(reason) => Err(reason),
-                None => self.begin(slot, scene, timeout)?,
+                None => self.begin(first_slot, index, scene, timeout)?,
             };
             let reason = match began {
                 Ok((first, size)) => {
@@ -73,7 +74,7 @@ impl WorkerProcess {
                 Err(reason) => Some(reason),
             };
             frames.push(SizedFrame {
-                size,
+                size: scene.size,
                 time: None,
                 distance: None,
                 reason,
@@ -95,41 +96,37 @@ impl WorkerProcess {
                     Ok(times) => size.rounds.push(times.iter().map(seconds).collect()),
                     Err(RequestError::Lost(loss)) => return Err(loss),
                     Err(RequestError::Backend(error)) => {
-                        let failed = frames.iter_mut().find(|f| f.size == size.scene.size);
-                        if let Some(frame) = failed {
-                            frame.reason = Some(Reason::Text(error.to_string()));
-                        }
+                        frames[size.index].reason = Some(Reason::Text(error.to_string()));
+                        self.forget(size.slot, timeout)?;
                     }
                 }
             }
+            timed.retain(|size| frames[size.index].reason.is_none());
         }
         for size in &timed {
-            let distance = self.distance(size, timeout)?;
-            if let Err(RequestError::Lost(loss)) =
-                self.ask(Request::Drop { slot: size.slot }, timeout)
-            {
-                return Err(loss);
-            }
             let all: Vec<FrameSeconds> = size.rounds.iter().flatten().copied().collect();
-            if let Some(frame) = frames.iter_mut().find(|f| f.size == size.scene.size) {
-                frame.time = medians(&all, 0.0);
-                frame.distance = distance;
-            }
+            let frame = &mut frames[size.index];
+            frame.time = medians(&all, 0.0);
+            frame.distance = self.distance(size, timeout)?;
+            self.forget(size.slot, timeout)?;
         }
         let cost = cost(&timed, adapter.is_software);
-        // The size of the picture has its times and its distance elsewhere.
-        frames.retain(|f| scenes.iter().any(|s| s.size == f.size && s.truth.is_some()));
-        Ok((frames, cost))
+        // The picture has its times and its distance elsewhere.
+        let sized = frames.into_iter().zip(scenes);
+        let sized = sized.filter(|(_, scene)| scene.truth.is_some());
+        Ok((sized.map(|(frame, _)| frame).collect(), cost))
     }
 
     /// Prepares a size and draws its first frames. Returns the time of a warm frame, or the reason why the size is
     /// not timed.
     fn begin<'s>(
         &mut self,
-        slot: u32,
+        first_slot: u32,
+        index: usize,
         scene: &'s SizedScene,
         timeout: Duration,
     ) -> Result<Result<(f64, TimedSize<'s>), Reason>, Loss> {
+        let slot = first_slot + index as u32;
         let prepared = Cow::Borrowed(&scene.scene);
         let times = self
             .ask(
@@ -147,11 +144,15 @@ impl WorkerProcess {
         let times = match times {
             Ok(times) => times,
             Err(RequestError::Lost(loss)) => return Err(loss),
-            Err(RequestError::Backend(error)) => return Ok(Err(Reason::Text(error.to_string()))),
+            Err(RequestError::Backend(error)) => {
+                self.forget(slot, timeout)?;
+                return Ok(Err(Reason::Text(error.to_string())));
+            }
         };
         let last = times.last().map_or(LONGEST, |time| seconds(time).wall);
         let frames = (ROUND / last.max(ROUND / FRAMES)).ceil() as u32;
         let size = TimedSize {
+            index,
             slot,
             scene,
             frames: frames.max(1),

@@ -204,6 +204,31 @@ fn methods_are_timed_at_the_sizes_of_frames() {
 }
 
 #[test]
+fn the_size_of_the_picture_is_timed_once_more_and_not_twice() {
+    let out = tempfile::tempdir().unwrap();
+    let case = "methods/transparency/windows/method=sorted/alpha=0.4";
+    let drawn = run(
+        out.path(),
+        &[case, "--sizes", "128x128", "--adapter", "cpu"],
+    );
+    let [record] = &drawn.records[..] else {
+        panic!("{:?}", drawn.records);
+    };
+    let [frame] = &measured(record).sizes[..] else {
+        panic!("{:?}", measured(record).sizes);
+    };
+    assert!(
+        frame.time.is_some() && frame.distance.is_some(),
+        "{frame:?}"
+    );
+    assert_eq!(
+        measured(record).cost,
+        None,
+        "one amount of work has no line"
+    );
+}
+
+#[test]
 fn a_size_that_is_none_is_refused_with_the_names() {
     etalon(&["run", "methods/transparency/windows", "--sizes", "480p"])
         .assert()
