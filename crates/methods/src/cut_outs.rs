@@ -1,6 +1,7 @@
 //! Cut-outs: textures with holes, on cards of grass.
 
 use crate::error::{ParameterError, within};
+use crate::hashed_plane::{cells_per_texel, place};
 use crate::method_scene::MethodScene;
 use crate::noise::Noise;
 use crate::polygon::{Polygon, mesh};
@@ -244,21 +245,13 @@ fn discard(cards: &[Polygon], address: AddressMode, cutoff: f64) -> Scene {
     stage.read(&[picture])
 }
 
-/// The number of cards in a row of the hashed plane.
-const ROW: usize = 16;
-
 fn hashed(cards: &[Polygon], address: AddressMode) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear());
     let depth_stencil = stage.depth("depth", DEPTH, SIZE, 1, 1.0);
     let placed: Vec<Polygon> = (0..).zip(cards).map(placed).collect();
     let mut draw = textured(&mut stage, Shader::HashedSample, &placed, address);
-    // A hashed cell is as large as a texel of the picture.
-    let [width, height] = SIZE.map(|side| side as f32);
-    draw.params = Params {
-        color: [width, height, 0.0, 0.0],
-        back_color: [0.0; 4],
-    };
+    draw.params = cells_per_texel();
     draw.depth = depth(CompareFunction::Less, true);
     stage.pass(&[picture], Some(depth_stencil), vec![draw]);
     stage.read(&[picture])
@@ -268,7 +261,7 @@ fn hashed(cards: &[Polygon], address: AddressMode) -> Scene {
 fn placed((number, card): (usize, &Polygon)) -> Polygon {
     let [near, far] = [card.corners[0], card.corners[2]];
     let [width, height] = [0, 1].map(|axis| (far[axis] - near[axis]) / f64::from(SIZE[axis]));
-    let [column, row] = [number % ROW, number / ROW].map(|place| 2.0 * place as f64);
+    let [column, row] = place(number);
     Polygon {
         color: [width, height, column, row],
         ..card.clone()

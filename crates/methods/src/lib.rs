@@ -16,6 +16,7 @@ mod depth_precision;
 mod depth_shown;
 mod error;
 mod grid;
+mod hashed_plane;
 mod lesson;
 mod method;
 mod method_scene;

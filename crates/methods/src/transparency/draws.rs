@@ -2,9 +2,9 @@
 
 use super::scenes::GlassScene;
 use crate::polygon::{Polygon, mesh};
-use crate::stage::{SIZE, Stage, depth, draw};
+use crate::stage::{SIZE, Stage, add, both, depth, draw};
 use etalon_frame::TextureFormat;
-use etalon_scene::{CompareFunction, Draw, Shader};
+use etalon_scene::{BlendFactor, ColorTarget, CompareFunction, Draw, Shader};
 
 /// The format of pictures.
 pub(super) const PICTURE: TextureFormat = TextureFormat::Rgba8Unorm;
@@ -21,6 +21,27 @@ pub(super) fn clear(glass: &GlassScene) -> [f64; 4] {
 /// Adds a cleared depth attachment.
 pub(super) fn depths(stage: &mut Stage, samples: u32) -> usize {
     stage.depth("depth", DEPTH, SIZE, samples, 1.0)
+}
+
+/// Adds the attachments of a weighted mean: the sums of colours, and what the layers leave of the background.
+pub(super) fn sums(stage: &mut Stage) -> [usize; 2] {
+    [
+        stage.color("sum", TextureFormat::Rgba16Float, SIZE, [0.0; 4]),
+        stage.color("left", TextureFormat::R8Unorm, SIZE, [1.0; 4]),
+    ]
+}
+
+/// Returns the targets of these attachments: colours add up, and alphas multiply what is left.
+pub(super) fn sum_targets() -> Vec<ColorTarget> {
+    let components = [
+        add(BlendFactor::One, BlendFactor::One),
+        add(BlendFactor::Zero, BlendFactor::OneMinusSrc),
+    ];
+    let targets = components.map(|component| ColorTarget {
+        blend: both(component),
+        ..ColorTarget::default()
+    });
+    targets.to_vec()
 }
 
 /// Returns a draw of the opaque polygons, with depth; `None` if the scene has no opaque polygons.

@@ -2,12 +2,10 @@
 
 use super::draws::{PICTURE, clear, depths, opaque};
 use super::scenes::GlassScene;
+use crate::hashed_plane::{cells_per_texel, place};
 use crate::polygon::{Polygon, mesh};
 use crate::stage::{SIZE, Stage, depth, draw};
-use etalon_scene::{CompareFunction, Params, Scene, Shader};
-
-/// The number of surfaces in a row of the hashed plane.
-const ROW: usize = 16;
+use etalon_scene::{CompareFunction, Scene, Shader};
 
 /// Draws the polygons opaque where their alpha is at least a hash, with one sample per texel.
 pub(super) fn hashed(glass: &GlassScene, polygons: &[Polygon]) -> Scene {
@@ -23,15 +21,6 @@ pub(super) fn hashed(glass: &GlassScene, polygons: &[Polygon]) -> Scene {
     stage.read(&[picture])
 }
 
-/// Returns parameters with a hashed cell for each texel of the picture.
-fn cells_per_texel() -> Params {
-    let [width, height] = SIZE.map(|side| side as f32);
-    Params {
-        color: [width, height, 0.0, 0.0],
-        back_color: [0.0; 4],
-    }
-}
-
 /// Returns the polygon with its own place in the hashed plane, as texture coordinates in widths of the picture.
 /// They follow the polygon when it moves. If the corners are on texel borders, the centres of texels
 /// are in the middle of cells.
@@ -41,12 +30,12 @@ pub(super) fn placed((number, polygon): (usize, &Polygon)) -> Polygon {
         along.fold(f64::INFINITY, f64::min).floor()
     };
     let from = [least(0), least(1)];
-    let square = [number % ROW, number / ROW].map(|place| 2.0 * place as f64);
-    let place = |corner: &[f64; 3]| {
+    let square = place(number);
+    let at = |corner: &[f64; 3]| {
         [0, 1].map(|axis| square[axis] + (corner[axis] - from[axis]) / f64::from(SIZE[axis]))
     };
     Polygon {
-        uv: polygon.corners.iter().map(place).collect(),
+        uv: polygon.corners.iter().map(at).collect(),
         ..polygon.clone()
     }
 }

@@ -1,13 +1,11 @@
 //! The nearest layers of each texel, and the mean of all others (Maule, Comba, Torchelsen and Bastos 2013).
 
-use super::draws::{PICTURE, clear, depths, opaque};
+use super::draws::{PICTURE, clear, depths, opaque, sum_targets, sums};
 use super::scenes::GlassScene;
 use crate::polygon::{Polygon, cover, mesh};
-use crate::stage::{SIZE, Stage, add, both, depth, draw};
-use etalon_frame::TextureFormat;
+use crate::stage::{SIZE, Stage, add, depth, draw};
 use etalon_scene::{
-    BlendFactor, BlendState, ColorTarget, CompareFunction, Draw, EarlyTests, Params, Pool, Scene,
-    Shader,
+    BlendFactor, BlendState, CompareFunction, Draw, EarlyTests, Params, Pool, Scene, Shader,
 };
 
 /// Builds three passes for any number of layers. The first finds the `k` nearest depths of each texel, the
@@ -15,8 +13,7 @@ use etalon_scene::{
 pub(super) fn nearest_layers(glass: &GlassScene, polygons: &[Polygon], k: u32) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
-    let sum = stage.color("sum", TextureFormat::Rgba16Float, SIZE, [0.0; 4]);
-    let left = stage.color("left", TextureFormat::R8Unorm, SIZE, [1.0; 4]);
+    let [sum, left] = sums(&mut stage);
     let depth_stencil = depths(&mut stage, 1);
     let [width, height] = SIZE;
     stage.pool(Pool {
@@ -42,15 +39,7 @@ pub(super) fn nearest_layers(glass: &GlassScene, polygons: &[Polygon], k: u32) -
     stage.pass(&[picture], Some(depth_stencil), draws.collect());
 
     let mut fill = glassy(Shader::NearestColors);
-    fill.targets = [
-        add(BlendFactor::One, BlendFactor::One),
-        add(BlendFactor::Zero, BlendFactor::OneMinusSrc),
-    ]
-    .map(|component| ColorTarget {
-        blend: both(component),
-        ..ColorTarget::default()
-    })
-    .to_vec();
+    fill.targets = sum_targets();
     stage.pass(&[sum, left], Some(depth_stencil), vec![fill]);
 
     let mut compose = draw(Shader::NearestCompose, cover());

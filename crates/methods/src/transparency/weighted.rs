@@ -1,31 +1,21 @@
 //! Weighted blended order-independent transparency (McGuire and Bavoil 2013).
 
-use super::draws::{PICTURE, clear, depths, opaque_color, opaque_depth};
+use super::draws::{PICTURE, clear, depths, opaque_color, opaque_depth, sum_targets, sums};
 use super::scenes::GlassScene;
 use crate::polygon::{Polygon, cover, mesh};
-use crate::stage::{SIZE, Stage, add, both, depth, draw};
-use etalon_frame::TextureFormat;
-use etalon_scene::{BlendFactor, BlendState, ColorTarget, CompareFunction, Scene, Shader};
+use crate::stage::{SIZE, Stage, add, depth, draw};
+use etalon_scene::{BlendFactor, BlendState, CompareFunction, Scene, Shader};
 
 /// Builds two passes for any number of layers. The first computes weighted sums and the background's
 /// visibility, the second blends the mean over the background.
 pub(super) fn weighted_blended(glass: &GlassScene, polygons: &[Polygon]) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
-    let sum = stage.color("sum", TextureFormat::Rgba16Float, SIZE, [0.0; 4]);
-    let left = stage.color("left", TextureFormat::R8Unorm, SIZE, [1.0; 4]);
+    let [sum, left] = sums(&mut stage);
     let depth_stencil = depths(&mut stage, 1);
     let mut accumulate = draw(Shader::WeightedAccumulate, mesh(SIZE, polygons));
     accumulate.depth = depth(CompareFunction::Less, false);
-    accumulate.targets = [
-        add(BlendFactor::One, BlendFactor::One),
-        add(BlendFactor::Zero, BlendFactor::OneMinusSrc),
-    ]
-    .map(|component| ColorTarget {
-        blend: both(component),
-        ..ColorTarget::default()
-    })
-    .to_vec();
+    accumulate.targets = sum_targets();
     let draws = opaque_depth(glass, Shader::WeightedAccumulate)
         .into_iter()
         .chain([accumulate]);
