@@ -115,8 +115,13 @@ impl CaseRef<'_> {
             }
         };
         let make = || -> Result<MethodScene, At> {
-            let wire: MethodWire = typed(&substitute(method, values)?)?;
-            etalon_methods::make(&wire).map_err(|e| At::new(e.message).key(&e.key))
+            let made = if let Some(model) = &self.file.model {
+                model.draw(question, &name.name)
+            } else {
+                let wire: MethodWire = typed(&substitute(method, values)?)?;
+                etalon_methods::make(&wire)
+            };
+            made.map_err(|e| At::new(e.message).key(&e.key))
         };
         let made = make().map_err(|e| e.key("method"))?;
         Ok(Case {

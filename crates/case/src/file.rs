@@ -7,8 +7,10 @@ use crate::pairwise::{self, Cover};
 use crate::values::{is_word, typed};
 use crate::wire::{AxisValue, FileWire, QuickWire, SceneSource};
 use etalon_frame::without_mark;
-use serde_json::Value;
+use etalon_methods::Model;
+use serde_json::{Value, json};
 use std::collections::{BTreeMap, HashSet};
+use std::sync::Arc;
 
 /// The maximum number of cases of a file.
 const MAX_CASES: usize = 1 << 20;
@@ -37,6 +39,8 @@ pub struct CaseFile {
     pub(crate) text: String,
     pub(crate) wire: FileWire,
     pub(crate) source: SceneSource,
+    /// The scene of one's own that the methods draw, in place of one that the file names.
+    pub(crate) model: Option<Arc<Model>>,
     count: usize,
 }
 
@@ -158,7 +162,35 @@ impl CaseFile {
             text: text.to_owned(),
             wire,
             source,
+            model: None,
             count,
+        })
+    }
+
+    /// Returns the cases of a scene of one's own: a question that it can answer, by these methods. Their ids are
+    /// `methods/<question>/gltf=<name>/method=<method>`.
+    ///
+    /// # Errors
+    /// If the name is no part of an id.
+    pub(crate) fn of_model(
+        (question, methods): (&str, &[&str]),
+        name: &str,
+        model: Arc<Model>,
+    ) -> Result<Self, CaseError> {
+        let text = json!({
+            "about": "A scene of one's own.",
+            "spec": [],
+            "axes": { METHOD: methods },
+            "method": {},
+        });
+        let file = Self::parse(
+            &format!("methods/{question}/{name}.json"),
+            &text.to_string(),
+        )?;
+        Ok(Self {
+            stem: format!("methods/{question}/gltf={name}"),
+            model: Some(model),
+            ..file
         })
     }
 

@@ -2,6 +2,7 @@
 
 use crate::error::CaseError;
 use crate::file::{CaseFile, CaseRef, Profile};
+use etalon_methods::Model;
 use std::collections::BTreeSet;
 use std::fs;
 use std::io;
@@ -60,6 +61,22 @@ impl Library {
             }
         });
         &LIBRARY
+    }
+
+    /// Returns the cases of a scene of one's own: every question that it can answer, by every method.
+    ///
+    /// # Errors
+    /// If the name is no part of an id.
+    pub fn of_model(name: &str, model: Arc<Model>) -> Result<Self, CaseError> {
+        let questions = model.questions();
+        let file = |(question, methods): &(&str, Vec<&str>)| {
+            CaseFile::of_model((*question, methods), name, Arc::clone(&model)).map(Entry::Read)
+        };
+        let mut entries = questions.iter().map(file).collect::<Result<Vec<_>, _>>()?;
+        entries.sort_by(|a, b| a.stem().cmp(b.stem()));
+        Ok(Self {
+            entries: entries.into(),
+        })
     }
 
     /// Returns all files ending in `.json` below a folder.

@@ -14,7 +14,7 @@ use std::path::PathBuf;
 /// Returns the selected cases, built, so that errors in case files are reported before anything is drawn.
 /// Prints the warnings for the user's own files.
 pub(crate) fn chosen(arguments: &CaseArguments) -> Result<Vec<Case>, Failure> {
-    let library = library(arguments.cases.as_ref())?;
+    let library = arguments.library()?;
     let cases = build(&library, arguments.profile.into(), &arguments.globs)?;
     let cases = some(cases, arguments)?;
     if arguments.cases.is_some() {
@@ -68,7 +68,7 @@ pub(crate) fn chosen_ids(arguments: &CaseArguments) -> Result<Vec<(String, bool)
         let cases = chosen(arguments)?.into_iter();
         return Ok(cases.map(|case| (case.id, case.measured)).collect());
     }
-    let library = library(None)?;
+    let library = arguments.library()?;
     let selection = etalon_case::select(&library, arguments.profile.into(), &arguments.globs);
     let selection = selection.map_err(Failure::usage)?;
     let cases = selection.cases.iter();
@@ -79,7 +79,7 @@ pub(crate) fn chosen_ids(arguments: &CaseArguments) -> Result<Vec<(String, bool)
 /// Returns the number of matching cases that the full profile has and the chosen profile leaves out. Areas
 /// without a selected case are not counted.
 pub(crate) fn left_out(arguments: &CaseArguments, selected: &[String]) -> Result<u64, Failure> {
-    let library = library(arguments.cases.as_ref())?;
+    let library = arguments.library()?;
     let profile = arguments.profile.into();
     etalon_case::left_out(&library, profile, &arguments.globs, selected).map_err(Failure::usage)
 }
@@ -108,7 +108,7 @@ fn some<T>(selected: Vec<T>, arguments: &CaseArguments) -> Result<Vec<T>, Failur
     if globs.is_empty() {
         return Err(Failure::nothing("there are no cases"));
     }
-    let library = library(arguments.cases.as_ref())?;
+    let library = arguments.library()?;
     let full = etalon_case::select(&library, Profile::Full, globs).map_err(Failure::usage)?;
     let shown = |glob: &String| match glob.as_str() {
         "" => "''".to_owned(),
@@ -116,10 +116,19 @@ fn some<T>(selected: Vec<T>, arguments: &CaseArguments) -> Result<Vec<T>, Failur
     };
     let globs_shown = globs.iter().map(shown).collect::<Vec<_>>().join(" ");
     Err(Failure::nothing(match full.cases.len() {
-        0 => format!(
-            "no case matches {globs_shown}{}; `etalon list` lists all",
-            proposed(globs)
-        ),
+        0 => match &arguments.gltf {
+            Some(_) => {
+                let files: Vec<&str> = library.stems().collect();
+                format!(
+                    "no case matches {globs_shown}; the scene gives {}",
+                    files.join(", ")
+                )
+            }
+            None => format!(
+                "no case matches {globs_shown}{}; `etalon list` lists all",
+                proposed(globs)
+            ),
+        },
         matching => format!(
             "no case of the quick profile matches {globs_shown}, of the full one {matching}: add --profile full"
         ),

@@ -1,6 +1,10 @@
 //! Flags shared by several commands.
 
+use crate::cases::library;
+use crate::failure::Failure;
+use crate::gltf::GltfScene;
 use clap::{Args, ValueEnum};
+use etalon_case::Library;
 use std::path::PathBuf;
 
 /// The format of the output.
@@ -57,9 +61,23 @@ pub(crate) struct CaseArguments {
     /// Read case files from this folder instead of the built-in ones
     #[arg(long, value_name = "DIR")]
     pub(crate) cases: Option<PathBuf>,
+    /// Draw the scene of this glTF file (.glb or .gltf) instead of the built-in ones, by the methods of every question that
+    /// it can answer
+    #[arg(long, value_name = "FILE", value_parser = crate::gltf::parse, conflicts_with = "cases")]
+    pub(crate) gltf: Option<GltfScene>,
     /// Share of each family of cases
     #[arg(long, value_enum, default_value = "quick")]
     pub(crate) profile: CaseProfile,
+}
+
+impl CaseArguments {
+    /// Returns the cases of the folder, those of the scene, or the built-in ones.
+    pub(crate) fn library(&self) -> Result<Library, Failure> {
+        match &self.gltf {
+            Some(scene) => Ok(scene.library.clone()),
+            None => library(self.cases.as_ref()),
+        }
+    }
 }
 
 /// Parses a time limit in seconds.

@@ -27,6 +27,7 @@ mod failure_groups;
 #[cfg(feature = "faults")]
 mod faulty;
 mod flags;
+mod gltf;
 mod group_text;
 mod history_file;
 mod idle;

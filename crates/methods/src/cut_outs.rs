@@ -251,7 +251,7 @@ fn hashed(cards: &[Polygon], address: AddressMode) -> Scene {
     let depth_stencil = stage.depth("depth", DEPTH, SIZE, 1, 1.0);
     let placed: Vec<Polygon> = (0..).zip(cards).map(placed).collect();
     let mut draw = textured(&mut stage, Shader::HashedSample, &placed, address);
-    draw.params = cells_per_texel();
+    draw.params = cells_per_texel(SIZE);
     draw.depth = depth(CompareFunction::Less, true);
     stage.pass(&[picture], Some(depth_stencil), vec![draw]);
     stage.read(&[picture])

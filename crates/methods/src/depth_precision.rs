@@ -13,10 +13,11 @@ pub(crate) use lessons::LESSONS;
 
 use crate::error::{ParameterError, within};
 use crate::method_scene::MethodScene;
+use crate::model::{SeenModel, named};
 use crate::polygon::{self, Polygon};
 use crate::stage::{self, SIZE, Stage};
 use crate::truth::{FlatSurface, TexelCoverage, Truth};
-use crate::view::window_depth;
+use crate::view::{distance, window_depth};
 use etalon_frame::TextureFormat;
 use etalon_scene::{CompareFunction, DepthBias, Draw, Shader};
 use schemars::JsonSchema;
@@ -83,22 +84,22 @@ enum DepthPrecisionMethod {
     PolygonOffset,
 }
 
-/// Four corners in the picture, with the inverse of their distance instead of a depth: the inverse is
+/// The corners of a polygon in the picture, with the inverse of their distance instead of a depth: the inverse is
 /// linear in the picture on a flat surface.
-#[derive(Clone, Copy, Debug)]
-struct Quad {
-    corners: [[f64; 3]; 4],
+#[derive(Clone, Debug)]
+struct Distant {
+    corners: Vec<[f64; 3]>,
     color: [f64; 4],
     /// True if the surface is a decal on another surface.
     is_decal: bool,
 }
 
-impl Quad {
+impl Distant {
     /// Returns an upright rectangle whose top and bottom edges have these distances.
     fn new([left, top, right, bottom]: [f64; 4], distances: [f64; 2], color: [f64; 4]) -> Self {
         let [upper, lower] = distances.map(|d| 1.0 / d);
         Self {
-            corners: [
+            corners: vec![
                 [left, top, upper],
                 [left, bottom, lower],
                 [right, bottom, lower],
@@ -110,13 +111,16 @@ impl Quad {
     }
 
     fn surface(&self) -> FlatSurface {
-        let corners = self.corners.map(|[x, y, inverse]| [x, y, -inverse]);
-        Polygon::new(corners.to_vec(), self.color).surface()
+        let corners = self
+            .corners
+            .iter()
+            .map(|[x, y, inverse]| [*x, *y, -inverse]);
+        Polygon::new(corners.collect(), self.color).surface()
     }
 }
 
-/// Returns the quads in drawing order; where two touch, the later one is in front.
-fn quads(wire: &DepthPrecisionWire) -> Vec<Quad> {
+/// Returns the surfaces in drawing order; where two touch, the later one is in front.
+fn surfaces(wire: &DepthPrecisionWire) -> Vec<Distant> {
     match wire.scene {
         DepthPrecisionScene::Planes => planes(wire.gap),
         DepthPrecisionScene::Slanted => slanted(wire.gap),
@@ -127,7 +131,7 @@ fn quads(wire: &DepthPrecisionWire) -> Vec<Quad> {
 const RIGHT: [f64; 4] = [0.25, 0.8, 0.35, 1.0];
 const WRONG: [f64; 4] = [0.85, 0.15, 0.2, 1.0];
 
-fn planes(gap: f64) -> Vec<Quad> {
+fn planes(gap: f64) -> Vec<Distant> {
     let distances = [2.0, 5.0, 12.0, 30.0, 70.0, 160.0, 380.0, 900.0];
     let mut quads = Vec::new();
     for (i, distance) in distances.into_iter().enumerate() {
@@ -136,8 +140,8 @@ fn planes(gap: f64) -> Vec<Quad> {
         let behind = (distance + gap).min(FAR);
         let pair = |top: f64| {
             let area = [left, top, left + 16.0, top + 64.0];
-            let near = Quad::new(area, [distance; 2], RIGHT);
-            [near, Quad::new(area, [behind; 2], WRONG)]
+            let near = Distant::new(area, [distance; 2], RIGHT);
+            [near, Distant::new(area, [behind; 2], WRONG)]
         };
         quads.extend(pair(0.0));
         let [near, far] = pair(64.0);
@@ -149,12 +153,12 @@ fn planes(gap: f64) -> Vec<Quad> {
 /// The distances at the top and at the bottom of a plane that leads away.
 const LEADING: [f64; 2] = [500.0, 10.0];
 
-fn slanted(gap: f64) -> Vec<Quad> {
+fn slanted(gap: f64) -> Vec<Distant> {
     let nearer = LEADING.map(|d| d * (1.0 - gap));
     let pair = |left: f64| {
         let area = [left, 0.0, left + 64.0, 128.0];
-        let above = Quad::new(area, nearer, RIGHT);
-        [above, Quad::new(area, LEADING, WRONG)]
+        let above = Distant::new(area, nearer, RIGHT);
+        [above, Distant::new(area, LEADING, WRONG)]
     };
     let [above, below] = pair(64.0);
     let mut quads = pair(0.0).to_vec();
@@ -162,7 +166,7 @@ fn slanted(gap: f64) -> Vec<Quad> {
     quads
 }
 
-fn decal(gap: f64) -> Vec<Quad> {
+fn decal(gap: f64) -> Vec<Distant> {
     // The distance of the plane at a row. Its inverse is linear in the row.
     let distance_at = |row: f64| {
         let [top, bottom] = LEADING.map(f64::recip);
@@ -170,14 +174,14 @@ fn decal(gap: f64) -> Vec<Quad> {
     };
     let on_plane = |[left, top, right, bottom]: [f64; 4], lift: f64, color: [f64; 4]| {
         let distances = [top, bottom].map(|row| distance_at(row) * (1.0 - lift));
-        Quad::new([left, top, right, bottom], distances, color)
+        Distant::new([left, top, right, bottom], distances, color)
     };
     let plane = on_plane([0.0, 0.0, 128.0, 128.0], 0.0, [0.55, 0.5, 0.45, 1.0]);
     let lid = on_plane([64.0, 0.0, 120.0, 128.0], gap, RIGHT);
-    let mut decal = plane;
+    let mut decal = plane.clone();
     // The decal is turned, so that it shares no edge with the plane and its rounding differs.
-    decal.corners = [[30.0, 10.0], [18.0, 100.0], [98.0, 118.0], [110.0, 28.0]]
-        .map(|[x, y]| [x, y, distance_at(y).recip()]);
+    let turned = [[30.0, 10.0], [18.0, 100.0], [98.0, 118.0], [110.0, 28.0]];
+    decal.corners = turned.map(|[x, y]| [x, y, distance_at(y).recip()]).to_vec();
     decal.color = [0.9, 0.8, 0.2, 1.0];
     decal.is_decal = true;
     vec![lid, plane, decal]
@@ -189,17 +193,21 @@ struct DepthBuffer {
     near: f64,
     /// The distance of the far plane, or infinity.
     far: f64,
+    /// The distance of the far plane, which methods without one leave out.
+    last: f64,
     reversed: bool,
     shader: Shader,
     bias: DepthBias,
 }
 
 impl DepthBuffer {
-    fn new(method: DepthPrecisionMethod, near: f64) -> Self {
+    /// Returns the depth buffer of a scene between two planes.
+    fn new(method: DepthPrecisionMethod, [near, far]: [f64; 2]) -> Self {
         let usual = Self {
             format: TextureFormat::Depth24Plus,
             near,
-            far: FAR,
+            far,
+            last: far,
             reversed: false,
             shader: Shader::FlatColor,
             bias: DepthBias::default(),
@@ -265,17 +273,16 @@ impl DepthBuffer {
         }
     }
 
-    fn polygon(&self, quad: &Quad) -> Polygon {
-        let corners = quad
-            .corners
-            .map(|[x, y, inverse]| [x, y, self.depth(inverse.recip())]);
-        let mut polygon = Polygon::new(corners.to_vec(), quad.color);
-        polygon.w = quad.corners.map(|[.., inverse]| inverse.recip()).to_vec();
+    fn polygon(&self, surface: &Distant) -> Polygon {
+        let corners = surface.corners.iter();
+        let corners = corners.map(|[x, y, inverse]| [*x, *y, self.depth(inverse.recip())]);
+        let mut polygon = Polygon::new(corners.collect(), surface.color);
+        polygon.w = surface.corners.iter().map(|c| c[2].recip()).collect();
         polygon
     }
 
-    fn draw(&self, polygons: &[Polygon], is_decal: bool) -> Draw {
-        let mut draw = stage::draw(self.shader, polygon::mesh(SIZE, polygons));
+    fn draw(&self, size: [u32; 2], polygons: &[Polygon], is_decal: bool) -> Draw {
+        let mut draw = stage::draw(self.shader, polygon::mesh(size, polygons));
         // Surfaces that round to the far plane must still be drawn.
         let compare = if self.reversed {
             CompareFunction::GreaterEqual
@@ -286,8 +293,8 @@ impl DepthBuffer {
         if is_decal {
             draw.depth_bias = self.bias;
         }
-        let octaves = (FAR / self.near).log2();
-        draw.params.color = [self.near, FAR, octaves.recip(), 0.0].map(|v| v as f32);
+        let octaves = (self.last / self.near).log2();
+        draw.params.color = [self.near, self.last, octaves.recip(), 0.0].map(|v| v as f32);
         draw
     }
 }
@@ -304,27 +311,74 @@ pub(crate) fn make(wire: &DepthPrecisionWire) -> Result<MethodScene, ParameterEr
         let message = "`polygon-offset` is for the scene `decal`";
         return Err(ParameterError::new("method", message));
     }
-    let quads = quads(wire);
-    let buffer = DepthBuffer::new(wire.method, wire.near);
+    let buffer = DepthBuffer::new(wire.method, [wire.near, FAR]);
+    let (surfaces, size) = (surfaces(wire), SIZE);
+    Ok(drawn(&surfaces, &buffer, size, BACKGROUND))
+}
+
+/// The methods that draw a model: those that need no decals.
+pub(crate) const MODEL_METHODS: [&str; 9] = [
+    "depth16",
+    "depth24",
+    "depth32float",
+    "reversed-depth",
+    "infinite-depth",
+    "infinite-reversed-depth",
+    "linear-depth",
+    "logarithmic-depth",
+    "larger-near",
+];
+
+/// Draws what a model's camera sees between these planes by the method of this name; `None` if there is no such method.
+pub(crate) fn of_model(
+    seen: &SeenModel,
+    [near, far]: [f64; 2],
+    method: &str,
+) -> Option<MethodScene> {
+    let method = MODEL_METHODS.contains(&method).then(|| named(method))??;
+    let far = if far.is_finite() { far } else { seen.planes[1] };
+    let surfaces: Vec<Distant> = seen
+        .opaque
+        .iter()
+        .map(|polygon| Distant {
+            corners: polygon
+                .corners
+                .iter()
+                .map(|[x, y, z]| [*x, *y, distance(*z, seen.planes).recip()])
+                .collect(),
+            color: polygon.color,
+            is_decal: false,
+        })
+        .collect();
+    let buffer = DepthBuffer::new(method, [near, far]);
+    Some(drawn(&surfaces, &buffer, seen.size, seen.background))
+}
+
+fn drawn(
+    surfaces: &[Distant],
+    buffer: &DepthBuffer,
+    size: [u32; 2],
+    background: [f64; 3],
+) -> MethodScene {
     let mut stage = Stage::new();
-    let background = [BACKGROUND[0], BACKGROUND[1], BACKGROUND[2], 1.0];
-    let picture = stage.color("picture", TextureFormat::Rgba8Unorm, SIZE, background);
+    let [r, g, b] = background;
+    let picture = stage.color("picture", TextureFormat::Rgba8Unorm, size, [r, g, b, 1.0]);
     let clear = if buffer.reversed { 0.0 } else { 1.0 };
-    let depth = stage.depth("depth", buffer.format, SIZE, 1, clear);
+    let depth = stage.depth("depth", buffer.format, size, 1, clear);
     let draws = [false, true].into_iter().filter_map(|is_decal| {
-        let some = quads.iter().filter(|q| q.is_decal == is_decal);
-        let polygons: Vec<Polygon> = some.map(|q| buffer.polygon(q)).collect();
-        (!polygons.is_empty()).then(|| buffer.draw(&polygons, is_decal))
+        let some = surfaces.iter().filter(|s| s.is_decal == is_decal);
+        let polygons: Vec<Polygon> = some.map(|s| buffer.polygon(s)).collect();
+        (!polygons.is_empty()).then(|| buffer.draw(size, &polygons, is_decal))
     });
     stage.pass(&[picture], Some(depth), draws.collect());
     let truth = Truth {
-        size: SIZE,
-        background: BACKGROUND,
+        size,
+        background,
         coverage: TexelCoverage::Center,
-        surfaces: quads.iter().map(Quad::surface).collect(),
+        surfaces: surfaces.iter().map(Distant::surface).collect(),
     };
-    Ok(MethodScene {
+    MethodScene {
         scene: stage.read(&[picture]),
         truth,
-    })
+    }
 }

@@ -20,10 +20,16 @@ const GRID: f64 = 16.0;
 ///
 /// A polygon with more than three corners becomes a fan around its middle.
 pub(crate) fn settle(size: [u32; 2], polygons: &[Polygon]) -> Vec<Polygon> {
+    let settled = settle_each(size, polygons).into_iter();
+    settled.map(|(_, triangle)| triangle).collect()
+}
+
+/// Returns the triangles of [`settle`], each with the index of its polygon.
+pub(crate) fn settle_each(size: [u32; 2], polygons: &[Polygon]) -> Vec<(usize, Polygon)> {
     let mut places: HashMap<[u64; 2], usize> = HashMap::new();
     let mut points: Vec<[i64; 2]> = Vec::new();
     let mut triangles = Vec::new();
-    for polygon in polygons {
+    for (index, polygon) in polygons.iter().enumerate() {
         let mut place = |[x, y, depth]: [f64; 3]| {
             let key = [x.to_bits(), y.to_bits()];
             let index = *places.entry(key).or_insert_with(|| {
@@ -33,7 +39,7 @@ pub(crate) fn settle(size: [u32; 2], polygons: &[Polygon]) -> Vec<Polygon> {
             (index, depth)
         };
         let corners: Vec<(usize, f64)> = polygon.corners.iter().map(|c| place(*c)).collect();
-        let mut triangle = |corners: [(usize, f64); 3]| triangles.push((corners, polygon.color));
+        let mut triangle = |corners: [(usize, f64); 3]| triangles.push((corners, index));
         if let [a, b, c] = corners[..] {
             triangle([a, b, c]);
             continue;
@@ -49,14 +55,15 @@ pub(crate) fn settle(size: [u32; 2], polygons: &[Polygon]) -> Vec<Polygon> {
         .flat_map(|(c, _)| [[c[0].0, c[1].0], [c[1].0, c[2].0], [c[2].0, c[0].0]])
         .collect();
     untie(size, &mut points, &edges);
-    let polygon = |(corners, color): ([(usize, f64); 3], [f64; 4])| {
+    let polygon = |(corners, index): ([(usize, f64); 3], usize)| {
         let [a, b, c] = corners.map(|(index, _)| points[index]);
         let area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
         let corner = |(index, depth): (usize, f64)| {
             let [x, y] = points[index].map(|c| c as f64 / GRID);
             [x, y, depth]
         };
-        (area != 0).then(|| Polygon::new(corners.map(corner).to_vec(), color))
+        let color = polygons[index].color;
+        (area != 0).then(|| (index, Polygon::new(corners.map(corner).to_vec(), color)))
     };
     triangles.into_iter().filter_map(polygon).collect()
 }

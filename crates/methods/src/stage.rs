@@ -21,6 +21,15 @@ pub(crate) fn depth(compare: CompareFunction, write: bool) -> Option<DepthState>
     Some(DepthState { compare, write })
 }
 
+/// The depth test that keeps the nearest surface, and the last one of those at the same depth, as the truth does.
+pub(crate) const NEARER: Option<DepthState> = Some(DepthState {
+    compare: CompareFunction::LessEqual,
+    write: true,
+});
+
+/// The format of depths whose precision is not in question.
+pub(crate) const DEPTHS: TextureFormat = TextureFormat::Depth32Float;
+
 /// Returns the component of a blend equation that adds.
 pub(crate) fn add(src_factor: BlendFactor, dst_factor: BlendFactor) -> BlendComponent {
     BlendComponent {
@@ -136,7 +145,7 @@ impl Stage {
 
     /// Adds passes that draw to an attachment whose sides are the picture's, doubled `doublings` times, and
     /// then halve it repeatedly. Meshes do not depend on texels, so the same mesh fills an attachment of any
-    /// size.
+    /// size. A draw that tests depths gets an attachment for them.
     pub(crate) fn supersampled(
         &mut self,
         picture: usize,
@@ -158,7 +167,10 @@ impl Stage {
                 ),
             };
             let next = draw.take().unwrap_or_else(|| halved(from));
-            self.pass(&[to], None, vec![next]);
+            let large = self.attachments[to].size;
+            let tested = next.depth.is_some();
+            let depths = tested.then(|| self.depth("depth", DEPTHS, large, 1, 1.0));
+            self.pass(&[to], depths, vec![next]);
             from = to;
         }
     }

@@ -74,15 +74,26 @@ pub(crate) fn cuboid(low: DVec3, high: DVec3, color: [f64; 4]) -> Vec<Face> {
 }
 
 /// The projection of eye space, in which the eye looks along -z, to a picture.
-#[derive(Clone, Copy, Debug)]
-enum Lens {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lens {
     /// Rays through the eye; the number is half the picture's height at distance 1.
     Perspective(f64),
     /// Parallel rays; the number is half the height of the picture in eye space.
     Parallel(f64),
 }
 
-/// A camera.
+/// A camera in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// The place of the eye, at the origin of eye space, and its directions; without scaling.
+    pub world: DMat4,
+    /// The projection.
+    pub lens: Lens,
+    /// The nearest and the farthest distance that is seen; the latter can be infinite.
+    pub planes: [f64; 2],
+}
+
+/// What a camera sees, projected to a picture.
 #[derive(Clone, Debug)]
 pub(crate) struct View {
     size: [f64; 2],
@@ -105,6 +116,17 @@ impl View {
             size: size.map(f64::from),
             world: look_at_mat4(eye, target, DVec3::Y),
             lens: Lens::Perspective((degrees.to_radians() / 2.0).tan()),
+            near,
+            far,
+        }
+    }
+
+    /// Creates a view through a camera, which sees nothing nearer or farther than two distances.
+    pub(crate) fn of_camera(size: [u32; 2], camera: &Camera, [near, far]: [f64; 2]) -> Self {
+        Self {
+            size: size.map(f64::from),
+            world: camera.world.inverse(),
+            lens: camera.lens,
             near,
             far,
         }
@@ -201,6 +223,11 @@ impl View {
 /// plane.
 pub(crate) fn window_depth(distance: f64, [near, far]: [f64; 2]) -> f64 {
     far * (distance - near) / (distance * (far - near))
+}
+
+/// Returns the distance of a window depth: the inverse of [`window_depth`].
+pub(crate) fn distance(depth: f64, [near, far]: [f64; 2]) -> f64 {
+    far * near / (far - depth * (far - near))
 }
 
 /// Clips a convex polygon to the half space in which a linear function is not negative (Sutherland and

@@ -91,9 +91,22 @@ pub struct Settings {
     /// Memory that one worker may use, in MiB.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub memory: Option<u64>,
+    /// The scene of one's own that methods drew in place of the built-in ones.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gltf: Option<ModelFile>,
     /// The sizes in texels at which methods were timed; empty if only at that of their pictures.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sizes: Vec<[u32; 2]>,
+}
+
+/// A scene of one's own.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ModelFile {
+    /// The scene's name, the value of `gltf` in ids.
+    pub name: String,
+    /// The SHA-256 of its file, in hexadecimal digits.
+    pub sha256: String,
 }
 
 /// One of several parts of a selection.

@@ -87,7 +87,7 @@ pub use folder::{
 pub use frame_file::{FrameFile, FrameImage};
 pub use frame_writer::FrameWriter;
 pub use grade::Grade;
-pub use header::{FORMAT, Header, Settings, Shard};
+pub use header::{FORMAT, Header, ModelFile, Settings, Shard};
 pub use hunt::{AreaTally, Catch, HUNT_FORMAT, Hunt, MutantInfo, MutantRecord};
 pub use innocent::{InnocentInfo, InnocentRecord, InnocentTally};
 pub use known::{Entry, Known, KnownSource};

@@ -207,6 +207,7 @@ fn selected(arguments: &Arguments) -> Result<Vec<Case>, Failure> {
     chosen(&CaseArguments {
         globs,
         cases: arguments.cases.clone(),
+        gltf: None,
         profile: arguments.profile,
     })
 }

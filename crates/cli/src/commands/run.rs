@@ -276,7 +276,7 @@ fn known_by_look(
     stop: &AtomicBool,
 ) -> Result<u64, Failure> {
     let looks = LookInputs {
-        library: &library(arguments.selection.cases.as_ref())?,
+        library: &arguments.selection.library()?,
         expectations,
         launches,
         timeout: options(arguments).timeout,
@@ -599,6 +599,11 @@ fn header(
             validate: arguments.validate,
             timeout: Some(arguments.timeout),
             memory: Some(arguments.memory),
+            gltf: arguments
+                .selection
+                .gltf
+                .as_ref()
+                .map(|scene| scene.file.clone()),
             sizes: if selected.cases.iter().any(|case| case.method.is_some()) {
                 sizes::recorded(arguments.sizes.as_ref())
             } else {

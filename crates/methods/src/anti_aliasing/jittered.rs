@@ -1,10 +1,11 @@
 //! Accumulation of jittered frames (Haeberli and Akeley 1990).
 
-use super::scenes::{ALL, EdgeScene, PICTURE};
+use super::depths;
+use super::scenes::{EdgeScene, PICTURE};
 use crate::polygon::{Polygon, cover, mesh};
-use crate::stage::{SIZE, Stage, add, both, draw};
+use crate::stage::{NEARER, Stage, add, both, depth, draw};
 use etalon_frame::TextureFormat;
-use etalon_scene::{BlendFactor, Draw, Scene, Shader};
+use etalon_scene::{BlendFactor, CompareFunction, Draw, Scene, Shader};
 
 /// The format of sums.
 const SUM: TextureFormat = TextureFormat::Rgba16Float;
@@ -13,16 +14,27 @@ const SUM: TextureFormat = TextureFormat::Rgba16Float;
 /// are `speed` texels further to the right; the last frame shows them in their places.
 pub(super) fn jittered(edges: &EdgeScene, count: u32, speed: f64) -> Scene {
     let mut stage = Stage::new();
-    let picture = stage.color("picture", PICTURE, SIZE, edges.clear());
-    let frame = stage.color("frame", PICTURE, SIZE, edges.clear());
-    let sum = stage.color("sum", SUM, SIZE, [0.0; 4]);
+    let picture = stage.color("picture", PICTURE, edges.size, edges.clear());
+    let frame = stage.color("frame", PICTURE, edges.size, edges.clear());
+    let sum = stage.color("sum", SUM, edges.size, [0.0; 4]);
+    let depth_stencil = depths(&mut stage, edges, 1);
+    let pieces = edges.pieces();
     for (number, [x, y]) in (1..).zip(offsets(count)) {
         let behind = f64::from(count - number) * speed;
-        let mut polygons = still(edges);
-        let pieces = edges.pieces();
-        polygons.extend(pieces.iter().map(|piece| moved(piece, [x - behind, y])));
-        let drawn = draw(Shader::FlatColor, mesh(SIZE, &polygons));
-        stage.pass(&[frame], None, vec![drawn]);
+        let pieces = pieces.iter().map(|piece| moved(piece, [x - behind, y]));
+        let draw_all = |polygons: &[Polygon]| draw(Shader::FlatColor, mesh(edges.size, polygons));
+        let draws = if edges.needs_depth() {
+            let mut ground = draw_all(&still(edges));
+            ground.depth = depth(CompareFunction::Always, true);
+            let mut solid = draw_all(&pieces.collect::<Vec<_>>());
+            solid.depth = NEARER;
+            vec![ground, solid]
+        } else {
+            vec![draw_all(
+                &still(edges).into_iter().chain(pieces).collect::<Vec<_>>(),
+            )]
+        };
+        stage.pass(&[frame], depth_stencil, draws);
         let mut accumulate = copy(frame);
         accumulate.targets[0].blend = both(add(BlendFactor::Constant, BlendFactor::One));
         accumulate.blend_constant = [1.0 / count as f32; 4];
@@ -42,7 +54,8 @@ fn copy(texture: usize) -> Draw {
 /// Returns what does not move: the ground, or a background in its place. It covers the previous frame.
 fn still(edges: &EdgeScene) -> Vec<Polygon> {
     if edges.ground.is_empty() {
-        return vec![Polygon::rect(ALL, 1.0, edges.clear())];
+        let [width, height] = edges.size.map(f64::from);
+        return vec![Polygon::rect([0.0, 0.0, width, height], 1.0, edges.clear())];
     }
     edges.ground.clone()
 }

@@ -3,6 +3,7 @@
 use super::pieces::{DEPTH, DirectedLine, Piece};
 use super::wire::{AntiAliasingScene, AntiAliasingWire};
 use crate::error::{ParameterError, within};
+use crate::model::SeenModel;
 use crate::polygon::Polygon;
 use crate::stage::SIZE;
 use crate::truth::{TexelCoverage, Truth};
@@ -12,6 +13,8 @@ use std::f64::consts::TAU;
 /// A ground on texel borders, and pieces on it.
 #[derive(Clone, Debug)]
 pub(super) struct EdgeScene {
+    /// Width and height of the picture in texels.
+    pub(super) size: [u32; 2],
     /// Red, green and blue behind everything. If the ground covers the picture, it can only show in seams.
     pub(super) background: [f64; 3],
     /// The polygons below the pieces.
@@ -20,6 +23,8 @@ pub(super) struct EdgeScene {
     pub(super) front: Vec<Piece>,
     /// The visible ground, as pieces that fill the gaps between the front pieces.
     pub(super) back: Vec<Piece>,
+    /// Polygons that hide each other by their depths: a scene of one's own, without ground and pieces.
+    pub(super) solid: Vec<Polygon>,
 }
 
 const INK: [f64; 4] = [0.95, 0.95, 0.9, 1.0];
@@ -63,15 +68,33 @@ impl EdgeScene {
         polygons
     }
 
-    /// Returns the pieces on the ground.
+    /// Returns the pieces on the ground, and the solid polygons.
     pub(super) fn pieces(&self) -> Vec<Polygon> {
-        self.front.iter().filter_map(Piece::polygon).collect()
+        let pieces = self.front.iter().filter_map(Piece::polygon);
+        pieces.chain(self.solid.iter().cloned()).collect()
+    }
+
+    /// Returns the scene that a model's camera sees.
+    pub(super) fn of_model(seen: &SeenModel) -> Self {
+        Self {
+            size: seen.size,
+            background: seen.background,
+            ground: Vec::new(),
+            front: Vec::new(),
+            back: Vec::new(),
+            solid: seen.opaque.clone(),
+        }
+    }
+
+    /// Returns true if polygons hide each other by their depths, and not by their order.
+    pub(super) fn needs_depth(&self) -> bool {
+        !self.solid.is_empty()
     }
 
     /// Returns the truth.
     pub(super) fn truth(&self) -> Truth {
         Truth {
-            size: SIZE,
+            size: self.size,
             background: self.background,
             coverage: TexelCoverage::Area,
             surfaces: self.polygons().iter().map(Polygon::surface).collect(),
@@ -80,6 +103,8 @@ impl EdgeScene {
 
     fn on_paper(front: Vec<Piece>, back: Vec<Piece>) -> Self {
         Self {
+            size: SIZE,
+            solid: Vec::new(),
             background: BEHIND,
             ground: vec![Polygon::rect(ALL, DEPTH, PAPER)],
             front,
@@ -190,6 +215,8 @@ fn wire_torus() -> EdgeScene {
         front.push(wire(from, point(i, j + 1)));
     }
     EdgeScene {
+        size: SIZE,
+        solid: Vec::new(),
         background: [PAPER[0], PAPER[1], PAPER[2]],
         ground: Vec::new(),
         front,

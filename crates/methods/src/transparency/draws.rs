@@ -1,16 +1,13 @@
 //! Attachments and draws that several methods share.
 
 use super::scenes::GlassScene;
-use crate::polygon::{Polygon, mesh};
-use crate::stage::{SIZE, Stage, add, both, depth, draw};
+use crate::polygon::{Polygon, cover, mesh};
+use crate::stage::{DEPTHS, NEARER, Stage, add, both, draw};
 use etalon_frame::TextureFormat;
-use etalon_scene::{BlendFactor, ColorTarget, CompareFunction, Draw, Shader};
+use etalon_scene::{BlendFactor, BlendState, ColorTarget, Draw, Shader};
 
 /// The format of pictures.
 pub(super) const PICTURE: TextureFormat = TextureFormat::Rgba8Unorm;
-
-/// The format of depths.
-pub(super) const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 
 /// Returns the background's colour, opaque.
 pub(super) fn clear(glass: &GlassScene) -> [f64; 4] {
@@ -19,15 +16,15 @@ pub(super) fn clear(glass: &GlassScene) -> [f64; 4] {
 }
 
 /// Adds a cleared depth attachment.
-pub(super) fn depths(stage: &mut Stage, samples: u32) -> usize {
-    stage.depth("depth", DEPTH, SIZE, samples, 1.0)
+pub(super) fn depths(stage: &mut Stage, glass: &GlassScene, samples: u32) -> usize {
+    stage.depth("depth", DEPTHS, glass.size, samples, 1.0)
 }
 
 /// Adds the attachments of a weighted mean: the sums of colours, and what the layers leave of the background.
-pub(super) fn sums(stage: &mut Stage) -> [usize; 2] {
+pub(super) fn sums(stage: &mut Stage, glass: &GlassScene) -> [usize; 2] {
     [
-        stage.color("sum", TextureFormat::Rgba16Float, SIZE, [0.0; 4]),
-        stage.color("left", TextureFormat::R8Unorm, SIZE, [1.0; 4]),
+        stage.color("sum", TextureFormat::Rgba16Float, glass.size, [0.0; 4]),
+        stage.color("left", TextureFormat::R8Unorm, glass.size, [1.0; 4]),
     ]
 }
 
@@ -49,9 +46,46 @@ pub(super) fn opaque(glass: &GlassScene, shader: Shader) -> Option<Draw> {
     if glass.opaque.is_empty() {
         return None;
     }
-    let mut draw = draw(shader, mesh(SIZE, &glass.opaque));
-    draw.depth = depth(CompareFunction::Less, true);
+    let mut draw = draw(shader, mesh(glass.size, &glass.opaque));
+    draw.depth = NEARER;
     Some(draw)
+}
+
+/// The opaque polygons, drawn in a first pass.
+pub(super) struct Ground {
+    pub(super) stage: Stage,
+    /// The attachment with their colours over the background.
+    pub(super) picture: usize,
+    /// The attachment with their depths.
+    pub(super) depth: usize,
+}
+
+/// Draws the opaque polygons with depth over the background.
+pub(super) fn ground(glass: &GlassScene) -> Ground {
+    let mut stage = Stage::new();
+    let picture = stage.color("picture", PICTURE, glass.size, clear(glass));
+    let depth = depths(&mut stage, glass, 1);
+    if let Some(opaque) = opaque(glass, Shader::FlatColor) {
+        stage.pass(&[picture], Some(depth), vec![opaque]);
+    }
+    Ground {
+        stage,
+        picture,
+        depth,
+    }
+}
+
+/// Returns a draw that copies a texture.
+pub(super) fn copy(texture: usize, blend: Option<BlendState>) -> Draw {
+    let mut copy = draw(Shader::TexelColor, cover());
+    copy.textures = vec![texture];
+    copy.targets[0].blend = blend;
+    copy
+}
+
+/// Returns the blend state `over` for premultiplied colours.
+pub(super) fn over_premultiplied() -> Option<BlendState> {
+    both(add(BlendFactor::One, BlendFactor::OneMinusSrcAlpha))
 }
 
 /// Returns a draw of the opaque polygons that writes only depth.
@@ -61,14 +95,6 @@ pub(super) fn opaque_depth(glass: &GlassScene, shader: Shader) -> Option<Draw> {
         target.write_mask = 0;
     }
     Some(draw)
-}
-
-/// Returns a draw of the opaque polygons' colours, the farthest first, without a depth test.
-pub(super) fn opaque_color(glass: &GlassScene) -> Option<Draw> {
-    let mut polygons = glass.opaque.clone();
-    polygons.sort_by(|a, b| b.corners[0][2].total_cmp(&a.corners[0][2]));
-    let some = !polygons.is_empty();
-    some.then(|| draw(Shader::FlatColor, mesh(SIZE, &polygons)))
 }
 
 /// Returns the polygon with its colour multiplied by its alpha.

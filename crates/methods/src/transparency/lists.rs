@@ -3,7 +3,7 @@
 use super::draws::{PICTURE, clear, depths, opaque};
 use super::scenes::GlassScene;
 use crate::polygon::{Polygon, cover, mesh};
-use crate::stage::{SIZE, Stage, add, depth, draw};
+use crate::stage::{Stage, add, depth, draw};
 use etalon_scene::{
     BlendFactor, BlendState, CompareFunction, EarlyTests, Params, Pool, Scene, Shader,
 };
@@ -13,11 +13,11 @@ use etalon_scene::{
 /// has `nodes` nodes per texel, on average.
 pub(super) fn linked_lists(glass: &GlassScene, polygons: &[Polygon], nodes: u32) -> Scene {
     let mut stage = Stage::new();
-    let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
-    let depth_stencil = depths(&mut stage, 1);
-    let [width, height] = SIZE;
+    let picture = stage.color("picture", PICTURE, glass.size, clear(glass));
+    let depth_stencil = depths(&mut stage, glass, 1);
+    let [width, height] = glass.size;
     stage.pool(Pool {
-        size: SIZE,
+        size: glass.size,
         nodes: nodes * width * height,
         layers: 0,
     });
@@ -25,7 +25,7 @@ pub(super) fn linked_lists(glass: &GlassScene, polygons: &[Polygon], nodes: u32)
         color: [width as f32, height as f32, 0.0, 0.0],
         back_color: [0.0; 4],
     };
-    let mut append = draw(Shader::ListAppend, mesh(SIZE, polygons));
+    let mut append = draw(Shader::ListAppend, mesh(glass.size, polygons));
     append.params = params;
     append.depth = depth(CompareFunction::Less, false);
     // A fragment that fails the depth test must not become a node, although the shader has side effects.

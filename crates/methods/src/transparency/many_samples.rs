@@ -4,7 +4,7 @@ use super::draws::{PICTURE, clear, depths, opaque};
 use super::scenes::GlassScene;
 use crate::noise::Noise;
 use crate::polygon::{Polygon, mesh};
-use crate::stage::{SIZE, Stage, depth, draw};
+use crate::stage::{Stage, depth, draw};
 use etalon_frame::TextureFormat;
 use etalon_scene::{AttachmentContents, CompareFunction, Draw, Scene, Shader};
 
@@ -13,7 +13,7 @@ const SAMPLES: u32 = 4;
 
 /// Covers a number of samples that follows alpha.
 pub(super) fn alpha_to_coverage(glass: &GlassScene, polygons: &[Polygon]) -> Scene {
-    let mut glassy = draw(Shader::FlatColor, mesh(SIZE, polygons));
+    let mut glassy = draw(Shader::FlatColor, mesh(glass.size, polygons));
     glassy.multisample.alpha_to_coverage = true;
     resolved(glass, Stage::new(), vec![glassy])
 }
@@ -26,10 +26,10 @@ pub(super) fn stochastic(glass: &GlassScene, polygons: &[Polygon]) -> Scene {
     let mut stage = Stage::new();
     let mut draws = Vec::new();
     for (i, layer) in layers(polygons).iter().enumerate() {
-        let contents = AttachmentContents::Texels(thresholds(i as u64, &alphas));
+        let contents = AttachmentContents::Texels(thresholds(glass.size, i as u64, &alphas));
         let format = TextureFormat::Rgba8Unorm;
-        let texture = stage.attachment(format!("thresholds_{i}"), format, SIZE, 1, contents);
-        let mut glassy = draw(Shader::Stochastic, mesh(SIZE, layer));
+        let texture = stage.attachment(format!("thresholds_{i}"), format, glass.size, 1, contents);
+        let mut glassy = draw(Shader::Stochastic, mesh(glass.size, layer));
         glassy.textures = vec![texture];
         draws.push(glassy);
     }
@@ -38,10 +38,10 @@ pub(super) fn stochastic(glass: &GlassScene, polygons: &[Polygon]) -> Scene {
 
 /// Draws the glass with depth over the opaque polygons, then takes the mean of the samples.
 fn resolved(glass: &GlassScene, mut stage: Stage, mut glassy: Vec<Draw>) -> Scene {
-    let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
+    let picture = stage.color("picture", PICTURE, glass.size, clear(glass));
     let contents = AttachmentContents::Color(clear(glass).map(|c| c as f32));
-    let samples = stage.attachment("samples", PICTURE, SIZE, SAMPLES, contents);
-    let depth_stencil = depths(&mut stage, SAMPLES);
+    let samples = stage.attachment("samples", PICTURE, glass.size, SAMPLES, contents);
+    let depth_stencil = depths(&mut stage, glass, SAMPLES);
     for draw in &mut glassy {
         draw.depth = depth(CompareFunction::Less, true);
     }
@@ -51,9 +51,17 @@ fn resolved(glass: &GlassScene, mut stage: Stage, mut glassy: Vec<Draw>) -> Scen
     stage.read(&[picture])
 }
 
+/// The largest number of polygons that are compared with each other, and the number of groups of more polygons.
+const COMPARED: usize = 512;
+const GROUPS: usize = 8;
+
 /// Groups polygons by first fit, so that no two in a group overlap. Polygons that do not overlap can share
-/// their thresholds.
+/// their thresholds. Many polygons take turns between a few groups; one of `GROUPS` pairs that overlap then shares them.
 pub(super) fn layers(polygons: &[Polygon]) -> Vec<Vec<Polygon>> {
+    if polygons.len() > COMPARED {
+        let group = |first: usize| polygons[first..].iter().step_by(GROUPS).cloned().collect();
+        return (0..GROUPS).map(group).collect();
+    }
     let mut layers: Vec<Vec<Polygon>> = Vec::new();
     for polygon in polygons {
         let free = |layer: &&mut Vec<Polygon>| !layer.iter().any(|other| overlap(polygon, other));
@@ -90,9 +98,9 @@ fn overlap(a: &Polygon, b: &Polygon) -> bool {
 
 /// Returns a threshold code for each sample of each texel. No code is so close to an alpha that rounding
 /// decides, and each is below exactly the alphas that its random number is below.
-pub(super) fn thresholds(seed: u64, alphas: &[f64]) -> Vec<u32> {
+pub(super) fn thresholds([width, height]: [u32; 2], seed: u64, alphas: &[f64]) -> Vec<u32> {
     let mut noise = Noise::new(seed);
-    let count = SIZE[0] * SIZE[1] * SAMPLES;
+    let count = width * height * SAMPLES;
     let mut threshold = || {
         let number = noise.next();
         let mut code = (number * 255.0).round();

@@ -3,7 +3,7 @@
 use super::draws::{PICTURE, clear, depths, opaque, sum_targets, sums};
 use super::scenes::GlassScene;
 use crate::polygon::{Polygon, cover, mesh};
-use crate::stage::{SIZE, Stage, add, depth, draw};
+use crate::stage::{Stage, add, depth, draw};
 use etalon_scene::{
     BlendFactor, BlendState, CompareFunction, Draw, EarlyTests, Params, Pool, Scene, Shader,
 };
@@ -12,12 +12,12 @@ use etalon_scene::{
 /// second stores their colours and sums up what is farther, the third composes both over the picture.
 pub(super) fn nearest_layers(glass: &GlassScene, polygons: &[Polygon], k: u32) -> Scene {
     let mut stage = Stage::new();
-    let picture = stage.color("picture", PICTURE, SIZE, clear(glass));
-    let [sum, left] = sums(&mut stage);
-    let depth_stencil = depths(&mut stage, 1);
-    let [width, height] = SIZE;
+    let picture = stage.color("picture", PICTURE, glass.size, clear(glass));
+    let [sum, left] = sums(&mut stage, glass);
+    let depth_stencil = depths(&mut stage, glass, 1);
+    let [width, height] = glass.size;
     stage.pool(Pool {
-        size: SIZE,
+        size: glass.size,
         nodes: k * width * height,
         layers: k,
     });
@@ -26,7 +26,7 @@ pub(super) fn nearest_layers(glass: &GlassScene, polygons: &[Polygon], k: u32) -
         back_color: [0.0; 4],
     };
     let glassy = |shader| -> Draw {
-        let mut draw = draw(shader, mesh(SIZE, polygons));
+        let mut draw = draw(shader, mesh(glass.size, polygons));
         draw.params = params;
         draw.depth = depth(CompareFunction::Less, false);
         // A fragment that fails the depth test must not become a layer, although the shader has side effects.

@@ -26,9 +26,11 @@ impl Object {
 /// A scene of opaque polygons and transparent objects, not sorted yet.
 #[derive(Clone, Debug)]
 pub(super) struct GlassScene {
+    /// Width and height of the picture in texels.
+    pub(super) size: [u32; 2],
     /// Red, green and blue behind everything.
     pub(super) background: [f64; 3],
-    /// Opaque polygons, at constant depths.
+    /// Opaque polygons.
     pub(super) opaque: Vec<Polygon>,
     /// Transparent objects, unsorted.
     pub(super) objects: Vec<Object>,
@@ -68,7 +70,7 @@ impl GlassScene {
     /// Returns the exact picture's scene: all surfaces, opaque and transparent.
     pub(super) fn truth(&self) -> Truth {
         Truth {
-            size: SIZE,
+            size: self.size,
             background: self.background,
             coverage: self.coverage,
             surfaces: self
@@ -125,6 +127,7 @@ fn windows(alpha: f64) -> GlassScene {
         ))
     };
     GlassScene {
+        size: SIZE,
         background: [0.9, 0.9, 0.85],
         opaque: vec![Polygon::rect([32.0, 56.0, 96.0, 80.0], 0.65, OPAQUE)],
         objects: order.map(pane_at).to_vec(),
@@ -146,6 +149,7 @@ fn intersecting_panes(angle: f64, alpha: f64) -> GlassScene {
         pane(polygon)
     };
     GlassScene {
+        size: SIZE,
         background: [0.9, 0.9, 0.85],
         opaque: Vec::new(),
         objects: vec![
@@ -206,6 +210,7 @@ fn nested_glass(alpha: f64) -> GlassScene {
         tinted(HUES[1], alpha),
     );
     GlassScene {
+        size: SIZE,
         background: [0.9, 0.9, 0.85],
         opaque: vec![Polygon::rect([58.0, 54.0, 70.0, 66.0], 0.5, OPAQUE)],
         objects: vec![outer, inner, middle],
@@ -240,6 +245,7 @@ fn thin_layers(layers: u32, alpha: f64) -> GlassScene {
         ))
     };
     GlassScene {
+        size: SIZE,
         background: [0.95, 0.95, 0.9],
         opaque: Vec::new(),
         objects: mixed(layers).map(layer).collect(),
@@ -272,6 +278,7 @@ fn hair(alpha: f64) -> GlassScene {
         pane(settle_whole(SIZE, &Polygon::new(corners, color)))
     };
     GlassScene {
+        size: SIZE,
         background: [0.75, 0.85, 0.95],
         opaque: Vec::new(),
         objects: (0..STRIPS).map(|_| strip()).collect(),
@@ -302,6 +309,7 @@ fn smoke(alpha: f64) -> GlassScene {
         puffs.push(pane(Polygon::rect(rect, depth, color)));
     }
     GlassScene {
+        size: SIZE,
         background: [0.25, 0.35, 0.55],
         opaque: vec![Polygon::rect([44.0, 36.0, 84.0, 92.0], 0.525, OPAQUE)],
         objects: mixed(PUFFS).map(|i| puffs[i as usize].clone()).collect(),

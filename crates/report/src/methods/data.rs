@@ -383,7 +383,8 @@ impl<'a> Methods<'a> {
 fn family<'a>(record: &'a Record, m: &'a Measured) -> &'a str {
     let file = record.parts().file();
     match file.rsplit_once('/') {
-        Some((_, name)) if !name.contains('=') => name,
+        // A scene of one's own has no case file.
+        Some((_, name)) if name != m.question => name,
         _ => &m.scene,
     }
 }

@@ -291,7 +291,8 @@ fn in_scene(run: &Run, pictures: &mut PagePictures<'_>, shown: &ShownScene<'_, '
             details {
                 summary { "Table and command" }
                 p.again { "Drawn by " code { (run.header.provenance.command.join(" ")) } "; this scene alone by "
-                    code { "etalon run " (quoted(&format!("methods/{}/{}/*", scene.question, scene.name))) } }
+                    code { "etalon run " @if scene.name.starts_with("gltf=") { "--gltf FILE " }
+                        (quoted(&format!("methods/{}/{}/*", scene.question, scene.name))) } }
                 (table(methods, scene))
             }
         }

@@ -28,6 +28,9 @@ pub(crate) fn machine(machine: &Machine) -> String {
 pub(crate) fn settings(settings: &Settings) -> Vec<String> {
     let s = settings;
     let texts = [
+        s.gltf
+            .as_ref()
+            .map(|g| format!("scene {} (SHA-256 {})", g.name, g.sha256)),
         s.shard.map(|s| format!("shard {s}")),
         s.shuffle.map(|s| format!("shuffled with seed {s}")),
         s.repeat

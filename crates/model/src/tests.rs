@@ -1,0 +1,207 @@
+//! Tests of whole files: our own, broken ones, and those that a fuzzer would make.
+
+use crate::document::parse;
+use crate::read;
+use etalon_methods::{Model, TexelCoverage};
+use proptest::prelude::*;
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+
+fn scene(name: &str) -> PathBuf {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/gltf");
+    root.join(name)
+}
+
+fn bytes(name: &str) -> Vec<u8> {
+    std::fs::read(scene(name)).expect("the scene is in the repository")
+}
+
+fn model(name: &str) -> Model {
+    read(&scene(name)).expect("the scene is valid").model
+}
+
+/// The avenue as JSON, with a change.
+fn changed(change: impl FnOnce(&mut Value)) -> Result<Model, String> {
+    let mut document: Value = serde_json::from_slice(&bytes("avenue.gltf")).expect("it is JSON");
+    change(&mut document);
+    let bytes = serde_json::to_vec(&document).expect("it is JSON");
+    parse(&bytes, Path::new("")).map_err(|error| error.to_string())
+}
+
+#[test]
+fn a_scene_answers_the_questions_that_its_surfaces_raise() {
+    let questions = |name: &str| -> Vec<&str> {
+        let questions = model(name).questions();
+        questions
+            .into_iter()
+            .map(|(question, _)| question)
+            .collect()
+    };
+    let all = ["transparency", "anti-aliasing", "depth-precision"];
+    assert_eq!(questions("greenhouse.glb"), all);
+    assert_eq!(questions("avenue.gltf"), all[1..]);
+}
+
+#[test]
+fn every_method_draws_a_scene_over_the_same_truth() {
+    for name in ["greenhouse.glb", "avenue.gltf"] {
+        let model = model(name);
+        for (question, methods) in model.questions() {
+            let truths = methods.iter().map(|method| {
+                let made = model.draw(question, method).expect("the method draws it");
+                let picture = &made.scene.attachments[made.scene.read[0]];
+                assert_eq!((picture.size, picture.samples), (made.truth.size, 1));
+                made.truth
+            });
+            let truths: Vec<_> = truths.collect();
+            assert!(truths.windows(2).all(|t| t[0] == t[1]), "{name} {question}");
+            let is_area = truths[0].coverage == TexelCoverage::Area;
+            assert_eq!(is_area, question == "anti-aliasing");
+        }
+        assert!(model.draw("transparency", "magic").is_err());
+        assert!(model.draw("anti-aliasing", "coverage-to-alpha").is_err());
+        assert!(model.draw("culling", "none").is_err());
+    }
+}
+
+#[test]
+fn a_camera_of_the_file_or_one_that_sees_everything() {
+    let own = changed(|_| ()).expect("it is valid");
+    let fitted = changed(|d| {
+        d["cameras"] = json!([]);
+        d["nodes"].as_array_mut().expect("a list").pop();
+        d["scenes"][0]["nodes"]
+            .as_array_mut()
+            .expect("a list")
+            .pop();
+    })
+    .expect("a camera is fitted");
+    assert_eq!(own.triangles(), fitted.triangles());
+    let surfaces = |model: &Model| {
+        let made = model.draw("anti-aliasing", "none").expect("it draws");
+        made.truth.surfaces.len()
+    };
+    assert!(surfaces(&fitted) > surfaces(&own) / 2);
+}
+
+#[test]
+fn what_is_wrong_is_named_with_its_part_and_a_remedy() {
+    let refused = |change: fn(&mut Value)| changed(change).expect_err("it is refused");
+    assert_eq!(
+        refused(|d| d["accessors"][0]["byteOffset"] = json!(4)),
+        "node 0 (ground), mesh 0, accessor 0: it reaches beyond its buffer; export the file again"
+    );
+    assert_eq!(
+        refused(|d| d["bufferViews"][0]["byteLength"] = json!(99_999)),
+        "node 0 (ground), mesh 0, accessor 0: it reaches beyond its buffer; export the file again"
+    );
+    assert_eq!(
+        refused(|d| d["buffers"][0]["byteLength"] = json!(99_999)),
+        "buffer 0: it has 4068 bytes and should have 99999; export the file again"
+    );
+    assert_eq!(
+        refused(|d| d["buffers"][0]["uri"] = json!("../secret.bin")),
+        "buffer 0: it names `../secret.bin`, and only files beside the scene or in folders there are read; move the \
+         file there"
+    );
+    assert_eq!(
+        refused(|d| d["nodes"][3]["children"] = json!([3])),
+        "node 3 (wall 1): nodes are nested too deeply or too often; a node must not be its own child"
+    );
+    assert_eq!(
+        refused(|d| d["nodes"][1]["rotation"] = json!([1e30, 0, 0, 1])),
+        "node 1 (wall 0): its transform is no finite number; export the file again"
+    );
+    assert_eq!(
+        refused(|d| d["cameras"][0]["perspective"]["znear"] = json!(9999)),
+        "node 29 (camera), camera 0: its field of view or its planes are impossible; it needs a positive angle below \
+         180 degrees, and 0 < near < far"
+    );
+    assert_eq!(
+        refused(|d| d["nodes"][29]["translation"] = json!([0, 0, -9000])),
+        "camera: the camera sees no triangle"
+    );
+    assert_eq!(
+        refused(|d| d["scenes"][0]["nodes"] = json!([29])),
+        "the scene: it has no triangle; export a scene with meshes"
+    );
+    let compressed = refused(|d| d["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]));
+    assert!(compressed.starts_with("the file: it is not valid glTF 2.0, or needs an extension"));
+    let missing = read(Path::new("/nowhere/scene.glb")).expect_err("there is no such file");
+    assert!(
+        missing
+            .to_string()
+            .starts_with("/nowhere/scene.glb: cannot be read: ")
+    );
+}
+
+#[test]
+fn a_texture_gives_a_triangle_its_mean() {
+    let made = model("greenhouse.glb");
+    let made = made.draw("anti-aliasing", "none").expect("it draws");
+    let colors = made
+        .truth
+        .surfaces
+        .iter()
+        .filter_map(|surface| match surface.paint {
+            etalon_methods::Paint::Flat(color) => Some(color),
+            _ => None,
+        });
+    // Each cell of the floor has two dark and two light tiles: (linear(230) + linear(150)) / 2 times 0.9 is 0.51, which is
+    // displayed as 0.74; the light from above multiplies it by 0.92.
+    let [r, ..] = colors.into_iter().next().expect("the floor comes first");
+    assert!((r - 0.685).abs() < 0.02, "{r}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn no_damaged_file_panics(name in prop::sample::select(vec!["greenhouse.glb", "avenue.gltf"]),
+        damages in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..12), cut in any::<prop::sample::Index>(),
+        is_cut in prop::bool::weighted(0.2)) {
+        let mut bytes = bytes(name);
+        // Most of a file is numbers; what describes them is more fragile.
+        let described = if name == "greenhouse.glb" { 12_000.min(bytes.len()) } else { bytes.len() };
+        for (place, byte) in damages {
+            let place = place.index(described);
+            bytes[place] = byte;
+        }
+        if is_cut {
+            let cut = cut.index(bytes.len());
+            bytes.truncate(cut);
+        }
+        let _result = parse(&bytes, Path::new(""));
+    }
+
+    #[test]
+    fn no_changed_number_panics(place in any::<prop::sample::Index>(), number in prop::sample::select(vec![
+        json!(0), json!(1), json!(2), json!(5121), json!(5125), json!(4_294_967_295_u32), json!(u64::MAX), json!(-1), json!(1e38), json!(0.5),
+    ])) {
+        let _result = changed(|document| {
+            let mut numbers = Vec::new();
+            paths(document, &mut String::new(), &mut numbers);
+            let path = &numbers[place.index(numbers.len())];
+            *document.pointer_mut(path).expect("it was found") = number;
+        });
+    }
+}
+
+/// Collects the JSON pointers of all numbers.
+fn paths(value: &Value, path: &mut String, numbers: &mut Vec<String>) {
+    let length = path.len();
+    let mut child = |key: &str, value: &Value| {
+        path.push('/');
+        path.push_str(key);
+        paths(value, path, numbers);
+        path.truncate(length);
+    };
+    match value {
+        Value::Number(_) => numbers.push(path.clone()),
+        Value::Array(items) => (0..)
+            .zip(items)
+            .for_each(|(i, v)| child(&format!("{i}"), v)),
+        Value::Object(entries) => entries.iter().for_each(|(key, v)| child(key, v)),
+        _ => {}
+    }
+}
