@@ -38,6 +38,22 @@ pub(crate) fn is_beside(vertices: &[PlaneVertex]) -> bool {
     beyond.iter().any(all_beyond)
 }
 
+/// Returns the part of a line, or of an outline's edge, between the sides of the view volume, as shares of its second
+/// end in the window; `None` if there is no such part. It is clipped before it is widened, so its fragments can be
+/// outside, and no fragment of the rest is drawn.
+pub(crate) fn between_sides(ends: [&PlaneVertex; 2]) -> Option<[f64; 2]> {
+    let positions = ends.map(|v| v.position.map(f64::from));
+    let sides: [fn([f64; 4]) -> f64; 4] = [
+        |[x, _, _, w]| w + x,
+        |[x, _, _, w]| w - x,
+        |[_, y, _, w]| w + y,
+        |[_, y, _, w]| w - y,
+    ];
+    let [from, to] = positions.map(|[.., w]| w);
+    let kept = clipped_segment(sides.map(|side| positions.map(side)))?;
+    Some(kept.map(|t| t * to / ((1.0 - t) * from + t * to)))
+}
+
 /// An edge with the side that the triangle is on.
 enum SidedEdge {
     /// An edge between snapped vertices, clockwise on the screen.

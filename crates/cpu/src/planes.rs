@@ -40,7 +40,7 @@ pub(crate) struct Planes {
     pub(crate) clips: bool,
     /// The clip distances that are negative at some vertex.
     pub(crate) distances: Vec<DepthPlane>,
-    /// True if the primitive might extend beyond the viewport.
+    /// True if the viewport's edges might clip samples of the primitive.
     pub(crate) leaves: bool,
     /// The viewport's left, top, right and bottom edges in sub-texel units.
     pub(crate) viewport: [i64; 4],
@@ -97,21 +97,10 @@ impl Planes {
             clamp: draw.depth_clamp.then_some([near.min(far), near.max(far)]),
             clips: out && !draw.depth_clamp,
             distances: distances(draw, points, vertices),
-            leaves: wide || !points.iter().all(inside),
+            // Points and lines are clipped before they are widened, and then extend beyond the edges.
+            leaves: !wide && !points.iter().all(inside),
             viewport,
         }
-        .reaching(points, wide)
-    }
-
-    /// Points and lines are clipped before they are widened, so if their vertices are inside, they can extend
-    /// beyond the edges.
-    fn reaching(mut self, points: [Point; 3], wide: bool) -> Self {
-        let [left, top, right, bottom] = self.viewport;
-        let inside = |p: &Point| (left..=right).contains(&p.x) && (top..=bottom).contains(&p.y);
-        if wide && points.iter().all(inside) {
-            self.viewport = [left - UNITS, top - UNITS, right + UNITS, bottom + UNITS];
-        }
-        self
     }
 
     /// Returns the depths of a span's texels at one sample position, biased and clamped.

@@ -333,8 +333,9 @@ fn point<S: Steps>(
     }
 }
 
-/// Runs the texels of a line: one per column, or per row if the line is steep, with all samples of each. The
-/// last texel belongs to the next line (the diamond-exit rule, if the line does not pass through corners).
+/// Runs the texels of the part of a line between the sides of the view volume: one per column, or per row if the line
+/// is steep, with all samples of each. The last texel belongs to the next line (the diamond-exit rule, if the line does
+/// not pass through corners).
 fn line<S: Steps>(
     ends: [PlaneVertex; 2],
     front: bool,
@@ -354,7 +355,11 @@ fn line<S: Steps>(
     if from == to {
         return;
     }
-    let (low, high) = (from.min(to), from.max(to));
+    let Some(kept) = cut::between_sides([&a, &b]) else {
+        return;
+    };
+    let [first, last] = kept.map(|share| from + ((to - from) as f64 * share).round() as i64);
+    let (low, high) = (first.min(last), first.max(last));
     let center = |cell: i64| cell * UNITS + UNITS / 2;
     let masks = vec![true; samples];
     let first = (low - UNITS / 2).div_euclid(UNITS);

@@ -122,6 +122,54 @@ fn texture_coordinates_reach_shaders_that_read_them_as_numbers() {
     }
 }
 
+/// Returns the columns and rows of the texels, of 8 by 8, that a mesh covers in a viewport.
+fn covered(positions: &str, state: &str, viewport: [f32; 4]) -> Vec<[u32; 2]> {
+    let frame = frame(&format!(
+        r#"{{"about":"t","spec":["t"],"scene":{{
+        "attachments":{{"color":{{"format":"rgba8unorm","size":[8,8]}}}},
+        "passes":[{{"color":["color"],"draws":[{{"mesh":{{"kind":"vertices","positions":{positions}}},
+        "shader":"uniform_color","params":{{"color":[1,1,1,1]}},"viewport":{{"rect":{viewport:?},"depth":[0,1]}},{state}}}]}}],
+        "read":["color"]}}}}"#
+    ));
+    let texels = (0..64).map(|i| [i % 8, i / 8]);
+    texels
+        .filter(|[x, y]| frame.images[0].sample(*x, *y, 0)[0] > 0)
+        .collect()
+}
+
+/// A viewport whose top is in the second row, above or below the row's samples.
+const ABOVE: [f32; 4] = [2.0, 1.375, 4.0, 4.0];
+const BELOW: [f32; 4] = [2.0, 1.625, 4.0, 4.0];
+
+#[test]
+fn a_line_beside_the_viewport_covers_no_sample_inside() {
+    let line = r#""topology":"line-list""#;
+    let outline = r#""polygon_mode":"line""#;
+    let row: Vec<[u32; 2]> = (2..6).map(|x| [x, 1]).collect();
+    for (y, expected) in [(1.0, row.clone()), (1.03125, vec![])] {
+        let ends = format!("[[-1,{y},0.5],[1,{y},0.5]]");
+        assert_eq!(covered(&ends, line, ABOVE), expected, "{y}");
+    }
+    // Only the part beyond the far plane is inside.
+    let leaving = "[[-1,1.03125,0.25],[1,0.96875,3]]";
+    assert_eq!(covered(leaving, line, ABOVE), Vec::<[u32; 2]>::new());
+    let beside = "[[-1,1.03125,0.5],[1,1.03125,0.5],[-1,1.125,0.5]]";
+    assert_eq!(covered(beside, outline, ABOVE), Vec::<[u32; 2]>::new());
+}
+
+#[test]
+fn a_line_that_leaves_the_viewport_is_clipped_along_the_line() {
+    let line = r#""topology":"line-list""#;
+    // Half of the line is above the viewport, in the row of the other half.
+    let rising = "[[-1,0.96875,0.5],[1,1.03125,0.5]]";
+    assert_eq!(covered(rising, line, ABOVE), [[2, 1], [3, 1]]);
+    // The samples of the row are above the viewport, but the line is not.
+    let row: Vec<[u32; 2]> = (2..6).map(|x| [x, 1]).collect();
+    for ends in ["[[-1,1,0.5],[1,1,0.5]]", "[[-1.5,1,0.5],[1.5,1,0.5]]"] {
+        assert_eq!(covered(ends, line, BELOW), row, "{ends}");
+    }
+}
+
 /// The rasterizer does not execute the path values `start` and `draws`, so a scene on its path must draw the
 /// same picture as the scene.
 #[test]

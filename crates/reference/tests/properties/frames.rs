@@ -9,7 +9,7 @@ use etalon_frame::{
 };
 use etalon_pipeline::{Arithmetic, Plain};
 use etalon_reference::{Rules, judgements, legal_set};
-use etalon_scene::{PolygonMode, PrimitiveTopology, Scene};
+use etalon_scene::Scene;
 use proptest::prelude::*;
 
 /// Returns the frame of an adapter that reads depth through a shader.
@@ -136,26 +136,12 @@ proptest! {
     }
 }
 
-/// Returns true if a draw has lines in a viewport whose sides are between texels. The rasterizer clips a line there sample
-/// by sample, not along the line, and so keeps a sample inside the viewport that a line just outside covers. That is a
-/// fault of the rasterizer.
-fn clips_lines_between_texels(scene: &Scene) -> bool {
-    let lines = [PrimitiveTopology::LineList, PrimitiveTopology::LineStrip];
-    let mut draws = scene.passes.iter().flat_map(|pass| &pass.draws);
-    draws.any(|draw| {
-        let sides = draw.viewport.rect;
-        let is_line = lines.contains(&draw.topology) || draw.polygon_mode == PolygonMode::Line;
-        is_line && sides.iter().any(|side| side.fract() != 0.0)
-    })
-}
-
 proptest! {
     #![proptest_config(config(1500))]
 
     #[test]
     fn the_rasterizers_frames_of_the_whole_model_are_legal_and_precise(body in wide::body()) {
         let scene = scene(&body);
-        prop_assume!(!clips_lines_between_texels(&scene));
         let frame = draw(&scene);
         for api in APIS {
             for judgement in judgements(&scene, &limits(api)) {
