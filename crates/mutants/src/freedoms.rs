@@ -82,8 +82,11 @@ fn in_steps(
         if is_extreme(operation) {
             return extreme[c];
         }
-        let product =
-            |side: f32, [operand]: [f32; 1]| if side == operand { side } else { round(side) };
+        // 1 times x is x, whichever of the two is the factor (OpenGL 3.3, 2.1.1).
+        let product = |side: f32, [operand]: [f32; 1]| {
+            let is_exact = side == operand || operand == 1.0;
+            if is_exact { side } else { round(side) }
+        };
         let (s, d) = (
             product(source[c], operands.src[c]),
             product(destination[c], operands.dst[c]),
