@@ -9,6 +9,7 @@ pub(super) use section::{lines, section, tables};
 use super::data::{DeviceKind, Methods, Question, SeriesPoint, ShownScene, usable};
 use etalon_methods::{Order, order};
 use etalon_record::{Measured, SizedFrame};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The largest difference of a channel in a picture that counts as exact: two codes of 255, plus a margin for
 /// rounding.
@@ -124,24 +125,25 @@ impl<'s, 'a> QuestionPoints<'s, 'a> {
         }
     }
 
-    /// Returns the methods that were timed on an adapter at a size in at least half as many scenes as any other.
+    /// Returns the methods that were timed on an adapter at a size in at least half as many scenes as any other, over the
+    /// scenes that all of them draw: errors of different scenes do not compare.
     fn candidates(&self, adapter: usize, size: FrameSize) -> Vec<Candidate<'a>> {
-        let here = |method: &'a str| -> Vec<(Spread, [f64; 2])> {
+        let here = |method: &'a str| -> BTreeMap<usize, (Spread, [f64; 2])> {
             let of_method = |p: &&ScenePoint<'a>| p.method == method && p.adapter == adapter;
             let points = self.points.iter().filter(of_method);
-            let timed =
-                points.filter_map(|p| Some((time(p.measured, size)?, error(p.measured, size)?)));
-            timed.collect()
+            let timed = |p: &ScenePoint<'a>| {
+                Some((p.scene, (time(p.measured, size)?, error(p.measured, size)?)))
+            };
+            points.filter_map(timed).collect()
         };
         let methods = self.question.methods.iter();
-        let found: Vec<(&str, Vec<_>)> = methods.map(|method| (*method, here(method))).collect();
-        let most = found
-            .iter()
-            .map(|(_, points)| points.len())
-            .max()
-            .unwrap_or(0);
-        let enough = |points: &Vec<_>| !points.is_empty() && 2 * points.len() >= most;
-        let candidate = |(method, points): (&'a str, Vec<(Spread, [f64; 2])>)| {
+        let mut found: Vec<(&str, BTreeMap<_, _>)> =
+            methods.map(|method| (*method, here(method))).collect();
+        let most = found.iter().map(|(_, points)| points.len()).max();
+        found.retain(|(_, p)| !p.is_empty() && 2 * p.len() >= most.unwrap_or(0));
+        keep_common(&mut found);
+        let candidate = |(method, points): (&'a str, BTreeMap<usize, (Spread, [f64; 2])>)| {
+            let points: Vec<(Spread, [f64; 2])> = points.into_values().collect();
             let times = [0, 1, 2].map(|end| middle(points.iter().map(|(time, _)| time[end])));
             let errors = || points.iter().map(|(_, [rmse, _])| *rmse);
             Candidate {
@@ -157,8 +159,25 @@ impl<'s, 'a> QuestionPoints<'s, 'a> {
                 scenes: points.len(),
             }
         };
-        let found = found.into_iter().filter(|(_, points)| enough(points));
-        found.map(candidate).collect()
+        found.into_iter().map(candidate).collect()
+    }
+}
+
+/// Keeps the scenes that all methods draw. While there is no such scene, the method with the fewest scenes is left out.
+fn keep_common<P>(methods: &mut Vec<(&str, BTreeMap<usize, P>)>) {
+    loop {
+        let scenes = methods.iter().map(|(_, p)| p.keys().copied().collect());
+        let common: Option<BTreeSet<usize>> = scenes.reduce(|a, b| &a & &b);
+        let Some(common) = common else { return };
+        if !common.is_empty() {
+            for (_, points) in methods {
+                points.retain(|scene, _| common.contains(scene));
+            }
+            return;
+        }
+        let fewest = methods.iter().map(|(_, points)| points.len()).min();
+        let last = methods.iter().rposition(|(_, p)| Some(p.len()) == fewest);
+        last.map(|index| methods.remove(index));
     }
 }
 
@@ -235,4 +254,34 @@ fn default_size(sizes: &[FrameSize]) -> usize {
     const FULL: f64 = 1920.0 * 1080.0;
     let fits = |size: &FrameSize| size.texels().is_none_or(|texels| texels <= FULL);
     sizes.iter().rposition(fits).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn methods_are_compared_over_the_scenes_that_all_of_them_draw() {
+        let drawn = |scenes: &[usize]| scenes.iter().map(|s| (*s, ())).collect();
+        let kept = |methods: Vec<(&'static str, &[usize])>| -> Vec<(&str, Vec<usize>)> {
+            let drawn = methods
+                .into_iter()
+                .map(|(name, scenes)| (name, drawn(scenes)));
+            let mut methods: Vec<(&str, BTreeMap<usize, ()>)> = drawn.collect();
+            keep_common(&mut methods);
+            let scenes = methods.into_iter();
+            scenes
+                .map(|(name, p)| (name, p.into_keys().collect()))
+                .collect()
+        };
+        assert_eq!(
+            kept(vec![("a", &[0, 1, 2]), ("b", &[1, 2])]),
+            [("a", vec![1, 2]), ("b", vec![1, 2])]
+        );
+        assert_eq!(
+            kept(vec![("a", &[0, 1]), ("b", &[2]), ("c", &[1])]),
+            [("a", vec![1]), ("c", vec![1])]
+        );
+        assert_eq!(kept(Vec::new()), []);
+    }
 }
