@@ -101,6 +101,7 @@ impl FolderKind {
                 BESIDE_FILE,
                 "index.html",
                 "methods.html",
+                "methods.csv",
                 "junit.xml",
                 "ctrf.json",
                 "summary.md",

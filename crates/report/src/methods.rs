@@ -11,6 +11,7 @@ mod grid;
 mod name;
 mod page;
 mod pictures;
+mod points;
 mod scatter;
 mod stability;
 mod summary;
@@ -20,6 +21,8 @@ pub(crate) use driver::section as driver_section;
 pub(crate) use name::PAGE;
 pub use page::methods_html;
 pub(crate) use page::page;
+pub use points::{MethodPoint, method_points};
+pub(crate) use points::{POINTS, csv};
 pub(crate) use summary::{lines, section};
 
 #[cfg(test)]

@@ -472,6 +472,7 @@ impl<'a> Results<'a> {
                 "adapters": self.adapter_names,
                 "verdicts": verdicts(&self.run),
                 "news": self.news,
+                "points": etalon_report::method_points(&self.run),
                 "folder": self.arguments.out,
                 "report": self.report,
             }));

@@ -7,6 +7,8 @@ use etalon_frame::Requirement;
 use etalon_record::{Clock, Measured, Reason, Record, Run, Verdict};
 use etalon_report::message;
 use predicates::str::contains;
+use serde_json::{Value, json};
+use sha2::{Digest, Sha256};
 use std::fs;
 use std::path::Path;
 use std::time::Duration;
@@ -201,6 +203,71 @@ fn methods_are_timed_at_the_sizes_of_frames() {
         .arg(out.path())
         .args([&globs[..], &resumed].concat());
     command.assert().code(64).stderr(contains("sizes"));
+}
+
+/// Returns the path of a scene of one's own.
+fn scene(name: &str) -> String {
+    format!("{}/../../cases/gltf/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+#[test]
+fn a_scene_of_ones_own_is_drawn_like_a_built_in_one() {
+    let out = tempfile::tempdir().unwrap();
+    let file = scene("greenhouse.glb");
+    let globs = [
+        "methods/transparency/*method=sorted",
+        "methods/transparency/*method=depth-peeling",
+        "methods/anti-aliasing/*method=msaa-4",
+    ];
+    let adapters = ["--adapter", "cpu", "--adapter", "gl:softpipe"];
+    let others = ["--gltf", &file, "--sizes", "320x180", "--format", "json"];
+    let mut command = etalon(&["run", "--out"]);
+    command.arg(out.path());
+    let printed = command.args([&globs[..], &adapters, &others].concat());
+    let printed: Value =
+        serde_json::from_slice(&printed.assert().code(0).get_output().stdout).unwrap();
+    let run = Run::read(out.path()).unwrap();
+    assert_eq!(run.records.len(), 6);
+    let sorted = of(&run, "transparency", "gltf=greenhouse", "sorted");
+    let peeled = of(&run, "transparency", "gltf=greenhouse", "depth-peeling");
+    for (sorted, peeled) in sorted.iter().zip(&peeled) {
+        let [sorted, peeled] = [sorted, peeled].map(|record| &measured(record).distance);
+        // The bubble is around a ball and its faces are not sorted; eight layers hold everything.
+        assert!(
+            peeled.rmse < 0.003 && peeled.rmse < sorted.rmse,
+            "{sorted:?} {peeled:?}"
+        );
+    }
+    let gltf = run.header.settings.gltf.as_ref().unwrap();
+    let digest = format!("{:x}", Sha256::digest(fs::read(&file).unwrap()));
+    assert_eq!((gltf.name.as_str(), &gltf.sha256), ("greenhouse", &digest));
+    let points = printed["points"].as_array().unwrap();
+    // Each record has its picture and a frame.
+    assert_eq!(points.len(), 12);
+    let large = points.iter().filter(|p| p["size"] == json!([320, 180]));
+    assert_eq!(large.count(), 6);
+    let csv = fs::read_to_string(out.path().join("methods.csv")).unwrap();
+    let columns: Vec<usize> = csv.lines().map(|line| line.split(',').count()).collect();
+    assert_eq!(columns, [16; 13]);
+    let mut resume = etalon(&["run", "--resume", "--out"]);
+    resume.arg(out.path()).args(globs).args(adapters);
+    let other = scene("avenue.gltf");
+    resume.args(["--gltf", &other]).assert().code(64);
+}
+
+#[test]
+fn a_scene_that_cannot_be_drawn_gets_one_message() {
+    let out = tempfile::tempdir().unwrap();
+    let broken = out.path().join("broken.glb");
+    fs::write(&broken, "glTF").unwrap();
+    let mut list = etalon(&["list", "--gltf"]);
+    let refused = list.arg(&broken).assert().code(64);
+    refused.stderr(contains("broken.glb, the file: it is not valid glTF 2.0"));
+    let avenue = scene("avenue.gltf");
+    let refused = etalon(&["list", "--gltf", &avenue, "methods/transparency/*"]);
+    let text =
+        "the scene gives methods/anti-aliasing/gltf=avenue, methods/depth-precision/gltf=avenue";
+    { refused }.assert().code(4).stderr(contains(text));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The matrix as CSV (RFC 4180): a line per cell and adapter.
 
 use super::data::{CellOutcome, Matrix, unit};
-use crate::words::plain;
+use crate::csv::{field, line, number};
 use etalon_record::CellRate;
 
 const COLUMNS: [&str; 15] = [
@@ -25,7 +25,7 @@ const COLUMNS: [&str; 15] = [
 /// Returns the lines, with the names of the columns first. Rates are in the row's unit; relative rates and shares
 /// of limits are fractions of 1.
 pub(crate) fn csv(matrix: &Matrix<'_>) -> String {
-    let mut text = COLUMNS.join(",") + "\r\n";
+    let mut text = line(&COLUMNS);
     for adapter in &matrix.adapters {
         for cell in &matrix.cells {
             let Some(entry) = cell.results.get(*adapter) else {
@@ -41,8 +41,7 @@ pub(crate) fn csv(matrix: &Matrix<'_>) -> String {
                 adapter, name, unit, rate, low, high, base, clear, memory, arithmetic, work, time,
                 rounds, state, message,
             ];
-            text.push_str(&fields.join(","));
-            text.push_str("\r\n");
+            text.push_str(&line(&fields));
         }
     }
     text
@@ -74,20 +73,5 @@ pub(super) fn state(outcome: &CellOutcome) -> (String, String) {
         CellOutcome::Below(_) => ("below-resolution".to_owned(), String::new()),
         CellOutcome::Untimed(verdict, message) => (verdict.to_string(), message.clone()),
         CellOutcome::Incomplete => ("incomplete".to_owned(), String::new()),
-    }
-}
-
-/// Returns all digits of a number, so that it reads back exactly, or an empty text for `None`.
-fn number(value: Option<f64>) -> String {
-    value.map_or_else(String::new, |v| v.to_string())
-}
-
-/// Returns a field on one line, in quotes if it needs them.
-fn field(text: &str) -> String {
-    let text = plain(text, 1000);
-    if text.contains([',', '"']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text
     }
 }

@@ -142,7 +142,10 @@ impl RunReport<'_> {
             Some(found) => {
                 let page = methods::page(folder, run, found);
                 views.push(methods::PAGE.to_owned());
-                Some(to.write(methods::PAGE, page.as_bytes())?)
+                let page = to.write(methods::PAGE, page.as_bytes())?;
+                let points = methods::csv(&methods::method_points(run));
+                to.write(methods::POINTS, points.as_bytes())?;
+                Some(page)
             }
             None => None,
         };
