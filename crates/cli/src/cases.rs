@@ -14,7 +14,7 @@ use std::path::PathBuf;
 /// Returns the selected cases, built, so that errors in case files are reported before anything is drawn.
 /// Prints the warnings for the user's own files.
 pub(crate) fn chosen(arguments: &CaseArguments) -> Result<Vec<Case>, Failure> {
-    let library = arguments.library()?;
+    let library = library_of(arguments)?;
     let cases = build(&library, arguments.profile.into(), &arguments.globs)?;
     let cases = some(cases, arguments)?;
     if arguments.cases.is_some() {
@@ -68,7 +68,7 @@ pub(crate) fn chosen_ids(arguments: &CaseArguments) -> Result<Vec<(String, bool)
         let cases = chosen(arguments)?.into_iter();
         return Ok(cases.map(|case| (case.id, case.measured)).collect());
     }
-    let library = arguments.library()?;
+    let library = library_of(arguments)?;
     let selection = etalon_case::select(&library, arguments.profile.into(), &arguments.globs);
     let selection = selection.map_err(Failure::usage)?;
     let cases = selection.cases.iter();
@@ -79,7 +79,7 @@ pub(crate) fn chosen_ids(arguments: &CaseArguments) -> Result<Vec<(String, bool)
 /// Returns the number of matching cases that the full profile has and the chosen profile leaves out. Areas
 /// without a selected case are not counted.
 pub(crate) fn left_out(arguments: &CaseArguments, selected: &[String]) -> Result<u64, Failure> {
-    let library = arguments.library()?;
+    let library = library_of(arguments)?;
     let profile = arguments.profile.into();
     etalon_case::left_out(&library, profile, &arguments.globs, selected).map_err(Failure::usage)
 }
@@ -108,7 +108,7 @@ fn some<T>(selected: Vec<T>, arguments: &CaseArguments) -> Result<Vec<T>, Failur
     if globs.is_empty() {
         return Err(Failure::nothing("there are no cases"));
     }
-    let library = arguments.library()?;
+    let library = library_of(arguments)?;
     let full = etalon_case::select(&library, Profile::Full, globs).map_err(Failure::usage)?;
     let shown = |glob: &String| match glob.as_str() {
         "" => "''".to_owned(),
@@ -170,6 +170,14 @@ pub(crate) fn find<'l>(library: &'l Library, id: &str) -> Result<CaseRef<'l>, Fa
 /// Returns a suggestion of the cases whose ids are most similar to a text.
 pub(crate) fn nearest_cases(library: &Library, word: &str) -> String {
     did_you_mean(word, ids_of(library).iter().map(String::as_str))
+}
+
+/// Returns the cases that a command selects from: those of a folder or of a scene, or the built-in ones.
+pub(crate) fn library_of(arguments: &CaseArguments) -> Result<Library, Failure> {
+    match &arguments.gltf {
+        Some(scene) => Ok(scene.library.clone()),
+        None => library(arguments.cases.as_ref()),
+    }
 }
 
 /// Returns the cases of a folder, or the built-in ones.

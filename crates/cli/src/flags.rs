@@ -1,10 +1,7 @@
 //! Flags shared by several commands.
 
-use crate::cases::library;
-use crate::failure::Failure;
 use crate::gltf::GltfScene;
 use clap::{Args, ValueEnum};
-use etalon_case::Library;
 use std::path::PathBuf;
 
 /// The format of the output.
@@ -68,16 +65,6 @@ pub(crate) struct CaseArguments {
     /// Share of each family of cases
     #[arg(long, value_enum, default_value = "quick")]
     pub(crate) profile: CaseProfile,
-}
-
-impl CaseArguments {
-    /// Returns the cases of the folder, those of the scene, or the built-in ones.
-    pub(crate) fn library(&self) -> Result<Library, Failure> {
-        match &self.gltf {
-            Some(scene) => Ok(scene.library.clone()),
-            None => library(self.cases.as_ref()),
-        }
-    }
 }
 
 /// Parses a time limit in seconds.

@@ -13,8 +13,8 @@ pub(crate) use lessons::LESSONS;
 
 use crate::error::{ParameterError, within};
 use crate::method_scene::MethodScene;
-use crate::model::{SeenModel, named};
 use crate::polygon::{self, Polygon};
+use crate::seen_model::{SeenModel, named};
 use crate::stage::{self, SIZE, Stage};
 use crate::truth::{FlatSurface, TexelCoverage, Truth};
 use crate::view::{distance, window_depth};
@@ -316,7 +316,7 @@ pub(crate) fn make(wire: &DepthPrecisionWire) -> Result<MethodScene, ParameterEr
     Ok(drawn(&surfaces, &buffer, size, BACKGROUND))
 }
 
-/// The methods that draw a model: those that need no decals.
+/// The methods that draw a model. They need no decals.
 pub(crate) const MODEL_METHODS: [&str; 9] = [
     "depth16",
     "depth24",

@@ -20,7 +20,7 @@ pub(crate) struct Nodes<'a> {
     textures: &'a [Texture],
     visited: usize,
     objects: usize,
-    /// All triangles, in the order of nodes and primitives, each of which is an object.
+    /// All triangles, in the order of nodes and primitives. Each primitive of a node is an object.
     pub(crate) triangles: Vec<ModelTriangle>,
     /// The first camera.
     pub(crate) camera: Option<Camera>,

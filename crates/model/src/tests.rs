@@ -1,4 +1,4 @@
-//! Tests of whole files: our own, broken ones, and those that a fuzzer would make.
+//! Tests of whole files: our own, broken ones, and damaged ones.
 
 use crate::document::parse;
 use crate::read;

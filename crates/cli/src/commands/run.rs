@@ -1,7 +1,7 @@
 //! `etalon run`.
 
 use crate::blessing::{bless, to_bless};
-use crate::cases::{chosen, leave_measured, left_out, library, round_trips};
+use crate::cases::{chosen, leave_measured, left_out, library, library_of, round_trips};
 use crate::catalogue::{CataloguePictures, catalogue};
 use crate::discovery::{discover, refuse_absent};
 use crate::expectations::{ExpectArguments, counting};
@@ -276,7 +276,7 @@ fn known_by_look(
     stop: &AtomicBool,
 ) -> Result<u64, Failure> {
     let looks = LookInputs {
-        library: &arguments.selection.library()?,
+        library: &library_of(&arguments.selection)?,
         expectations,
         launches,
         timeout: options(arguments).timeout,

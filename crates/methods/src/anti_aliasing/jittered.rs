@@ -1,6 +1,5 @@
 //! Accumulation of jittered frames (Haeberli and Akeley 1990).
 
-use super::depths;
 use super::scenes::{EdgeScene, PICTURE};
 use crate::polygon::{Polygon, cover, mesh};
 use crate::stage::{NEARER, Stage, add, both, depth, draw};
@@ -17,7 +16,7 @@ pub(super) fn jittered(edges: &EdgeScene, count: u32, speed: f64) -> Scene {
     let picture = stage.color("picture", PICTURE, edges.size, edges.clear());
     let frame = stage.color("frame", PICTURE, edges.size, edges.clear());
     let sum = stage.color("sum", SUM, edges.size, [0.0; 4]);
-    let depth_stencil = depths(&mut stage, edges, 1);
+    let depth_stencil = edges.depths(&mut stage, 1);
     let pieces = edges.pieces();
     for (number, [x, y]) in (1..).zip(offsets(count)) {
         let behind = f64::from(count - number) * speed;

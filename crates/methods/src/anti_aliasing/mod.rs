@@ -18,9 +18,9 @@ pub(crate) use wire::AntiAliasingWire;
 
 use crate::error::{ParameterError, within};
 use crate::method_scene::MethodScene;
-use crate::model::{SeenModel, named};
 use crate::polygon::{Polygon, cover, mesh};
-use crate::stage::{DEPTHS, NEARER, Stage, draw, over};
+use crate::seen_model::{SeenModel, named};
+use crate::stage::{NEARER, Stage, draw, over};
 use etalon_scene::{AddressMode, AttachmentContents, Draw, FilterMode, Sampler, Scene, Shader};
 use scenes::{EdgeScene, PICTURE};
 use wire::AntiAliasingMethod;
@@ -35,7 +35,7 @@ pub(crate) fn make(wire: &AntiAliasingWire) -> Result<MethodScene, ParameterErro
     Ok(drawn(&edges, wire.method, speed))
 }
 
-/// The methods that draw a model: those that need no distance from an edge.
+/// The methods that draw a model. They need no distance from an edge.
 pub(crate) const MODEL_METHODS: [&str; 11] = [
     "none",
     "msaa-2",
@@ -85,16 +85,10 @@ fn everything(edges: &EdgeScene) -> Draw {
     drawn
 }
 
-/// Adds the depths of a picture, if there is need.
-fn depths(stage: &mut Stage, edges: &EdgeScene, samples: u32) -> Option<usize> {
-    let needed = edges.needs_depth();
-    needed.then(|| stage.depth("depth", DEPTHS, edges.size, samples, 1.0))
-}
-
 fn plain(edges: &EdgeScene) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, edges.size, edges.clear());
-    let depth_stencil = depths(&mut stage, edges, 1);
+    let depth_stencil = edges.depths(&mut stage, 1);
     stage.pass(&[picture], depth_stencil, vec![everything(edges)]);
     stage.read(&[picture])
 }
@@ -104,7 +98,7 @@ fn multisampled(edges: &EdgeScene, count: u32) -> Scene {
     let picture = stage.color("picture", PICTURE, edges.size, edges.clear());
     let contents = AttachmentContents::Color(edges.clear().map(|c| c as f32));
     let samples = stage.attachment("samples", PICTURE, edges.size, count, contents);
-    let depth_stencil = depths(&mut stage, edges, count);
+    let depth_stencil = edges.depths(&mut stage, count);
     let drawn = vec![everything(edges)];
     stage.resolving_pass(&[samples], vec![Some(picture)], depth_stencil, drawn);
     stage.read(&[picture])
@@ -127,7 +121,7 @@ fn fxaa(edges: &EdgeScene) -> Scene {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, edges.size, edges.clear());
     let jagged = stage.color("jagged", PICTURE, edges.size, edges.clear());
-    let depth_stencil = depths(&mut stage, edges, 1);
+    let depth_stencil = edges.depths(&mut stage, 1);
     stage.pass(&[jagged], depth_stencil, vec![everything(edges)]);
     let mut over_edges = draw(Shader::Fxaa, cover());
     over_edges.textures = vec![jagged];

@@ -3,9 +3,9 @@
 use super::pieces::{DEPTH, DirectedLine, Piece};
 use super::wire::{AntiAliasingScene, AntiAliasingWire};
 use crate::error::{ParameterError, within};
-use crate::model::SeenModel;
 use crate::polygon::Polygon;
-use crate::stage::SIZE;
+use crate::seen_model::SeenModel;
+use crate::stage::{DEPTHS, SIZE, Stage};
 use crate::truth::{TexelCoverage, Truth};
 use etalon_frame::TextureFormat;
 use std::f64::consts::TAU;
@@ -84,6 +84,12 @@ impl EdgeScene {
             back: Vec::new(),
             solid: seen.opaque.clone(),
         }
+    }
+
+    /// Adds the depths of a picture, if there is need.
+    pub(super) fn depths(&self, stage: &mut Stage, samples: u32) -> Option<usize> {
+        let needed = self.needs_depth();
+        needed.then(|| stage.depth("depth", DEPTHS, self.size, samples, 1.0))
     }
 
     /// Returns true if polygons hide each other by their depths, and not by their order.

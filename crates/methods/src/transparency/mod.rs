@@ -25,7 +25,7 @@ pub(crate) use wire::TransparencyWire;
 
 use crate::error::{ParameterError, within};
 use crate::method_scene::MethodScene;
-use crate::model::{SeenModel, named};
+use crate::seen_model::{SeenModel, named};
 use scenes::GlassScene;
 use wire::TransparencyMethod;
 

@@ -1,7 +1,7 @@
 //! A scene of one's own as glass.
 
 use super::scenes::{GlassScene, Object};
-use crate::model::SeenModel;
+use crate::seen_model::SeenModel;
 use crate::truth::TexelCoverage;
 
 impl GlassScene {

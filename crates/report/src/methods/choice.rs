@@ -126,7 +126,8 @@ impl<'s, 'a> QuestionPoints<'s, 'a> {
     }
 
     /// Returns the methods that were timed on an adapter at a size in at least half as many scenes as any other, over the
-    /// scenes that all of them draw: errors of different scenes do not compare.
+    /// scenes that all of them draw: errors of different scenes do not
+    /// compare.
     fn candidates(&self, adapter: usize, size: FrameSize) -> Vec<Candidate<'a>> {
         let here = |method: &'a str| -> BTreeMap<usize, (Spread, [f64; 2])> {
             let of_method = |p: &&ScenePoint<'a>| p.method == method && p.adapter == adapter;
@@ -163,21 +164,15 @@ impl<'s, 'a> QuestionPoints<'s, 'a> {
     }
 }
 
-/// Keeps the scenes that all methods draw. While there is no such scene, the method with the fewest scenes is left out.
-fn keep_common<P>(methods: &mut Vec<(&str, BTreeMap<usize, P>)>) {
-    loop {
-        let scenes = methods.iter().map(|(_, p)| p.keys().copied().collect());
-        let common: Option<BTreeSet<usize>> = scenes.reduce(|a, b| &a & &b);
-        let Some(common) = common else { return };
-        if !common.is_empty() {
-            for (_, points) in methods {
-                points.retain(|scene, _| common.contains(scene));
-            }
-            return;
-        }
-        let fewest = methods.iter().map(|(_, points)| points.len()).min();
-        let last = methods.iter().rposition(|(_, p)| Some(p.len()) == fewest);
-        last.map(|index| methods.remove(index));
+/// Keeps the scenes that all methods draw, if there are any: methods for different effects have none.
+fn keep_common<P>(methods: &mut [(&str, BTreeMap<usize, P>)]) {
+    let scenes = methods.iter().map(|(_, p)| p.keys().copied().collect());
+    let common: Option<BTreeSet<usize>> = scenes.reduce(|a, b| &a & &b);
+    let Some(common) = common.filter(|common| !common.is_empty()) else {
+        return;
+    };
+    for (_, points) in methods {
+        points.retain(|scene, _| common.contains(scene));
     }
 }
 
@@ -261,7 +256,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn methods_are_compared_over_the_scenes_that_all_of_them_draw() {
+    fn methods_are_compared_over_the_scenes_that_all_of_them_draw_if_there_are_any() {
         let drawn = |scenes: &[usize]| scenes.iter().map(|s| (*s, ())).collect();
         let kept = |methods: Vec<(&'static str, &[usize])>| -> Vec<(&str, Vec<usize>)> {
             let drawn = methods
@@ -274,14 +269,9 @@ mod tests {
                 .map(|(name, p)| (name, p.into_keys().collect()))
                 .collect()
         };
-        assert_eq!(
-            kept(vec![("a", &[0, 1, 2]), ("b", &[1, 2])]),
-            [("a", vec![1, 2]), ("b", vec![1, 2])]
-        );
-        assert_eq!(
-            kept(vec![("a", &[0, 1]), ("b", &[2]), ("c", &[1])]),
-            [("a", vec![1]), ("c", vec![1])]
-        );
-        assert_eq!(kept(Vec::new()), []);
+        let common = kept(vec![("a", &[0, 1, 2]), ("b", &[1, 2])]);
+        assert_eq!(common, [("a", vec![1, 2]), ("b", vec![1, 2])]);
+        let none = kept(vec![("a", &[0, 1]), ("b", &[2])]);
+        assert_eq!(none, [("a", vec![0, 1]), ("b", vec![2])]);
     }
 }
