@@ -20,7 +20,7 @@ pub(crate) fn add(
     to_world: &DMat4,
     object: usize,
     buffers: &Buffers,
-    textures: &[Texture],
+    textures: &[Option<Texture>],
     triangles: &mut Vec<ModelTriangle>,
 ) -> Result<(), ModelError> {
     let wrong =
@@ -118,7 +118,7 @@ impl<'a> VertexPaint<'a> {
     fn new(
         primitive: &Primitive<'_>,
         buffers: &Buffers,
-        textures: &'a [Texture],
+        textures: &'a [Option<Texture>],
     ) -> Result<Self, ModelError> {
         let base = primitive.material().pbr_metallic_roughness();
         let colors = match primitive.get(&Semantic::Colors(0)) {
@@ -131,7 +131,7 @@ impl<'a> VertexPaint<'a> {
         };
         let texture = base.base_color_texture().and_then(|info| {
             let uv = primitive.get(&Semantic::TexCoords(info.tex_coord()))?;
-            Some((textures.get(info.texture().index())?, uv))
+            Some((textures.get(info.texture().index())?.as_ref()?, uv))
         });
         let texture = match texture {
             None => None,

@@ -17,7 +17,7 @@ const MOST_NODES: usize = 1 << 20;
 #[derive(Debug)]
 pub(crate) struct Nodes<'a> {
     buffers: &'a Buffers,
-    textures: &'a [Texture],
+    textures: &'a [Option<Texture>],
     visited: usize,
     objects: usize,
     /// All triangles, in the order of nodes and primitives. Each primitive of a node is an object.
@@ -34,7 +34,7 @@ impl<'a> Nodes<'a> {
     pub(crate) fn read(
         scene: &Scene<'_>,
         buffers: &'a Buffers,
-        textures: &'a [Texture],
+        textures: &'a [Option<Texture>],
     ) -> Result<Self, ModelError> {
         let mut nodes = Self {
             buffers,

@@ -7,6 +7,7 @@ use gltf::Document;
 use gltf::image::Source;
 use gltf::texture::WrappingMode;
 use image::{ImageReader, Limits};
+use std::collections::BTreeSet;
 use std::io::Cursor;
 use std::path::Path;
 
@@ -27,7 +28,7 @@ struct Level {
     texels: Vec<[f32; 4]>,
 }
 
-/// Reads all textures, in their order.
+/// Reads the textures of base colours, in the order of the file; `None` in place of others, which nothing draws.
 ///
 /// # Errors
 /// If an image cannot be read.
@@ -35,7 +36,12 @@ pub(crate) fn read(
     document: &Document,
     buffers: &Buffers,
     folder: &Path,
-) -> Result<Vec<Texture>, ModelError> {
+) -> Result<Vec<Option<Texture>>, ModelError> {
+    let base = |material: gltf::Material<'_>| {
+        let texture = material.pbr_metallic_roughness().base_color_texture()?;
+        Some(texture.texture().index())
+    };
+    let used: BTreeSet<usize> = document.materials().filter_map(base).collect();
     let texture = |texture: gltf::Texture<'_>| {
         let image = texture.source();
         let place = part("image", image.index(), image.name());
@@ -57,7 +63,10 @@ pub(crate) fn read(
             ))
         })
     };
-    document.textures().map(texture).collect()
+    let each = document
+        .textures()
+        .map(|t| used.contains(&t.index()).then(|| texture(t)).transpose());
+    each.collect()
 }
 
 fn decoded(bytes: &[u8], wrap: [WrappingMode; 2]) -> Result<Texture, String> {
