@@ -6,17 +6,7 @@ use std::collections::BTreeSet;
 
 /// Questions, scenes and methods, with a parameter inside its range.
 fn every_wire() -> Vec<Value> {
-    let depth = [
-        "depth16",
-        "depth24",
-        "depth32float",
-        "reversed-depth",
-        "infinite-depth",
-        "infinite-reversed-depth",
-        "linear-depth",
-        "logarithmic-depth",
-        "larger-near",
-    ];
+    let depth = depth_precision::MODEL_METHODS;
     let decal = [
         "depth24",
         "depth32float",

@@ -57,21 +57,21 @@ pub(super) struct Ground {
     /// The attachment with their colours over the background.
     pub(super) picture: usize,
     /// The attachment with their depths.
-    pub(super) depth: usize,
+    pub(super) depth_stencil: usize,
 }
 
 /// Draws the opaque polygons with depth over the background.
 pub(super) fn ground(glass: &GlassScene) -> Ground {
     let mut stage = Stage::new();
     let picture = stage.color("picture", PICTURE, glass.size, clear(glass));
-    let depth = depths(&mut stage, glass, 1);
+    let depth_stencil = depths(&mut stage, glass, 1);
     if let Some(opaque) = opaque(glass, Shader::FlatColor) {
-        stage.pass(&[picture], Some(depth), vec![opaque]);
+        stage.pass(&[picture], Some(depth_stencil), vec![opaque]);
     }
     Ground {
         stage,
         picture,
-        depth,
+        depth_stencil,
     }
 }
 

@@ -17,7 +17,7 @@ pub(super) fn moment_based(glass: &GlassScene, polygons: &[Polygon]) -> Scene {
     let Ground {
         mut stage,
         picture,
-        depth: depth_stencil,
+        depth_stencil,
     } = ground(glass);
     let [absorbance, moments, sum] =
         ["absorbance", "moments", "sum"].map(|name| stage.color(name, SUMS, glass.size, [0.0; 4]));

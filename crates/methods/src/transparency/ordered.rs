@@ -75,7 +75,7 @@ pub(super) fn front_to_back(glass: &GlassScene) -> Scene {
     let Ground {
         mut stage,
         picture,
-        depth: depth_stencil,
+        depth_stencil,
     } = ground(glass);
     let front = stage.color("front", PICTURE, glass.size, [0.0; 4]);
     let mut layers = draw(Shader::FlatColor, mesh(glass.size, &polygons));

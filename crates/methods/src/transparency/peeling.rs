@@ -19,7 +19,7 @@ pub(super) fn depth_peeling(glass: &GlassScene, polygons: &[Polygon], k: u32) ->
     let Ground {
         mut stage,
         picture,
-        depth: depth_stencil,
+        depth_stencil,
     } = ground(glass);
     let front = stage.color("front", PICTURE, glass.size, [0.0; 4]);
     let layer = stage.color("layer", PICTURE, glass.size, [0.0; 4]);
@@ -69,7 +69,7 @@ pub(super) fn dual_depth_peeling(glass: &GlassScene, polygons: &[Polygon], k: u3
     let Ground {
         mut stage,
         picture,
-        depth: depth_stencil,
+        depth_stencil,
     } = ground(glass);
     let ranges = [0, 1].map(|i| stage.color(format!("range_{i}"), PEELED, glass.size, [-1.0; 4]));
     let fronts = [0, 1].map(|i| stage.color(format!("front_{i}"), PICTURE, glass.size, [0.0; 4]));

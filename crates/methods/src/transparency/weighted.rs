@@ -12,7 +12,7 @@ pub(super) fn weighted_blended(glass: &GlassScene, polygons: &[Polygon]) -> Scen
     let Ground {
         mut stage,
         picture,
-        depth: depth_stencil,
+        depth_stencil,
     } = ground(glass);
     let [sum, left] = sums(&mut stage, glass);
     let mut accumulate = draw(Shader::WeightedAccumulate, mesh(glass.size, polygons));
