@@ -106,6 +106,15 @@ impl Interval {
         }
     }
 
+    /// Applies the minimum or the maximum. Whether either of them passes a NaN on is not specified.
+    #[inline]
+    pub fn selected(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        if self.may_be_nan() || other.may_be_nan() {
+            return Self::EVERYTHING;
+        }
+        self.corners(other, f)
+    }
+
     /// Returns the interval of sums.
     #[inline]
     pub fn plus(self, other: Self) -> Self {

@@ -399,12 +399,17 @@ impl<'r> Judging<'r> {
         }
     }
 
-    /// Clamps an operand of a blend into a normalized format.
+    /// Clamps an operand of a blend into a normalized format. No text says what a clamp makes of NaN, and a
+    /// computation without NaN may yield anything for it (Vulkan, Floating-Point Computation; OpenGL 4.6,
+    /// 2.3.4.1), so NaN stays open until it is stored.
     #[inline]
     fn blend_clamp(&self, encoding: ChannelEncoding, value: Interval) -> Interval {
         let Some((low, high)) = encoding.normalized_range() else {
             return value;
         };
+        if value.may_be_nan() {
+            return value;
+        }
         let clamped = value.clamp(f64::from(low), f64::from(high));
         if low >= 0.0 {
             return clamped;
@@ -550,11 +555,11 @@ impl Arithmetic for Judging<'_> {
     }
 
     fn min(&mut self, a: Range, b: Range) -> Range {
-        a.zip(b, |a, b| a.corners(b, f64::min))
+        a.zip(b, |a, b| a.selected(b, f64::min))
     }
 
     fn max(&mut self, a: Range, b: Range) -> Range {
-        a.zip(b, |a, b| a.corners(b, f64::max))
+        a.zip(b, |a, b| a.selected(b, f64::max))
     }
 
     fn rounded(&mut self, value: Range) -> Range {

@@ -75,3 +75,33 @@ fn that_an_alpha_of_2_bits_weighs_a_colour_of_10_is_disputed() {
         assert_eq!(allowed(&scene, &limits, 0, &orders(100)), NEVER);
     }
 }
+
+/// Between planes at one distance the linear depth is 0 / 0. No text says what a clamp makes of it, and what
+/// is added to it stays as open.
+#[test]
+fn what_is_not_a_number_is_blended_into_any_code() {
+    for (format, greatest) in [("rgba8unorm", 255), ("rgba8snorm", 127)] {
+        for operation in ["add", "min", "max"] {
+            let equation =
+                format!(r#"{{"operation":"{operation}","src_factor":"one","dst_factor":"one"}}"#);
+            let scene = scene(&format!(
+                r#"{{"attachments":{{"c":{{"format":"{format}","size":[4,4],"clear":[0.25,0.25,0.25,0.25]}}}},
+                    "passes":[{{"color":["c"],"draws":[{{"mesh":{{"kind":"full"}},"shader":"depth_linearized",
+                      "params":{{"color":[0.25,0.25,0,0]}},"blend":{{"color":{equation},"alpha":{{"operation":"add","src_factor":"one","dst_factor":"zero"}}}}}}]}}],
+                    "read":["c"]}}"#
+            ));
+            for limits in [
+                version(Api::Vulkan, 1, 3),
+                version(Api::OpenGl, 4, 6),
+                limits(Api::WebGpu),
+            ] {
+                for code in [0, 64, greatest] {
+                    assert_eq!(
+                        allowed(&scene, &limits, 0, &[code, code, code, greatest]),
+                        ALWAYS
+                    );
+                }
+            }
+        }
+    }
+}
