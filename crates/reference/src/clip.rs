@@ -52,8 +52,16 @@ impl Clip {
         let clips = match primitive.shape {
             Shape::Triangle(_) if self.inside.contains(point) => return Possible::Always,
             Shape::Triangle(_) => true,
-            _ if primitive.inside_rect(self.rect) => return Possible::Always,
-            Shape::Point(_) => rules.clips_points_at_sides.value(),
+            Shape::Point {
+                is_inside: true, ..
+            }
+            | Shape::Line(_)
+            | Shape::Outline(_)
+                if primitive.inside_rect(self.rect) =>
+            {
+                return Possible::Always;
+            }
+            Shape::Point { .. } => rules.clips_points_at_sides.value(),
             Shape::Line(_) => rules.clips_lines_at_sides.value(),
             Shape::Outline(_) => true,
         };

@@ -50,7 +50,7 @@ impl Walk<'_> {
                         result.push(world.clone());
                     }
                 }
-                Shape::Line(_) | Shape::Point(_) => {
+                Shape::Line(_) | Shape::Point { .. } => {
                     let front = self.draw_front(place.draw);
                     self.repeat(place, world, front, &mut result, notes);
                     if !self.rules.points_face_front.value() {

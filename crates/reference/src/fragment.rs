@@ -607,7 +607,7 @@ impl Walk<'_> {
         let outside = depth.float.low < near - slack || depth.float.high > far + slack;
         let written = source == DepthSource::Written;
         // The rules can let a point beyond the near or far plane be drawn.
-        let point = matches!(place.primitive.shape, Shape::Point(_));
+        let point = matches!(place.primitive.shape, Shape::Point { .. });
         let exported = written || point || place.primitive.is_biased();
         let depth = Range::same(if depth.float.may_be_nan() {
             // NaN stays NaN, or is clamped to any value of the range.

@@ -124,7 +124,7 @@ fn segments(primitive: &SnappedPrimitive) -> Vec<[SnapBox; 2]> {
             });
             ends.flatten().collect()
         }
-        Shape::Triangle(_) | Shape::Point(_) => Vec::new(),
+        Shape::Triangle(_) | Shape::Point { .. } => Vec::new(),
     }
 }
 

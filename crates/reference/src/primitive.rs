@@ -22,7 +22,12 @@ pub(crate) enum Shape {
     /// A line one texel wide.
     Line([SnapBox; 2]),
     /// A point of one texel.
-    Point(SnapBox),
+    Point {
+        /// Where its centre is snapped to.
+        center: SnapBox,
+        /// Whether its vertex is between the sides of the view volume, which is decided before it is snapped.
+        is_inside: bool,
+    },
 }
 
 /// The identity of a vertex's position in the picture: its clip-space x, y and w, bit for bit. Edges are the
@@ -310,7 +315,7 @@ impl Shape {
         match self {
             Self::Triangle(triangle) | Self::Outline(triangle) => triangle.bounds(),
             Self::Line([a, b]) => a.hull(*b),
-            Self::Point(point) => *point,
+            Self::Point { center, .. } => *center,
         }
     }
 
@@ -335,7 +340,7 @@ impl SnappedPrimitive {
     /// instead.
     pub(crate) fn times(&self, at: Point, units: i64) -> CoverTimes {
         match &self.shape {
-            Shape::Point(center) => point_times(*center, at, units),
+            Shape::Point { center, .. } => point_times(*center, at, units),
             Shape::Line(ends) => line_times(*ends, at, units),
             Shape::Outline(triangle) => {
                 let each = triangle.edges().map(|edge| match edge {

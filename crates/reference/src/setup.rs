@@ -210,6 +210,11 @@ fn only_covers(
     }
 }
 
+/// Returns true if a position in clip space is between the left, right, bottom and top of the view volume.
+fn is_between_sides([x, y, _, w]: [f32; 4]) -> bool {
+    x.abs() <= w && y.abs() <= w
+}
+
 /// Returns a primitive whose vertices are in front of the eye and are snapped.
 fn snapped(
     context: &PassContext<'_>,
@@ -229,8 +234,11 @@ fn snapped(
     let boxes = v.map(|v| v.snapped);
     let mut bias = Interval::exact(0.0);
     let (shape, window_depth, clip_depth) = match indices {
-        PrimitiveVertices::Point(_) => (
-            Shape::Point(v[0].snapped),
+        PrimitiveVertices::Point(i) => (
+            Shape::Point {
+                center: v[0].snapped,
+                is_inside: is_between_sides(draw.mesh.vertices[i].position),
+            },
             Depth::flat(&[v[0].window_z]),
             Depth::flat(&[v[0].clip_z]),
         ),

@@ -380,7 +380,7 @@ impl SignatureInputs {
     fn kind(&self, primitive: &SnappedPrimitive) -> SmallVec<[u64; 24]> {
         let mut words: SmallVec<[u64; 24]> = SmallVec::new();
         words.push(match &primitive.shape {
-            Shape::Point(_) => 0,
+            Shape::Point { .. } => 0,
             Shape::Line(_) => 1,
             Shape::Triangle(triangle) => 2 + facings(triangle.area),
             Shape::Outline(triangle) => 6 + facings(triangle.area),

@@ -379,7 +379,8 @@ impl<'a> Walk<'a> {
                 Rejection::Coverage
             });
         }
-        let passes = matches!(primitive.shape, Shape::Point(_)) && !self.rules.clips_points.value();
+        let passes =
+            matches!(primitive.shape, Shape::Point { .. }) && !self.rules.clips_points.value();
         let in_depth = if draw.depth_clamp {
             Possible::Always
         } else {

@@ -475,17 +475,28 @@ fn a_line_between_texels_that_its_viewport_clips_is_not_lost() {
 
 /// Returns which texels of row 3 can be red and which must be, with a viewport that begins at column 4.
 fn beside_the_viewport(topology: &str, positions: &str, limits: &Limits) -> Vec<(bool, bool)> {
+    in_viewport(4.0, topology, positions, limits, &Rules::of(limits))
+}
+
+/// Returns which texels of row 3 can be red and which must be, with a viewport that begins at a column.
+fn in_viewport(
+    left: f32,
+    topology: &str,
+    positions: &str,
+    limits: &Limits,
+    rules: &Rules,
+) -> Vec<(bool, bool)> {
     let scene = case(&format!(
         r#"{{"about":"t","spec":["t"],"scene":{{
             "attachments":{{"color":{{"format":"rgba8unorm","size":[8,8]}}}},
             "passes":[{{"color":["color"],"draws":[{{
                 "mesh":{{"kind":"vertices","units":"texels","positions":{positions}}},
                 "params":{{"color":[1,1,1,1]}},"shader":"uniform_color","topology":"{topology}",
-                "viewport":{{"rect":[4,0,4,8],"depth":[0,1]}}}}]}}],
+                "viewport":{{"rect":[{left},0,4,8],"depth":[0,1]}}}}]}}],
             "read":["color"]}}}}"#
     ))
     .scene;
-    let set = legal_set(&scene, limits, &Rules::of(limits));
+    let set = legal_set(&scene, limits, rules);
     let texel = |x: u32| set.groups[0].sample(x, 3, 0);
     let both = |x: u32| (texel(x).allows(&[255; 4]), !texel(x).allows(&[0; 4]));
     (0..8).map(both).collect()
@@ -524,6 +535,21 @@ fn a_point_beside_the_viewport_is_discarded_if_the_specification_says_so() {
         // A point inside is drawn, whatever the specification says about others.
         let inside = beside_the_viewport("point-list", "[[1.5,3.5,0]]", &limits);
         assert_eq!(inside[5], (true, true), "{api}");
+    }
+}
+
+/// Clipping comes before snapping: on the side a point is drawn, and a thousandth of a texel outside it need
+/// not be, though both are snapped to the side.
+#[test]
+fn a_point_is_clipped_before_it_is_snapped() {
+    for api in [Api::OpenGl, Api::OpenGlEs, Api::Vulkan] {
+        let limits = limits(api);
+        for (x, drawn) in [("0", (true, true)), ("-0.001", (true, false))] {
+            let positions = format!("[[{x},3.25,0]]");
+            let rules = Rules::yardstick(&limits);
+            let texels = in_viewport(4.25, "point-list", &positions, &limits, &rules);
+            assert_eq!(texels[4], drawn, "{api} {x}");
+        }
     }
 }
 
