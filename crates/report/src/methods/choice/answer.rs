@@ -143,12 +143,18 @@ fn figures(candidate: &Candidate<'_>) -> String {
     )
 }
 
-/// Returns the figures of one method, or of several if times cannot tell which is the best.
+/// Returns the figures of one method, or of two if times cannot tell which is the best; of more, how many they
+/// are and the figures of the first.
 fn either(candidates: &[Candidate<'_>], some: &[usize]) -> String {
-    let texts: Vec<String> = some.iter().map(|i| figures(&candidates[*i])).collect();
-    match texts.as_slice() {
-        [only] => only.clone(),
-        several => format!("either {}", several.join("; or ")),
+    let one = |i: usize| figures(&candidates[i]);
+    match *some {
+        [only] => one(only),
+        [first, second] => format!("either {}; or {}", one(first), one(second)),
+        _ => format!(
+            "one of {} that cannot be told apart, such as {}",
+            some.len(),
+            one(some[0])
+        ),
     }
 }
 
@@ -279,6 +285,11 @@ mod tests {
         let text = sentence(&unsure[1..], within(0.002), "p");
         assert!(
             text.contains("either b, error 10\u{a0}%, 1 ms; or c, error 10\u{a0}%, 1.1 ms"),
+            "{text}"
+        );
+        let text = sentence(&unsure, within(0.002), "p");
+        assert!(
+            text.contains("one of 3 that cannot be told apart, such as b, error 10\u{a0}%, 1 ms."),
             "{text}"
         );
     }

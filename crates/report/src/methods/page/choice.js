@@ -81,7 +81,9 @@ function answer(all, most, limit, place) {
   const { nothing, best } = choose(all, most, limit);
   if (nothing === null) return `${head}: not timed.`;
   if (nothing) return `${head}: nothing. The fastest is ${figures(nothing)}.`;
-  const either = some => some.length === 1 ? figures(some[0]) : "either " + some.map(figures).join("; or ");
+  const either = some => some.length > 2
+    ? `one of ${some.length} that cannot be told apart, such as ${figures(some[0])}`
+    : (some.length === 2 ? "either " : "") + some.map(figures).join("; or ");
   const first = either(best);
   const hasOrder = all.some(one => one.order !== null), isFree = one => !one.order;
   const free = best.some(isFree) ? [] : choose(all.filter(isFree), most, limit).best ?? [];
