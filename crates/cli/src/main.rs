@@ -48,6 +48,7 @@ mod saved_run;
 mod scene_text;
 mod shard;
 mod sizes;
+mod timed;
 mod worker;
 mod worth;
 

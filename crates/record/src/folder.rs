@@ -27,6 +27,8 @@ pub const FUZZ_FILE: &str = "fuzz.jsonl";
 pub const VERSIONS_FILE: &str = "versions.jsonl";
 /// The folder of a search over releases in which it draws, with `/` after it. It is a run folder.
 pub const WORK_FOLDER: &str = "work/";
+/// The folder of a run with frame times, with `/` after it. It is a bench folder.
+pub const TIMED_FOLDER: &str = "timed/";
 /// The file of a hunt for planted bugs.
 pub const HUNT_FILE: &str = "mutants.json";
 /// The folder of frame files in a run folder.
@@ -109,6 +111,7 @@ impl FolderKind {
                 "pictures/",
                 "cases/",
                 "results/",
+                TIMED_FOLDER,
             ],
             Self::Fuzz => &[FUZZ_FILE, "found/", "known/"],
             Self::Versions => &[VERSIONS_FILE, "versions.html", WORK_FOLDER],
@@ -118,7 +121,7 @@ impl FolderKind {
 
     /// Returns the names of the reports among [`FolderKind::names`]: they are made from the records.
     pub fn reports(self) -> impl Iterator<Item = &'static str> {
-        const RECORDED: [&str; 7] = [
+        const RECORDED: [&str; 8] = [
             CASES_FILE,
             MISSING_FILE,
             DEAD_FILE,
@@ -126,6 +129,7 @@ impl FolderKind {
             "frames/",
             "pictures/",
             WORK_FOLDER,
+            TIMED_FOLDER,
         ];
         let names = self.names().iter().copied();
         names.filter(move |name| *name != self.file() && !RECORDED.contains(name))

@@ -82,7 +82,7 @@ pub use expected_symptom::{ExpectedSymptom, Side, SymptomParts};
 pub use findings::{Evidence, Finding, Reading, ReadingVerdict, Seen};
 pub use folder::{
     BENCH_FILE, BESIDE_FILE, CASES_FILE, DEAD_FILE, FUZZ_FILE, FolderKind, HUNT_FILE, MISSING_FILE,
-    RUN_FILE, VERSIONS_FILE, WORK_FOLDER,
+    RUN_FILE, TIMED_FOLDER, VERSIONS_FILE, WORK_FOLDER,
 };
 pub use frame_file::{FrameFile, FrameImage};
 pub use frame_writer::FrameWriter;

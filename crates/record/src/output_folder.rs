@@ -5,7 +5,7 @@
 
 use crate::content::Content;
 use crate::error::RecordError;
-use crate::folder::{FolderKind, LIST, LIST_MARK, RUN_FILE, WORK_FOLDER};
+use crate::folder::{FolderKind, LIST, LIST_MARK, RUN_FILE, TIMED_FOLDER, WORK_FOLDER};
 use crate::list::read_list;
 use crate::lock::LOCK_FILE;
 use crate::paths::{below, lowest_real};
@@ -108,7 +108,7 @@ impl OutputFolder {
             };
             match name.strip_suffix('/') {
                 _ if found.is_symlink() => return Err(RecordError::Link { path }),
-                Some(_) if name == WORK_FOLDER => {
+                Some(_) if [WORK_FOLDER, TIMED_FOLDER].contains(&name) => {
                     Content::writable(&path)?;
                 }
                 Some(folder) if found.is_dir() => self.check_folder(&state, folder)?,

@@ -399,7 +399,7 @@ impl<'r> Judging<'r> {
         }
     }
 
-    /// Clamps an operand of a blend into a normalized format. No text says what a clamp makes of NaN, and a
+    /// Clamps an operand of a blend into a normalized format. No specification says what a clamp makes of NaN, and a
     /// computation without NaN may yield anything for it (Vulkan, Floating-Point Computation; OpenGL 4.6,
     /// 2.3.4.1), so NaN stays open until it is stored.
     #[inline]

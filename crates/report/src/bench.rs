@@ -9,6 +9,8 @@ mod page;
 mod table;
 mod write;
 
+pub(crate) use drivers::of_run;
+pub(crate) use page::STYLE;
 pub use table::bench_table;
 pub(crate) use write::write_bench_to;
 pub use write::{WrittenBench, write_bench};

@@ -85,6 +85,33 @@ const MATRIX: &str = "perf/matrix/";
 
 /// Judges the pictures of the selected cases, measures the correct ones, writes samples and reports.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let done = timed(arguments)?;
+    print(arguments, &done)?;
+    for end in beside::read(&arguments.out).map_err(Failure::incomplete)? {
+        say!(
+            "{} {} {}: {}",
+            end.verdict,
+            end.adapter,
+            end.case,
+            message(&end)
+        );
+    }
+    Ok(if done.summary.unexpected > 0 {
+        UNEXPECTED
+    } else {
+        0
+    })
+}
+
+/// A bench whose samples and reports are in its folder.
+pub(crate) struct DoneBench {
+    pub(crate) summary: BenchSummary,
+    names: BTreeSet<String>,
+    pub(crate) written: WrittenBench,
+}
+
+/// Measures, and writes samples and reports.
+pub(crate) fn timed(arguments: &Arguments) -> Result<DoneBench, Failure> {
     let selected = BenchCases::new(arguments)?;
     let counter = arguments.instructions.then(instruction_counter).transpose();
     let counter = counter.map_err(Failure::usage)?;
@@ -106,7 +133,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         ..Query::default()
     })?;
     refuse_absent(&arguments.adapters, &adapters.absent)?;
-    let adapter_names = adapter_names(&adapters)?;
+    let names = adapter_names(&adapters)?;
     let header = bench_header(arguments, &selected, &adapters);
     let resume = claim.resume;
     let _lock = claim.take()?;
@@ -122,20 +149,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         header,
     })?;
     let written = etalon_report::write_bench(&arguments.out).map_err(Failure::incomplete)?;
-    print(arguments, &summary, &adapter_names, &written)?;
-    for end in beside::read(&arguments.out).map_err(Failure::incomplete)? {
-        say!(
-            "{} {} {}: {}",
-            end.verdict,
-            end.adapter,
-            end.case,
-            message(&end)
-        );
-    }
-    Ok(if summary.unexpected > 0 {
-        UNEXPECTED
-    } else {
-        0
+    Ok(DoneBench {
+        summary,
+        names,
+        written,
     })
 }
 
@@ -277,12 +294,12 @@ fn report_bad(bar: &ProgressBar, verdict: Verdict, adapter: &str, case: &str, re
     bar.suspend(|| say!("{verdict} {adapter} {case}: {}", reasons_text(reasons)));
 }
 
-fn print(
-    arguments: &Arguments,
-    summary: &BenchSummary,
-    names: &BTreeSet<String>,
-    written: &WrittenBench,
-) -> Result<(), Failure> {
+fn print(arguments: &Arguments, done: &DoneBench) -> Result<(), Failure> {
+    let DoneBench {
+        summary,
+        names,
+        written,
+    } = done;
     if arguments.format == OutputFormat::Json {
         return print_json(&json!({
             "pictures": summary.pictures,

@@ -16,7 +16,7 @@ use crate::processors::processors;
 use crate::progress::progress;
 use crate::sizes::{SizeList, frame_sizes};
 use crate::worth::sort_by_worth;
-use crate::{dead, idle, provenance, shard, sizes};
+use crate::{dead, idle, provenance, shard, sizes, timed};
 use clap::{Args, ValueEnum};
 use etalon_adapters::{Adapters, Query, cache, take_unstarted};
 use etalon_case::Case;
@@ -117,6 +117,10 @@ pub(crate) struct Arguments {
     /// three on hardware, 720p where the processor draws
     #[arg(long, value_name = "SIZES", value_parser = crate::sizes::parse)]
     pub(crate) sizes: Option<SizeList>,
+    /// Also time a frame of each kind of work (fill, blending, depth, resolve, ...) on every adapter, for about 5 s each,
+    /// and chart it against its error. The samples are a bench in DIR/timed
+    #[arg(long)]
+    pub(crate) timed: bool,
     /// State of the drivers' shader caches on disk
     #[arg(long, value_enum, default_value = "warm")]
     pub(crate) shader_cache: CacheState,
@@ -237,7 +241,21 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     if arguments.known_by_look && !summary.interrupted {
         summary.unexpected = known_by_look(arguments, &expectations, &launches, stop)?;
     }
-    let results = Results::write(
+    let timed = if arguments.timed && !summary.interrupted {
+        let cold = arguments.shader_cache == CacheState::Cold;
+        let Arguments {
+            out,
+            adapters,
+            file,
+            timeout,
+            ..
+        } = arguments;
+        timed::time(out, adapters, file, *timeout, cold, resume).map(Some)
+    } else {
+        timed::forget(&arguments.out, resume).map(|()| None)
+    };
+    // Without frame times the records still have their reports.
+    let mut results = Results::write(
         arguments,
         &selected,
         &expectations,
@@ -245,7 +263,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         summary,
         adapter_names,
     )?;
+    if let Ok(Some(timed)) = &timed {
+        results.timed = Some(timed.written.html.clone());
+    }
     results.print()?;
+    let timed = timed?.map_or(0, |timed| timed.summary.unexpected);
     let run = &results.run;
     if run.missing() > 0 {
         return Err(incomplete(run, summary.interrupted));
@@ -257,7 +279,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         bless(path, run, &blessed, cases, all_adapters)?;
         return Ok(0);
     }
-    Ok(results.exit_code())
+    Ok(results.exit_code(timed))
 }
 
 /// Returns the list or folder to update with `--bless`, if any.
@@ -413,6 +435,8 @@ struct Results<'a> {
     dead: Vec<Dead>,
     news: Option<RunNews>,
     report: PathBuf,
+    /// The page of frame times.
+    timed: Option<PathBuf>,
 }
 
 impl<'a> Results<'a> {
@@ -453,6 +477,7 @@ impl<'a> Results<'a> {
             dead,
             news,
             report: written.html,
+            timed: None,
         })
     }
 
@@ -475,6 +500,7 @@ impl<'a> Results<'a> {
                 "points": etalon_report::method_points(&self.run),
                 "folder": self.arguments.out,
                 "report": self.report,
+                "timed": self.timed,
             }));
         }
         if let Some(news) = &self.news {
@@ -485,11 +511,14 @@ impl<'a> Results<'a> {
         summarize(&known_look::lines(&self.run));
         summarize(&rechecked(self.arguments.recheck, self.summary.rechecks));
         summarize(&format!("\nReport: {}\n", self.report.display()));
+        if let Some(page) = &self.timed {
+            summarize(&format!("Frame times: {}\n", page.display()));
+        }
         Ok(())
     }
 
-    /// Returns the exit code, and prints its reasons other than verdicts.
-    fn exit_code(&self) -> u8 {
+    /// Returns the exit code, and prints its reasons other than verdicts. Pictures of the timed set can be wrong too.
+    fn exit_code(&self, wrongly_timed: u64) -> u8 {
         let strict = self.arguments.strict_expectations;
         if !self.dead.is_empty() {
             say!("{}", etalon_report::dead_lines(&self.dead));
@@ -506,6 +535,7 @@ impl<'a> Results<'a> {
         });
         let news = self.news.as_ref();
         let unexpected = news.map_or(self.summary.unexpected, |news| news.counted(&self.run));
+        let unexpected = unexpected + wrongly_timed;
         let idle = idle::report(&self.run);
         if unexpected > 0 || !asserted || strict && !self.dead.is_empty() {
             UNEXPECTED

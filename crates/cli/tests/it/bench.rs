@@ -438,3 +438,28 @@ fn rounds_end_when_they_are_enough() {
             .stderr(contains("such as 3%"));
     }
 }
+
+#[test]
+fn a_run_can_time_each_kind_of_work_too() {
+    let out = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| {
+        let mut command = etalon(&["run", "depth/compare", "--adapter", "cpu", "--force"]);
+        command.args(arguments).arg("--out").arg(out.path());
+        let output = command.assert().success().get_output().stdout.clone();
+        let page = fs::read_to_string(out.path().join("index.html")).unwrap();
+        (String::from_utf8(output).unwrap(), page)
+    };
+    let timed = out.path().join("timed");
+    let (printed, page) = run(&["--timed", "--format", "json"]);
+    let printed: Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!(printed["timed"], json!(timed.join("index.html")));
+    let bench = Bench::read(&timed).unwrap();
+    assert!(bench.records.len() > 8, "{}", bench.records.len());
+    assert!(bench.records.iter().all(|record| !record.rounds.is_empty()));
+    assert!(page.contains("<section id=\"speed\">") && page.contains("href=\"#speed\""));
+    // A new run has no times of the one it replaces.
+    let (printed, page) = run(&[]);
+    assert!(!printed.contains("Frame times"), "{printed}");
+    assert!(!page.contains("id=\"speed\""));
+    assert_eq!(FolderKind::of(&timed), None);
+}

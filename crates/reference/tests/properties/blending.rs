@@ -76,7 +76,7 @@ fn that_an_alpha_of_2_bits_weighs_a_colour_of_10_is_disputed() {
     }
 }
 
-/// Between planes at one distance the linear depth is 0 / 0. No text says what a clamp makes of it, and what
+/// Between planes at one distance the linear depth is 0 / 0. No specification says what a clamp makes of it, and what
 /// is added to it stays as open.
 #[test]
 fn what_is_not_a_number_is_blended_into_any_code() {

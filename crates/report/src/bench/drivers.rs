@@ -165,11 +165,28 @@ fn panel_of<'a>(kind: CaseKind<'a>, pictures: &[TimedPicture<'a>]) -> Panel<'a> 
 
 /// Returns the section with the chart; `None` if no picture was timed.
 pub(super) fn section(bench: &Bench, figures: &[CaseFigures<'_>]) -> Option<Markup> {
+    let body = body(bench, figures)?;
+    Some(html! { section id="drivers" { h2 { "Error against time" } (body) } })
+}
+
+/// Returns the section of a run with the chart of its frame times; `None` if no picture was timed.
+pub(crate) fn of_run(bench: &Bench) -> Option<Markup> {
+    let body = body(bench, &super::figures::figures(bench))?;
+    Some(html! {
+        section id="speed" {
+            h2 { "Speed and accuracy of drivers" }
+            (body)
+            p.soft { "Intervals, percentiles and wrong pictures: " code { "timed/index.html" } " in the run's folder." }
+        }
+    })
+}
+
+fn body(bench: &Bench, figures: &[CaseFigures<'_>]) -> Option<Markup> {
     if figures.iter().all(|f| f.timed.iter().all(Vec::is_empty)) {
         return None;
     }
     let panels = panels(bench, figures);
-    let body = html! {
+    Some(html! {
         @if panels.is_empty() {
             p { "An older version recorded this bench, without the work and the errors of its pictures: there is no chart." }
         } @else {
@@ -185,8 +202,7 @@ pub(super) fn section(bench: &Bench, figures: &[CaseFigures<'_>]) -> Option<Mark
                 }
             }
         }
-    };
-    Some(html! { section id="drivers" { h2 { "Error against time" } (body) } })
+    })
 }
 
 /// Returns the scale of the errors of a panel that are above 0; `None` if all are 0.

@@ -15,7 +15,7 @@ use etalon_stats::{CONFIDENCE, MIN_ROUNDS, POWER};
 use maud::{Markup, html};
 use std::collections::BTreeSet;
 
-const OWN_STYLE: &str = include_str!("bench.css");
+pub(crate) const STYLE: &str = include_str!("bench.css");
 
 /// Returns the page.
 pub(super) fn page(bench: &Bench, figures: &[CaseFigures<'_>]) -> String {
@@ -42,7 +42,7 @@ pub(super) fn page(bench: &Bench, figures: &[CaseFigures<'_>]) -> String {
         &main,
     )
     .style(&chart::style())
-    .style(OWN_STYLE)
+    .style(STYLE)
     .html()
 }
 

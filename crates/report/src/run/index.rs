@@ -17,6 +17,7 @@ mod findings;
 mod matrix;
 mod overview;
 
+use crate::bench;
 use crate::chart;
 use crate::mark::class;
 use crate::methods::{self, Methods};
@@ -28,7 +29,7 @@ use crate::run::beside;
 use crate::run::grid::{RunGrid, VerdictTally};
 use crate::run::reasons::{total, undrawn};
 use crate::words::{self, Tone};
-use etalon_record::{Dead, Run, Verdict};
+use etalon_record::{Bench, Dead, Run, Verdict};
 use maud::{Markup, html};
 use std::path::Path;
 
@@ -49,23 +50,44 @@ const SCRIPT: &str = concat!(
     include_str!("index/script/route.js"),
     "})();\n"
 );
+/// What the page shows beside the records.
+#[derive(Clone, Copy)]
+pub(crate) struct PageParts<'a> {
+    /// The scripts of the case files, by file.
+    pub(crate) scripts: &'a [(String, String)],
+    pub(crate) dead: &'a [Dead],
+    pub(crate) methods: Option<&'a Methods<'a>>,
+    pub(crate) news: Option<&'a RunNews>,
+    /// The frame times.
+    pub(crate) timed: Option<&'a Bench>,
+}
+
 /// Returns the page. Frame files are read from the folder when they are needed.
-pub(crate) fn page(
-    folder: &Path,
-    run: &Run,
-    scripts: &[(String, String)],
-    dead: &[Dead],
-    methods: Option<&Methods<'_>>,
-    news: Option<&RunNews>,
-) -> String {
+pub(crate) fn page(folder: &Path, run: &Run, beside: &PageParts<'_>) -> String {
+    let PageParts {
+        scripts,
+        dead,
+        methods,
+        news,
+        timed,
+    } = *beside;
     let grid = RunGrid::new(run);
     let plan = findings::FindingPlan::new(&grid);
     let drivers = methods::driver_section(&grid);
-    let charts = drivers.as_ref().map(|_| chart::style());
+    let speed = timed.and_then(bench::of_run);
+    let charts = drivers
+        .as_ref()
+        .or(speed.as_ref())
+        .map(|_| chart::style() + bench::STYLE);
+    let links = [
+        ("methods", "Methods", methods.is_some()),
+        ("speed", "Speed and accuracy of drivers", speed.is_some()),
+        ("accuracy", "Accuracy of drivers", drivers.is_some()),
+    ];
     let main = html! {
         (cases::view())
         div id="report" {
-            (head(run, dead, news, methods.is_some(), drivers.is_some()))
+            (head(run, dead, news, &links))
             @if run.records.is_empty() {
                 p { "No case was run." }
             } @else {
@@ -78,6 +100,7 @@ pub(crate) fn page(
                 (totals(run))
                 (overview::dead(dead))
                 @if let Some(methods) = methods { (methods::section(methods)) }
+                @if let Some(speed) = speed { (speed) }
                 @if let Some(drivers) = drivers { (drivers) }
                 (cases::section(&grid, scripts))
             }
@@ -106,7 +129,7 @@ fn title(run: &Run) -> String {
     }
 }
 
-fn head(run: &Run, dead: &[Dead], news: Option<&RunNews>, methods: bool, drivers: bool) -> Markup {
+fn head(run: &Run, dead: &[Dead], news: Option<&RunNews>, links: &[(&str, &str, bool)]) -> Markup {
     let h = &run.header;
     html! {
         header {
@@ -119,8 +142,9 @@ fn head(run: &Run, dead: &[Dead], news: Option<&RunNews>, methods: bool, drivers
             @if !run.records.is_empty() {
             nav aria-label="Parts of the page" {
                 a href="#matrix" { "Matrix" } " "
-                @if methods { a href="#methods" { "Methods" } " " }
-                @if drivers { a href="#accuracy" { "Accuracy of drivers" } " " }
+                @for (place, name, is_there) in links {
+                    @if *is_there { a href={ "#" (place) } { (name) } " " }
+                }
                 a href="#cases" { "All cases" } " "
                 a href="#findings" { "Findings" } " "
                 a href="#asserted" { "What was asserted" } " "

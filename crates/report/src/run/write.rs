@@ -1,7 +1,7 @@
 //! Writing the reports of a run.
 
 use super::grid::RunGrid;
-use super::index;
+use super::index::{self, PageParts};
 use crate::catalogue::{CATALOGUE, Catalogue, write_scripts};
 use crate::error::ReportError;
 use crate::export::{deqp, junit, markdown};
@@ -9,7 +9,7 @@ use crate::files::Destination;
 use crate::methods::{self, Methods};
 use crate::news::RunNews;
 use etalon_frame::threads::join;
-use etalon_record::{Dead, FolderKind, OutputFolder, Run};
+use etalon_record::{Bench, Dead, FolderKind, OutputFolder, Run, TIMED_FOLDER};
 use std::path::{Path, PathBuf};
 
 const HTML: &str = "index.html";
@@ -103,6 +103,11 @@ impl RunReport<'_> {
     pub(crate) fn write_to(&self, to: &dyn Destination) -> Result<RunReports, ReportError> {
         let found = Methods::of(self.run);
         let dead = Dead::read(self.folder)?;
+        let timed = self.folder.join(TIMED_FOLDER);
+        let timed = match FolderKind::of(&timed) {
+            Some(FolderKind::Bench) => Some(Bench::read(&timed)?),
+            _ => None,
+        };
         let scripts = match self.catalogue {
             Some(catalogue) => write_scripts(to, catalogue)?,
             None => Vec::new(),
@@ -110,14 +115,14 @@ impl RunReport<'_> {
         // The page reads frames and takes as long as all others together.
         let (html, others) = join(
             || {
-                let page = index::page(
-                    self.folder,
-                    self.run,
-                    &scripts,
-                    &dead,
-                    found.as_ref(),
-                    self.news,
-                );
+                let parts = PageParts {
+                    scripts: &scripts,
+                    dead: &dead,
+                    methods: found.as_ref(),
+                    news: self.news,
+                    timed: timed.as_ref(),
+                };
+                let page = index::page(self.folder, self.run, &parts);
                 to.write(HTML, page.as_bytes())
             },
             || self.others(to, found.as_ref()),
