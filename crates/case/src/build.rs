@@ -6,7 +6,7 @@ use crate::error::{At, CaseError};
 use crate::file::{CaseRef, METHOD};
 use crate::random;
 use crate::relation::relation;
-use crate::resolve::parse_scene;
+use crate::resolve::{check_content, parse_scene};
 use crate::sequence;
 use crate::states;
 use crate::values::{substitute, typed};
@@ -121,7 +121,9 @@ impl CaseRef<'_> {
                 let wire: MethodWire = typed(&substitute(method, values)?)?;
                 etalon_methods::make(&wire)
             };
-            made.map_err(|e| At::new(e.message).key(&e.key))
+            let made = made.map_err(|e| At::new(e.message).key(&e.key))?;
+            check_content(&made.scene)?;
+            Ok(made)
         };
         let made = make().map_err(|e| e.key("method"))?;
         Ok(Case {

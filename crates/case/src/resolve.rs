@@ -76,9 +76,22 @@ fn scene(wire: &SceneWire) -> Result<Scene, At> {
         pool: wire.pool,
         path: wire.path,
     };
+    check_content(&scene)?;
     check_queries(&scene).map_err(|e| e.key("queries"))?;
     check_path(&scene).map_err(|e| e.key("path"))?;
     Ok(scene)
+}
+
+/// Checks that a worker can be given the scene.
+pub(crate) fn check_content(scene: &Scene) -> Result<(), At> {
+    match scene.content_bytes() {
+        bytes if bytes > Scene::MOST_CONTENT => Err(At::new(format!(
+            "its texels, vertices and indices take up to {bytes} bytes, and at most {} can be drawn: use fewer, or \
+             smaller attachments",
+            Scene::MOST_CONTENT
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// Checks that a pool has room, is not too large, and is used.

@@ -15,6 +15,7 @@ mod spoil;
 
 /// The longest message in bytes; a longer one is garbage.
 const MAX_MESSAGE: u32 = 1 << 30;
+const _: () = assert!(Scene::MOST_CONTENT < MAX_MESSAGE as u64);
 
 /// A request from the parent. `slot` is the parent's number for a prepared scene.
 #[derive(Debug, Serialize, Deserialize)]
@@ -131,7 +132,8 @@ pub(crate) fn receive<T: DeserializeOwned>(from: &mut impl Read) -> io::Result<O
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etalon_frame::{Aspect, ChannelEncoding, Image, ReadPath};
+    use etalon_frame::{Aspect, ChannelEncoding, Image, ReadPath, TextureFormat};
+    use etalon_scene::{Attachment, AttachmentContents, Path, QueryScope};
 
     #[test]
     fn messages_survive_the_pipe_and_garbage_is_refused() {
@@ -161,6 +163,29 @@ mod tests {
             let back: Option<BackendError> = receive(&mut pipe.as_slice()).expect("received");
             assert_eq!(back, Some(error));
         }
+    }
+
+    #[test]
+    fn a_scene_takes_no_more_bytes_than_its_content_and_some_for_its_states() {
+        let scene = Scene {
+            attachments: vec![Attachment {
+                name: "texture".to_owned(),
+                format: TextureFormat::Rgba32Float,
+                size: [64, 64],
+                samples: 1,
+                contents: AttachmentContents::Texels(vec![0.7_f32.to_bits(); 64 * 64 * 4]),
+            }],
+            passes: Vec::new(),
+            read: Vec::new(),
+            counters: Vec::new(),
+            query_scope: QueryScope::default(),
+            pool: None,
+            path: Path::default(),
+        };
+        let content = scene.content_bytes();
+        let scene = Cow::Owned(scene);
+        let sent = encode(&Request::Prepare { slot: 0, scene }).expect("encoded");
+        assert!((content..content + 100).contains(&(sent.len() as u64)));
     }
 
     #[test]

@@ -8,6 +8,7 @@ use crate::protocol::Request;
 use etalon_frame::Limits;
 use etalon_judge::{FrameSeconds, SizedScene, medians};
 use etalon_record::{Clock, Cost, Reason, SizedDistance, SizedFrame};
+use etalon_scene::Scene;
 use etalon_stats::{CostLine, TimedWork};
 use std::borrow::Cow;
 use std::time::{Duration, Instant};
@@ -184,12 +185,13 @@ impl WorkerProcess {
 
 /// Returns the reason why a size is not drawn, if there is one. The size of the picture was drawn already.
 fn obstacle(scene: &SizedScene, adapter: &SizingAdapter<'_>, longest: f64) -> Option<Reason> {
-    let bytes = scene.scene.bytes();
+    let content = scene.scene.content_bytes();
+    let bytes = scene.scene.bytes() + content;
     let most = adapter.memory.map(|mebibytes| mebibytes << 20);
     let missing = adapter.limits.missing(&scene.scene.requirements());
     if let Some(missing) = missing {
         Some(Reason::Missing(missing))
-    } else if most.is_some_and(|most| bytes > most / 2) {
+    } else if content > Scene::MOST_CONTENT || most.is_some_and(|most| bytes > most / 2) {
         Some(Reason::LargeFrames(bytes))
     } else if longest > LONGEST {
         Some(Reason::LongFrames(longest))

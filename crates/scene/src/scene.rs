@@ -3,7 +3,7 @@
 //! Scenes are valid by construction: their builder keeps indices in range and sizes equal within a pass, and
 //! lets no pass read what it draws to. Backends and the judge rely on it.
 
-use crate::attachment::Attachment;
+use crate::attachment::{Attachment, AttachmentContents};
 use crate::draw::Draw;
 use crate::pass::Pass;
 use crate::path::Path;
@@ -112,6 +112,23 @@ impl Scene {
         };
         let attachments: u64 = self.attachments.iter().map(bytes).sum();
         attachments + self.pool.map_or(0, Pool::bytes)
+    }
+
+    /// The maximum of [`Scene::content_bytes`]. A scene goes to another process in one message.
+    pub const MOST_CONTENT: u64 = (1 << 30) - (1 << 20);
+
+    /// Returns the most bytes that the uploaded texels, the vertices and the indices take in a message: a code takes up to
+    /// five.
+    pub fn content_bytes(&self) -> u64 {
+        let uploaded = self.attachments.iter().map(|a| match &a.contents {
+            AttachmentContents::Texels(codes) => 5 * codes.len(),
+            AttachmentContents::Color(_) | AttachmentContents::DepthStencil { .. } => 0,
+        });
+        let meshes = self.passes.iter().flat_map(|pass| &pass.draws).map(|draw| {
+            let indices = draw.mesh.indices.as_ref().map_or(0, Vec::len);
+            draw.mesh.bytes().len() + size_of::<u32>() * indices
+        });
+        uploaded.chain(meshes).sum::<usize>() as u64
     }
 
     /// Returns the formats of all attachments.

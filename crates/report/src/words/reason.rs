@@ -53,7 +53,7 @@ fn text(reason: &Reason) -> String {
         }
         Reason::LargeFrames(size) => {
             format!(
-                "not drawn: {} of attachments, more than a worker may use",
+                "not drawn: {} of attachments, texels and vertices, more than a worker may use",
                 bytes(*size)
             )
         }
