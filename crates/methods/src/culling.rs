@@ -58,7 +58,7 @@ pub enum CullingWire {
     ClosedMesh {
         /// The faces or objects that are culled.
         method: CullingMethod,
-        /// The number of segments around the torus's hole, 4 to 64; its tube has half as many.
+        /// The number of segments around the torus's hole, 4 to 256; its tube has half as many.
         segments: u32,
     },
     /// A grid of boxes, one draw per box; the picture shows a ninth of the grid.
@@ -115,7 +115,7 @@ pub(crate) fn make(wire: &CullingWire) -> Result<MethodScene, ParameterError> {
             see_through(method, alpha)
         }
         CullingWire::ClosedMesh { method, segments } => {
-            within("segments", segments.into(), 4.0..=64.0)?;
+            within("segments", segments.into(), 4.0..=256.0)?;
             closed_mesh(method, segments)
         }
         CullingWire::Field { method, objects } => {

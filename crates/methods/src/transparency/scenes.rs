@@ -54,7 +54,7 @@ impl GlassScene {
             TransparencyScene::NestedGlass => nested_glass(alpha(0.4)?),
             TransparencyScene::ThinLayers => {
                 let layers = wire.layers.unwrap_or(16);
-                within("layers", f64::from(layers), 1.0..=64.0)?;
+                within("layers", f64::from(layers), 1.0..=256.0)?;
                 thin_layers(layers, alpha(0.1)?)
             }
             TransparencyScene::Hair => hair(alpha(0.6)?),
