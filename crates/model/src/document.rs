@@ -68,9 +68,10 @@ pub(crate) fn parse(bytes: &[u8], folder: &Path) -> Result<Model, ModelError> {
         ModelError::new("the file", "it has no scene; export one with the meshes")
     })?;
     let nodes = Nodes::read(&scene, &buffers, &textures)?;
-    if nodes.triangles.is_empty() {
+    let triangles = nodes.triangles();
+    if triangles.is_empty() {
         let message = "it has no triangle; export a scene with meshes";
         return Err(ModelError::new("the scene", message));
     }
-    Ok(Model::new(&nodes.triangles, nodes.camera)?)
+    Ok(Model::new(&triangles, nodes.camera)?)
 }

@@ -2,16 +2,20 @@
 
 use crate::error::{ModelError, part};
 use crate::files::Buffers;
-use crate::mesh;
+use crate::mesh::PaintedMesh;
 use crate::texture::Texture;
-use etalon_methods::{Camera, Lens, ModelTriangle};
+use etalon_methods::{Camera, Lens, MOST_TRIANGLES, ModelTriangle};
 use glam::{DMat4, DVec3, Mat4};
 use gltf::camera::Projection;
-use gltf::{Node, Scene};
+use gltf::{Node, Primitive, Scene};
 
 /// The deepest node, and the largest number of nodes, counted each time that one is reached.
 const DEEPEST: usize = 256;
 const MOST_NODES: usize = 1 << 20;
+
+/// The most pieces of triangles whose colours vary, and the most parts of a side: a power of two.
+const MOST_PIECES: usize = 1 << 15;
+const MOST_PARTS: usize = 32;
 
 /// What the nodes of a scene bring.
 #[derive(Debug)]
@@ -19,9 +23,10 @@ pub(crate) struct Nodes<'a> {
     buffers: &'a Buffers,
     textures: &'a [Option<Texture>],
     visited: usize,
+    /// The meshes of each node in the order of the file. Each primitive of a node is an object.
+    meshes: Vec<Vec<PaintedMesh<'a>>>,
+    faces: usize,
     objects: usize,
-    /// All triangles, in the order of nodes and primitives. Each primitive of a node is an object.
-    pub(crate) triangles: Vec<ModelTriangle>,
     /// The first camera.
     pub(crate) camera: Option<Camera>,
 }
@@ -40,8 +45,9 @@ impl<'a> Nodes<'a> {
             buffers,
             textures,
             visited: 0,
+            meshes: Vec::new(),
+            faces: 0,
             objects: 0,
-            triangles: Vec::new(),
             camera: None,
         };
         for node in scene.nodes() {
@@ -65,19 +71,15 @@ impl<'a> Nodes<'a> {
             return Err(ModelError::new(place(), message));
         }
         if let Some(mesh) = node.mesh() {
-            for primitive in mesh.primitives() {
-                let added = mesh::add(
-                    &primitive,
-                    &to_world,
-                    self.objects,
-                    self.buffers,
-                    self.textures,
-                    &mut self.triangles,
-                );
+            let within = |error: ModelError| {
                 let name = part("mesh", mesh.index(), mesh.name());
-                added.map_err(|error| error.within(&name).within(&place()))?;
-                self.objects += 1;
+                error.within(&name).within(&place())
+            };
+            let mut painted = Vec::new();
+            for primitive in mesh.primitives() {
+                painted.push(self.primitive(&primitive, &to_world).map_err(within)?);
             }
+            self.meshes.push(painted);
         }
         if let Some(camera) = node.camera()
             && self.camera.is_none()
@@ -90,6 +92,63 @@ impl<'a> Nodes<'a> {
         }
         Ok(())
     }
+
+    fn primitive(
+        &mut self,
+        primitive: &Primitive<'_>,
+        to_world: &DMat4,
+    ) -> Result<PaintedMesh<'a>, ModelError> {
+        let mesh = PaintedMesh::read(
+            primitive,
+            to_world,
+            self.objects,
+            self.buffers,
+            self.textures,
+        )?;
+        self.objects += 1;
+        self.faces += mesh.faces();
+        if self.faces > MOST_TRIANGLES {
+            return Err(ModelError::new(
+                format!("primitive {}", primitive.index()),
+                format!(
+                    "the scene has more than {MOST_TRIANGLES} triangles with it; decimate it, or leave out what its camera does not see"
+                ),
+            ));
+        }
+        Ok(mesh)
+    }
+
+    /// Returns all triangles, in the order of nodes and primitives. Where colours vary within triangles, these are cut into
+    /// pieces.
+    pub(crate) fn triangles(&self) -> Vec<ModelTriangle> {
+        let varies = |meshes: &&Vec<PaintedMesh<'_>>| meshes.iter().any(PaintedMesh::varies);
+        let varying: Vec<_> = self.meshes.iter().filter(varies).collect();
+        let parts = parts(&varying.iter().copied().flatten().collect::<Vec<_>>());
+        let mut triangles = Vec::new();
+        for meshes in &self.meshes {
+            // The primitives of a mesh can share edges.
+            let parts = if varies(&meshes) { parts } else { 1 };
+            for mesh in meshes {
+                mesh.add_to(&mut triangles, parts);
+            }
+        }
+        triangles
+    }
+}
+
+/// Returns the number of parts into which the sides of triangles are cut: as few as keep their colours, or as many as
+/// [`MOST_PIECES`] allows.
+fn parts(meshes: &[&PaintedMesh<'_>]) -> usize {
+    let faces: usize = meshes.iter().map(|mesh| mesh.faces()).sum();
+    let mut finest = 1;
+    while finest < MOST_PARTS && 4 * finest * finest * faces <= MOST_PIECES {
+        finest *= 2;
+    }
+    let mut parts = 1;
+    while parts < finest && meshes.iter().any(|mesh| mesh.loses_colors(parts, finest)) {
+        parts *= 2;
+    }
+    parts
 }
 
 /// Returns a camera in its place. The picture has the height that the file says; its width is the frame's.

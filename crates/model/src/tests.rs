@@ -1,7 +1,10 @@
 //! Tests of whole files: our own, broken ones, and damaged ones.
 
+use crate::color::{displayed, linear};
 use crate::document::parse;
 use crate::read;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use etalon_methods::{Model, TexelCoverage};
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -135,22 +138,98 @@ fn what_is_wrong_is_named_with_its_part_and_a_remedy() {
     );
 }
 
+/// Returns the colours of a scene's surfaces, without alpha.
+fn colors(model: &Model) -> Vec<[f64; 3]> {
+    let made = model.draw("anti-aliasing", "none").expect("it draws");
+    let surfaces = made.truth.surfaces.iter();
+    let colors = surfaces.filter_map(|surface| match surface.paint {
+        etalon_methods::Paint::Flat([r, g, b, _]) => Some([r, g, b]),
+        _ => None,
+    });
+    colors.collect()
+}
+
 #[test]
-fn a_texture_gives_a_triangle_its_mean() {
-    let made = model("greenhouse.glb");
-    let made = made.draw("anti-aliasing", "none").expect("it draws");
-    let colors = made
-        .truth
-        .surfaces
+fn triangles_are_cut_where_a_texture_changes() {
+    let all = colors(&model("greenhouse.glb"));
+    let floor = &all[..500];
+    // The floor comes first. Its tiles are 230 and 150 times 0.9, in light from above that multiplies by 0.92.
+    let near = |value: f64| {
+        floor
+            .iter()
+            .filter(|[r, ..]| (r - value).abs() < 0.01)
+            .count()
+    };
+    let shown = |code: f64| displayed(linear(code / 255.0) * 0.9) * 0.92;
+    let [light, dark] = [230.0, 150.0].map(|code| near(shown(code)));
+    // Each of 288 triangles has two pieces of each, less those that the camera does not see.
+    assert!(
+        light > 200 && dark > 200,
+        "{light} light, {dark} dark, {:?}",
+        &floor[..4]
+    );
+    assert_eq!(near(shown(190.0)), 0);
+}
+
+/// A square that faces the camera, with a texture of four by four texels: each is a hole or red.
+fn card(holes: &[bool; 16]) -> String {
+    let mut png = std::io::Cursor::new(Vec::new());
+    let texel = |x: u32, y: u32| {
+        image::Rgba([255, 0, 0, if holes[(4 * y + x) as usize] { 0 } else { 255 }])
+    };
+    let picture = image::RgbaImage::from_fn(4, 4, texel);
+    picture
+        .write_to(&mut png, image::ImageFormat::Png)
+        .expect("it is written");
+    let positions = [
+        [-1.0_f32, -1.0, 0.0],
+        [1.0, -1.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [-1.0, 1.0, 0.0],
+    ];
+    let uv = [[0.0_f32, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]];
+    let mut bytes: Vec<u8> = positions
         .iter()
-        .filter_map(|surface| match surface.paint {
-            etalon_methods::Paint::Flat(color) => Some(color),
-            _ => None,
-        });
-    // Each cell of the floor has two dark and two light tiles: (linear(230) + linear(150)) / 2 times 0.9 is 0.51, which is
-    // displayed as 0.74; the light from above multiplies it by 0.92.
-    let [r, ..] = colors.into_iter().next().expect("the floor comes first");
-    assert!((r - 0.685).abs() < 0.02, "{r}");
+        .flatten()
+        .flat_map(|v| v.to_le_bytes())
+        .collect();
+    bytes.extend(uv.iter().flatten().flat_map(|v| v.to_le_bytes()));
+    bytes.extend([0_u16, 1, 2, 0, 2, 3].iter().flat_map(|i| i.to_le_bytes()));
+    let png = png.into_inner();
+    let (view, length) = (bytes.len(), png.len());
+    bytes.extend(png);
+    let data = STANDARD.encode(&bytes);
+    json!({
+        "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0] }],
+        "nodes": [{ "mesh": 0 }],
+        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0, "TEXCOORD_0": 1 }, "indices": 2, "material": 0 }] }],
+        "materials": [{ "alphaMode": "MASK", "doubleSided": true,
+            "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } } }],
+        "textures": [{ "source": 0 }], "images": [{ "bufferView": 3, "mimeType": "image/png" }],
+        "accessors": [
+            { "bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [-1, -1, 0], "max": [1, 1, 0] },
+            { "bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC2" },
+            { "bufferView": 2, "componentType": 5123, "count": 6, "type": "SCALAR" }],
+        "bufferViews": [{ "buffer": 0, "byteOffset": 0, "byteLength": 48 }, { "buffer": 0, "byteOffset": 48, "byteLength": 32 },
+            { "buffer": 0, "byteOffset": 80, "byteLength": 12 }, { "buffer": 0, "byteOffset": view, "byteLength": length }],
+        "buffers": [{ "byteLength": bytes.len(), "uri": format!("data:application/octet-stream;base64,{data}") }],
+    })
+    .to_string()
+}
+
+#[test]
+fn an_alpha_mask_cuts_the_holes_of_its_texture() {
+    let red = |holes: &[bool; 16]| {
+        let made = parse(card(holes).as_bytes(), Path::new("")).expect("it is valid");
+        colors(&made).len()
+    };
+    let mut holes = [false; 16];
+    // A whole card needs no cut; with holes in it, each texel has two pieces.
+    assert_eq!(red(&holes), 2);
+    holes[5] = true;
+    assert_eq!(red(&holes), 30);
+    holes[0] = true;
+    assert_eq!(red(&holes), 28);
 }
 
 proptest! {

@@ -121,6 +121,11 @@ impl Level {
 const PARTS: u32 = 4;
 
 impl Texture {
+    /// Returns true if two of its texels differ.
+    pub(crate) fn varies(&self) -> bool {
+        self.levels[0].texels.windows(2).any(|two| two[0] != two[1])
+    }
+
     /// Returns the mean colour over a triangle with these texture coordinates, about: of 16 points, on a level whose
     /// texels are as far apart as they are.
     pub(crate) fn mean(&self, [a, b, c]: [[f64; 2]; 3]) -> [f64; 4] {
