@@ -40,14 +40,18 @@ function candidates(card, adapter, frame) {
     return all.every(time => time > 0) ? [...all, ...nearest.slice(3)] : null;
   };
   const found = JSON.parse(card.dataset.methods).map(([name, order], key) => {
-    const places = points.filter(point => point[0] === name).map(here).filter(Boolean);
-    return { name, order, key, places };
+    const ofMethod = points.filter(point => point[0] === name).map(point => [point[2], here(point)]);
+    return { name, order, key, places: new Map(ofMethod.filter(([, place]) => place)) };
   });
-  const most = Math.max(0, ...found.map(one => one.places.length));
-  return found.filter(one => one.places.length && 2 * one.places.length >= most).map(({ places, ...one }) => {
+  const most = Math.max(0, ...found.map(one => one.places.size));
+  const kept = found.filter(one => one.places.size && 2 * one.places.size >= most);
+  // Errors of different scenes do not compare: the scenes that all methods draw count, if there are any.
+  const common = [...kept[0]?.places.keys() ?? []].filter(scene => kept.every(one => one.places.has(scene)));
+  return kept.map(({ places: all, ...one }) => {
+    const scenes = common.length ? common : [...all.keys()], places = scenes.map(scene => all.get(scene));
     const errors = places.map(place => place[3]);
     return {
-      ...one, scenes: places.length, time: [0, 1, 2].map(end => median(places.map(place => place[end]))),
+      ...one, scenes, time: [0, 1, 2].map(end => median(places.map(place => place[end]))),
       error: [Math.min(...errors), median(errors), Math.max(...errors)], exact: places.every(place => place[4] <= EXACT),
     };
   });
@@ -73,9 +77,9 @@ function answer(all, most, limit, place) {
   const head = limits.length ? `Within ${limits.join(" and ")} at ${place}` : `At ${place}`;
   const words = name => name === "none" ? "none (plain drawing)" : name;
   const figures = one => {
-    const [low, error, high] = one.error;
-    const range = one.scenes > 1 && low < high ? ` (${percent(low)} to ${percent(high)} over ${one.scenes} scenes)` : "";
-    const kind = error === 0 ? "no error" : (one.scenes > 1 ? "median error " : "error ") + percent(error);
+    const [low, error, high] = one.error, several = one.scenes.length > 1;
+    const range = several && low < high ? ` (${percent(low)} to ${percent(high)} over ${one.scenes.length} scenes)` : "";
+    const kind = error === 0 ? "no error" : (several ? "median error " : "error ") + percent(error);
     return `${words(one.name)}, ${kind}${range}, ${seconds(one.time[1])}`;
   };
   const { nothing, best } = choose(all, most, limit);

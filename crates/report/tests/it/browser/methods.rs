@@ -2,7 +2,7 @@
 
 use super::driver::{Chromium, Page};
 use crate::synthetic;
-use etalon_record::{Run, RunWriter};
+use etalon_record::{Record, Run, RunWriter};
 use image::RgbImage;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -60,7 +60,9 @@ pub(super) fn write(folder: &Path) -> PathBuf {
     };
     save("truth.png", &truth);
     save("drawn.png", &wrong_picture);
-    for record in run.records {
+    // On `cpu`, one method lacks a scene, which then counts for no method.
+    let lacks = |r: &Record| r.adapter == "cpu" && r.case.contains("panes/method=moment-based/");
+    for record in run.records.into_iter().filter(|r| !lacks(r)) {
         let mut record = record;
         if record.adapter == "cpu" && record.case.contains("/windows/") {
             let measured = record.measured.as_mut().unwrap();
