@@ -258,7 +258,7 @@ fn a_page_of_a_browser_charts_the_methods_of_a_question() {
     assert!(browser.eval(charts).as_u64().unwrap() > 3);
     // The script of the charts compares pictures with the truth.
     browser.eval("document.querySelector('#charts figure.shot').scrollIntoView()");
-    browser.wait(20, "document.querySelector('#charts figure.shot canvas')");
+    browser.wait(20, "document.querySelector('#charts .compared canvas')");
     let questions = browser.eval(
         "[...document.querySelectorAll('#questions a')].map(a => a.hash.replace('#methods=', ''))",
     );
@@ -351,7 +351,7 @@ fn a_page_of_firefox_charts_the_methods_of_a_question() {
     browser.wait(QUICK, COMPLETE);
     browser.wait(30, "document.querySelector('#charts figure.shot')");
     browser.eval("document.querySelector('#charts figure.shot').scrollIntoView()");
-    browser.wait(20, "document.querySelector('#charts figure.shot canvas')");
+    browser.wait(20, "document.querySelector('#charts .compared canvas')");
     let saved = save(&browser, folder.path());
     drop(browser);
     run(&["report", saved.to_str().unwrap()], &[0]);

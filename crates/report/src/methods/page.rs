@@ -22,7 +22,7 @@ use std::path::Path;
 
 const STYLE: &str = include_str!("page/methods.css");
 
-/// The script of the sliders, the legend's pins and the enlarged pictures. Nothing else needs a script.
+/// The script of the sliders, the legend's pins, the choice and the pictures. Nothing else needs a script.
 const SCRIPT: &str = concat!(
     "\"use strict\";\n",
     include_str!("../page/base.js"),
@@ -36,7 +36,7 @@ const SCRIPT: &str = concat!(
 pub(crate) fn page(folder: &Path, run: &Run, methods: &Methods<'_>) -> String {
     let main = html! {
         (head(methods))
-        noscript { p.note { "Scripts are off: each scene shows one setting, and its pictures cannot be enlarged." } }
+        noscript { p.note { "Scripts are off: each scene shows one setting, and its pictures are not compared with the truth." } }
         (sections(run, methods, &mut PagePictures::in_folder(folder)))
         (about(run, methods))
         (page::script(SCRIPT))
@@ -255,11 +255,6 @@ fn in_scene(run: &Run, pictures: &mut PagePictures<'_>, shown: &ShownScene<'_, '
         .fold(0.0, f64::max);
     let (speed, curves) = (scatter::charts(shown), stability::charts(shown));
     let together = speed.len() == 1;
-    // On a wide page, one chart leaves room for pictures at its side; two charts leave room for a few.
-    let shots = pictures.of(shown);
-    let panels = speed.iter().map(|k| k.panels.len()).sum::<usize>() + curves.len();
-    let few = scene.methods().len() <= 4;
-    let beside = together && (panels == 1 || (panels == 2 && few));
     html! {
         article.scene id=(shown.anchor) data-name={ (scene.question) "/" (scene.name) } {
             h3 { (title(scene.name)) }
@@ -275,7 +270,6 @@ fn in_scene(run: &Run, pictures: &mut PagePictures<'_>, shown: &ShownScene<'_, '
                 div.charts.speed {
                     @for panel in &kind.panels { (panel) }
                     @if together && i == 0 { @for panel in &curves { (panel) } }
-                    @if beside { (shots) }
                 }
             }
             @if !together && !curves.is_empty() {
@@ -283,7 +277,7 @@ fn in_scene(run: &Run, pictures: &mut PagePictures<'_>, shown: &ShownScene<'_, '
             }
             @for (i, setting) in shown.settings.iter().enumerate() { (unmeasured(shown, setting, i)) }
             @if !curves.is_empty() { (stability::list(shown)) }
-            @if !beside { (shots) }
+            (pictures.of(shown))
             p.cap {
                 @if truth > 0.0 { "The truth itself may be off by " (share(truth)) " in a channel. " }
                 @else { "The truth is exact. " }

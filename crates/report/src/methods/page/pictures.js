@@ -1,9 +1,10 @@
-// Differences between pictures and the truth, and the enlarged view of all four.
-const MODES = ["picture", "truth", "difference", "FLIP"];
+// The truth, a method's picture, their difference and FLIP: side by side, and enlarged.
+const MODES = ["truth", "picture", "difference", "FLIP"];
 const pixels = new WeakMap();
 
-// Returns the codes of a decoded picture.
+// Returns the codes of a picture; null if it could not be decoded.
 function read(image) {
+  if (!image?.naturalWidth) return null;
   if (!pixels.has(image)) {
     const canvas = make("canvas", { width: image.naturalWidth, height: image.naturalHeight });
     const context = canvas.getContext("2d", { willReadFrequently: true });
@@ -11,10 +12,6 @@ function read(image) {
     pixels.set(image, context.getImageData(0, 0, canvas.width, canvas.height));
   }
   return pixels.get(image);
-}
-
-function ready(image) {
-  return image.decode().then(() => image.naturalWidth > 0, () => false);
 }
 
 // From black through purple and orange to white: the map “magma” (van der Walt and Smith 2015), by a few of
@@ -26,67 +23,76 @@ function magma(value) {
   return MAGMA[low].map((v, i) => Math.round(v + (MAGMA[low + 1][i] - v) * (at - low)));
 }
 
-// Returns one picture's texels, the truth's texels, and both differences.
-function compared(figure) {
-  if (figure.compared) return figure.compared;
-  const truthImage = figure.parentElement.querySelector(".truth img");
-  const picture = read(figure.querySelector("img")), truth = truthImage ? read(truthImage) : null;
-  if (!truth || truth.width !== picture.width || truth.height !== picture.height) {
-    return figure.compared = { picture };
-  }
-  let largest = 0;
-  const size = picture.width * picture.height;
-  for (let i = 0; i < 4 * size; i++) {
-    if (i % 4 < 3) largest = Math.max(largest, Math.abs(picture.data[i] - truth.data[i]));
-  }
-  // The scale: the next power of two, in codes.
-  const range = Math.min(Math.pow(2, Math.ceil(Math.log2(Math.max(largest, 1)))), 255);
-  const difference = new ImageData(picture.width, picture.height), map = new ImageData(picture.width, picture.height);
-  const values = flip(truth, picture);
-  for (let i = 0; i < size; i++) {
-    for (let c = 0; c < 3; c++) {
-      difference.data[4 * i + c] = Math.round(127.5 + 127.5 * (picture.data[4 * i + c] - truth.data[4 * i + c]) / range);
-      map.data[4 * i + c] = magma(values[i])[c];
+// Returns the texels of a method's picture, and of the truth if there is one of this size.
+function texels(shot) {
+  const [truth, picture] = [shot.parentElement.querySelector(".truth img"), shot.querySelector("img")].map(read);
+  return { picture, truth: truth && picture && truth.width === picture.width && truth.height === picture.height ? truth : null };
+}
+
+// Decodes all pictures of a scene. The largest difference of any of them, in codes, is white in all differences.
+function decode(scene) {
+  return scene.decoded ??= (async () => {
+    await Promise.all([...scene.querySelectorAll(".pictures img")].map(image => image.decode().catch(() => {})));
+    for (const shot of scene.querySelectorAll(".shot")) {
+      const { picture, truth } = texels(shot);
+      shot.largest = truth ? picture.data.reduce((most, code, i) => Math.max(most, Math.abs(code - truth.data[i])), 0) : 0;
+      scene.white = Math.max(scene.white ?? 1, shot.largest);
     }
-    difference.data[4 * i + 3] = map.data[4 * i + 3] = 255;
-  }
-  const mean = values.reduce((s, v) => s + v, 0) / size;
-  figure.dataset.mapMean = mean;
-  return figure.compared = { picture, truth, difference, map, values, range, largest, mean };
+  })();
 }
 
-function imageOf(all, mode) {
-  return { picture: all.picture, truth: all.truth, difference: all.difference, FLIP: all.map }[mode];
+// Returns the texels of a picture and of the truth, and both differences.
+function compared(shot) {
+  if (shot.compared) return shot.compared;
+  const { picture, truth } = texels(shot), { white } = shot.closest(".scene");
+  if (!truth) return shot.compared = { picture };
+  const difference = new ImageData(picture.width, picture.height), FLIP = new ImageData(picture.width, picture.height);
+  const values = flip(truth, picture);
+  values.forEach((value, i) => {
+    const codes = [0, 1, 2].map(c => Math.abs(picture.data[4 * i + c] - truth.data[4 * i + c]));
+    difference.data.set([...codes.map(code => Math.round(255 * code / white)), 255], 4 * i);
+    FLIP.data.set([...magma(value), 255], 4 * i);
+  });
+  return shot.compared = { picture, truth, difference, FLIP, values, mean: values.reduce((s, v) => s + v, 0) / values.length };
 }
 
-function thumbnail(image) {
+function canvasOf(image) {
   const canvas = make("canvas", { width: image.width, height: image.height, "aria-hidden": "true" });
   canvas.getContext("2d").putImageData(image, 0, 0);
   return canvas;
 }
 
-// Adds the differences below a picture when it becomes visible.
-async function complete(figure) {
-  if (figure.dataset.complete) return;
-  figure.dataset.complete = "1";
-  const images = [figure.querySelector("img"), figure.parentElement.querySelector(".truth img")].filter(Boolean);
-  if (!(await Promise.all(images.map(ready))).every(Boolean)) return;
-  const all = compared(figure), method = figure.dataset.method;
-  const button = (mode, content, text) => {
-    const one = make("button", { type: "button", "data-mode": mode, "aria-label": `Enlarge: ${mode} of ${method}` }, content);
-    if (text) one.append(make("span", {}, text));
-    one.addEventListener("click", () => enlarge(figure, mode, one));
-    return one;
-  };
-  const image = figure.querySelector("img"), caption = figure.querySelector("figcaption");
-  const place = document.createComment("");
-  image.replaceWith(place);
-  place.replaceWith(button("picture", image));
-  if (all.truth) {
-    caption.before(
-      button("difference", thumbnail(all.difference), all.largest ? `difference ±${all.range}` : "no difference"),
-      button("FLIP", thumbnail(all.map), "FLIP map"));
+// Shows the pictures of the scene's chosen method side by side, above those of all methods.
+async function compare(group) {
+  const scene = group.closest(".scene");
+  await decode(scene);
+  const shots = [...group.querySelectorAll(".shot")].filter(shot => texels(shot).picture);
+  if (!shots.length) return;
+  if (!group.querySelector(".compared")) {
+    group.prepend(make("div", { class: "compared" }));
+    for (const shot of shots) {
+      const image = shot.querySelector("img"), button = make("button", { type: "button", "aria-label": `Compare ${shot.dataset.method}` });
+      image.replaceWith(button);
+      button.append(image);
+      button.addEventListener("click", () => {
+        scene.dataset.method = shot.dataset.method;
+        compare(group);
+      });
+    }
   }
+  const shot = shots.find(one => one.dataset.method === scene.dataset.method) ?? shots[0], { method } = shot.dataset;
+  for (const one of shots) one.querySelector("button").setAttribute("aria-pressed", one === shot);
+  const all = compared(shot);
+  const captions = {
+    picture: method,
+    difference: `difference, white = ${scene.white} of 255 codes; here at most ${shot.largest}`,
+    FLIP: `FLIP, white = 1; here ${all.mean?.toFixed(4)} on average`,
+  };
+  group.querySelector(".compared").replaceChildren(...MODES.filter(mode => all[mode]).map(mode => {
+    const button = make("button", { type: "button", "data-mode": mode, "aria-label": `Enlarge: ${mode} of ${method}` }, canvasOf(all[mode]));
+    button.addEventListener("click", () => enlarge(shot, mode, button));
+    return make("figure", {}, button, make("figcaption", {}, captions[mode] ?? mode));
+  }));
 }
 
 const dialog = make("dialog", { id: "viewer", "aria-labelledby": "viewer-title" });
@@ -119,13 +125,13 @@ function enlarge(figure, mode, from) {
 }
 
 function draw() {
-  const all = compared(view.figure), image = imageOf(all, view.mode) ?? all.picture;
+  const all = compared(view.figure), image = all[view.mode] ?? all.picture;
   const { method, adapter } = view.figure.dataset, setting = view.figure.parentElement.dataset.setting;
   const scene = view.figure.closest(".scene").dataset.name;
   $("viewer-title").textContent = `${scene}: ${method}${setting ? " at " + setting : ""} on ${adapter}`;
   for (const button of modeButtons) {
     button.setAttribute("aria-pressed", button.dataset.view === view.mode);
-    button.disabled = !imageOf(all, button.dataset.view);
+    button.disabled = !all[button.dataset.view];
   }
   const zoom = Math.max(1, Math.floor(1024 / image.width));
   large.width = image.width * zoom;
@@ -133,7 +139,7 @@ function draw() {
   large.setAttribute("aria-label", `${view.mode}, ${image.width} by ${image.height} texels`);
   const context = large.getContext("2d");
   context.imageSmoothingEnabled = false;
-  context.drawImage(thumbnail(image), 0, 0, large.width, large.height);
+  context.drawImage(canvasOf(image), 0, 0, large.width, large.height);
   if (zoom >= 4) {
     context.strokeStyle = "rgb(128 128 128 / .4)";
     context.lineWidth = 1;
@@ -159,7 +165,7 @@ function draw() {
   values.textContent = lines.join("\n");
   const bar = colors => { const i = make("i", {}); i.style.background = `linear-gradient(to right, ${colors})`; return i; };
   const scales = {
-    difference: () => [`−${all.range}`, bar("#000, #808080, #fff"), `+${all.range} codes per channel; grey is none`],
+    difference: () => ["0", bar("#000, #fff"), `${view.figure.closest(".scene").white} of 255 codes per channel`],
     FLIP: () => ["0", bar(MAGMA.map(c => `rgb(${c})`).join()), "1: the error that an eye sees at 67 pixels per degree"],
   };
   scaleText.replaceChildren(...(scales[view.mode]?.() ?? ["codes of 8 bits: red, green, blue"]));
@@ -178,7 +184,7 @@ dialog.addEventListener("keydown", event => {
     view.x = Math.min(Math.max(view.x + move[0], 0), width - 1);
     view.y = Math.min(Math.max(view.y + move[1], 0), height - 1);
     event.preventDefault();
-  } else if (/^[1-4]$/.test(event.key) && imageOf(compared(view.figure), MODES[event.key - 1])) {
+  } else if (/^[1-4]$/.test(event.key) && compared(view.figure)[MODES[event.key - 1]]) {
     view.mode = MODES[event.key - 1];
   } else {
     return;
@@ -188,6 +194,6 @@ dialog.addEventListener("keydown", event => {
 dialog.addEventListener("close", () => view.from?.focus());
 
 const watcher = new IntersectionObserver(entries => {
-  for (const entry of entries) if (entry.isIntersecting) complete(entry.target);
+  for (const entry of entries) if (entry.isIntersecting) compare(entry.target);
 }, { rootMargin: "300px" });
-for (const figure of document.querySelectorAll("figure.shot")) watcher.observe(figure);
+for (const group of document.querySelectorAll(".pictures")) watcher.observe(group);

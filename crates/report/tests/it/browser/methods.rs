@@ -14,10 +14,11 @@ macro_rules! checks {
 }
 
 /// Every check, with its name.
-pub(super) const CHECKS: [(&str, Check); 9] = checks![
+pub(super) const CHECKS: [(&str, Check); 10] = checks![
     a_sentence_keeps_the_budget,
     a_legend_highlights_its_method,
     a_slider_swaps_pictures_and_moves_the_mark,
+    pictures_stand_side_by_side_on_one_scale,
     pictures_are_enlarged_by_click_and_by_keys,
     the_pages_flip_is_that_of_its_authors_code,
     break_points_lead_to_the_pictures_beside_them,
@@ -60,14 +61,18 @@ pub(super) fn write(folder: &Path) -> PathBuf {
     };
     save("truth.png", &truth);
     save("drawn.png", &wrong_picture);
+    save("near.png", &|x, y| truth(x, y).map(|c| c ^ 1));
     // On `cpu`, one method lacks a scene, which then counts for no method.
     let lacks = |r: &Record| r.adapter == "cpu" && r.case.contains("panes/method=moment-based/");
     for record in run.records.into_iter().filter(|r| !lacks(r)) {
         let mut record = record;
         if record.adapter == "cpu" && record.case.contains("/windows/") {
             let measured = record.measured.as_mut().unwrap();
-            let right = measured.method == "sorted";
-            let picture = if right { "truth.png" } else { "drawn.png" };
+            let picture = match measured.method.as_str() {
+                "sorted" => "truth.png",
+                "front-to-back" => "near.png",
+                _ => "drawn.png",
+            };
             measured.picture = Some(format!("pictures/{picture}"));
             measured.truth_picture = Some("pictures/truth.png".to_owned());
         }
@@ -230,25 +235,95 @@ fn pictures_of(method: &str) -> String {
     format!("{WINDOWS} .pictures:not(.off) [data-method={method}]")
 }
 
+/// The pictures of [`WINDOWS`] that are compared.
+fn compared(what: &str) -> String {
+    format!("{WINDOWS} .pictures:not(.off) .compared {what}")
+}
+
+/// Compares the pictures of a method with the truth.
+fn choose(page: &Page<'_>, method: &str) {
+    let button = format!("{} button", pictures_of(method));
+    page.wait(&format!("document.querySelector(\"{button}\")"));
+    page.click(&button);
+    page.wait(&format!(
+        "document.querySelector(\"{button}\").ariaPressed === 'true'"
+    ));
+}
+
 /// Opens the page where its pictures are compared.
 fn with_pictures<'c>(chromium: &'c Chromium, path: &Path) -> Page<'c> {
     let page = chromium.open(path, "");
-    let unsorted = pictures_of("unsorted");
     page.run(&format!(
-        "document.querySelector(\"{unsorted}\").scrollIntoView({{block: 'center'}})"
+        "document.querySelector(\"{}\").scrollIntoView({{block: 'center'}})",
+        pictures_of("unsorted")
     ));
-    page.wait(&format!(
-        "document.querySelectorAll(\"{unsorted} button\").length === 3"
-    ));
+    choose(&page, "unsorted");
     page
+}
+
+fn pictures_stand_side_by_side_on_one_scale(chromium: &Chromium, path: &Path) {
+    let page = with_pictures(chromium, path);
+    let boxes = || -> Vec<[f64; 2]> {
+        page.eval(&format!(
+            "[...document.querySelectorAll(\"{}\")].map(c => c.getBoundingClientRect()).map(r => [r.width, r.top])",
+            compared("canvas")
+        ))
+    };
+    for (width, height, least) in [(1366, 768, 256.0), (390, 844, 340.0)] {
+        page.resize(width, height);
+        page.wait(&format!("innerWidth === {width}"));
+        let boxes = boxes();
+        assert_eq!(boxes.len(), 4);
+        assert!(boxes.iter().all(|b| b[0] >= least), "{boxes:?}");
+        assert_eq!(boxes[0][1] == boxes[3][1], width > 400, "{boxes:?}");
+    }
+    assert_eq!(
+        page.eval::<String>(&format!(
+            "getComputedStyle(document.querySelector(\"{}\")).imageRendering",
+            compared("canvas")
+        )),
+        "pixelated"
+    );
+    let brightest = || -> u8 {
+        page.eval(&format!(
+            "(c => Math.max(...c.getContext('2d').getImageData(0, 0, c.width, c.height).data.filter((_, i) => i % 4 < 3)))(document.querySelector(\"{}\"))",
+            compared("[data-mode=difference] canvas")
+        ))
+    };
+    // The largest difference of all methods is white; that of one code is as dark as it is small.
+    for (method, largest, code) in [
+        ("unsorted", 225, 255),
+        ("front-to-back", 1, 1),
+        ("sorted", 0, 0),
+    ] {
+        choose(&page, method);
+        let captions = page.texts(&compared("figcaption"));
+        assert_eq!(
+            captions[..3],
+            [
+                "truth".to_owned(),
+                method.to_owned(),
+                format!("difference, white = 225 of 255 codes; here at most {largest}"),
+            ]
+        );
+        assert!(
+            captions[3].starts_with("FLIP, white = 1; here 0."),
+            "{captions:?}"
+        );
+        assert_eq!(brightest(), code, "{method}");
+    }
+    // The method stays at another setting.
+    page.run(&format!("show(document.querySelector(\"{WINDOWS}\"), 3)"));
+    page.wait(&format!(
+        "document.querySelector(\"{}\")",
+        compared("figcaption")
+    ));
+    assert_eq!(page.texts(&compared("figcaption"))[1], "sorted");
 }
 
 fn pictures_are_enlarged_by_click_and_by_keys(chromium: &Chromium, path: &Path) {
     let page = with_pictures(chromium, path);
-    page.click(&format!(
-        "{} button[data-mode=picture]",
-        pictures_of("unsorted")
-    ));
+    page.click(&compared("[data-mode=picture]"));
     page.wait("document.querySelector('dialog').open");
     assert_eq!(
         page.text("#viewer-title"),
@@ -275,7 +350,10 @@ fn pictures_are_enlarged_by_click_and_by_keys(chromium: &Chromium, path: &Path) 
     assert!(values().starts_with(&values_at(2, 6)), "{}", values());
     page.press("3");
     assert_eq!(page.texts("dialog [aria-pressed=true]"), ["difference"]);
-    assert!(page.text("dialog .scale").contains("codes per channel"));
+    assert!(
+        page.text("dialog .scale")
+            .contains("225 of 255 codes per channel")
+    );
     page.press("4");
     assert!(page.text("dialog .scale").contains("67 pixels per degree"));
     // Texels are visible: a grid between them, at least eight times their size.
@@ -295,25 +373,14 @@ const AUTHORS_MEAN: f64 = 0.7392;
 
 fn the_pages_flip_is_that_of_its_authors_code(chromium: &Chromium, path: &Path) {
     let page = with_pictures(chromium, path);
-    let mean: f64 = page.eval(&format!(
-        "Number(document.querySelector(\"{}\").dataset.mapMean)",
-        pictures_of("unsorted")
-    ));
-    assert!((mean - AUTHORS_MEAN).abs() < 2e-3, "{mean}");
-    let same = pictures_of("sorted");
-    page.wait(&format!(
-        "document.querySelectorAll(\"{same} button\").length === 3"
-    ));
-    assert_eq!(
-        page.eval::<f64>(&format!(
-            "Number(document.querySelector(\"{same}\").dataset.mapMean)"
-        )),
-        0.0
-    );
-    assert_eq!(
-        page.text(&format!("{same} button[data-mode=difference]")),
-        "no difference"
-    );
+    let mean = || -> f64 {
+        let caption = page.text(&compared("figure:last-child figcaption"));
+        let words = caption.split(' ');
+        words.filter_map(|w| w.parse().ok()).next_back().unwrap()
+    };
+    assert!((mean() - AUTHORS_MEAN).abs() < 2e-3, "{}", mean());
+    choose(&page, "sorted");
+    assert_eq!(mean(), 0.0);
 }
 
 fn break_points_lead_to_the_pictures_beside_them(chromium: &Chromium, path: &Path) {
