@@ -5,7 +5,6 @@ use super::data::{
 };
 use super::name::{title, value_text};
 use super::pictures::PagePictures;
-use super::stability::CurveBreak;
 use super::{choice, claims, grid, scatter, stability};
 use crate::chart::{self, color, key, line_key};
 use crate::command::quoted;
@@ -72,7 +71,7 @@ fn sections(run: &Run, methods: &Methods<'_>, pictures: &mut PagePictures<'_>) -
         .collect();
     html! {
         (choice::section(methods, &shown))
-        (breaks(methods, &shown))
+        (grid::section(methods, &shown))
         @for (q, question) in methods.questions.iter().enumerate() {
             section id={ "q" (q) } {
                 h2 { (title(question.name)) }
@@ -155,77 +154,6 @@ fn profile(run: &Run) -> Markup {
     }
 }
 
-/// Returns a table of all break points. Curves that never cross the limit are listed with their charts.
-fn breaks(methods: &Methods<'_>, shown: &[ShownScene<'_, '_>]) -> Markup {
-    let found = |shown| {
-        stability::found(shown)
-            .into_iter()
-            .map(move |found| (shown, found))
-    };
-    let rows: Vec<Broken<'_, '_>> = shown.iter().flat_map(found).collect();
-    let curves = rows.len();
-    let (broken, steady): (Vec<_>, Vec<_>) = rows.into_iter().partition(|(_, f)| f.crosses());
-    let single = single_values(methods);
-    html! {
-        section id="breaks" {
-            h2 { "Break points" }
-            p {
-                "The parameter at which a method's RMSE crosses 1 % of full brightness, interpolated between the two values "
-                "beside it that were drawn."
-            }
-            (grid::picture(shown))
-            @if curves == 0 {
-                p.u { "Not measured: no method was drawn at two values of its parameter." }
-            } @else if broken.is_empty() { p { "No method crosses it." } }
-            @else {
-                div #break-rows { (broken_table().page(broken)) }
-            }
-            @if !steady.is_empty() {
-                p.note { (count(steady.len() as u64, "curve")) " along a parameter never cross it; they are listed beside their charts." }
-            }
-            @if curves > 0 && single > 0 {
-                p.note { "Not measured: " (count(single, "method")) " drawn at one value of a parameter only." }
-            }
-        }
-    }
-}
-
-/// A break and its scene.
-type Broken<'m, 'a> = (&'m ShownScene<'m, 'a>, CurveBreak<'a>);
-
-fn broken_table<'m, 'a>() -> Table<'m, Broken<'m, 'a>> {
-    Table::new("text")
-        .text("Scene", |(shown, _): &Broken<'m, 'a>| {
-            html! { a href={ "#" (shown.anchor) } { (shown.scene.question) "/" (shown.scene.name) } }
-        })
-        .text("Method", |(shown, found)| {
-            html! { (key(shown.style(found.method))) " " (found.series) }
-        })
-        .text("Break", |(_, found)| found.sentence.clone())
-        .text("Pictures", |(shown, found)| beside(shown, &found.between))
-        .text("Adapters", |(shown, found)| stability::who(shown.methods, found))
-}
-
-/// Returns the number of series with a parameter that were drawn at only one value.
-fn single_values(methods: &Methods<'_>) -> u64 {
-    let series = methods.scenes().flat_map(|s| &s.series);
-    series.filter(|s| s.values().len() == 1).count() as u64
-}
-
-/// Returns links to the pictures on both sides of crossings.
-fn beside(shown: &ShownScene<'_, '_>, between: &[[SceneSetting<'_>; 2]]) -> Markup {
-    html! {
-        @for (i, pair) in between.iter().enumerate() {
-            @if i > 0 { "; " }
-            @for (j, setting) in pair.iter().enumerate() {
-                @if j > 0 { " → " }
-                @let number = shown.settings.iter().position(|s| s == setting);
-                a href={ "#" (shown.anchor) } data-go=[number] { @if let Some((_, value)) = setting.parameter { (value_text(value)) } }
-            }
-        }
-    }
-}
-
 /// Returns how each method of a question works, and where and why it fails.
 fn explained(question: &Question<'_>) -> Markup {
     let lesson_of = |method: &&str| lessons(question.name).iter().find(|l| l.method == *method);
@@ -276,7 +204,6 @@ fn in_scene(run: &Run, pictures: &mut PagePictures<'_>, shown: &ShownScene<'_, '
                 div.charts { @for panel in &curves { (panel) } }
             }
             @for (i, setting) in shown.settings.iter().enumerate() { (unmeasured(shown, setting, i)) }
-            @if !curves.is_empty() { (stability::list(shown)) }
             (pictures.of(shown))
             p.cap {
                 @if truth > 0.0 { "The truth itself may be off by " (share(truth)) " in a channel. " }

@@ -1,7 +1,7 @@
 //! Stability: the error along a parameter, one curve per method, with break points.
 
 use super::breaks::{self, Break, LIMIT};
-use super::data::{MethodSeries, Methods, SceneSeries, SceneSetting, ShownScene};
+use super::data::{MethodSeries, Methods, SceneSeries, ShownScene};
 use super::name::value_text;
 use super::scatter::{ROUNDING, line_at};
 use crate::chart::{
@@ -12,26 +12,6 @@ use crate::lists::grouped;
 use crate::numbers::share;
 use maud::{Markup, html};
 use std::collections::BTreeSet;
-
-/// The break of one method's curve, and the adapters that share it.
-pub(super) struct CurveBreak<'a> {
-    pub(super) method: &'a str,
-    pub(super) series: String,
-    pub(super) adapters: Vec<&'a str>,
-    pub(super) found: Break,
-    pub(super) sentence: String,
-    /// The parameter with its ends: `alpha 0.1 to 0.9`.
-    range: String,
-    /// The settings on both sides of each crossing.
-    pub(super) between: Vec<[SceneSetting<'a>; 2]>,
-}
-
-impl CurveBreak<'_> {
-    /// True if the error crosses the limit within the parameter's range.
-    pub(super) fn crosses(&self) -> bool {
-        matches!(self.found, Break::Crossings(_))
-    }
-}
 
 /// Returns the parameters along which some method of the scene has a curve.
 fn parameters<'a>(scene: &SceneSeries<'a>) -> BTreeSet<&'a str> {
@@ -51,58 +31,14 @@ fn scale(series: &[&MethodSeries<'_>]) -> Scale {
     Scale::fitting(&values)
 }
 
-/// Returns every method's break in a scene, in order. Adapters with equal breaks are grouped.
-pub(super) fn found<'a>(shown: &ShownScene<'_, 'a>) -> Vec<CurveBreak<'a>> {
-    let (methods, scene) = (shown.methods, shown.scene);
-    let mut result: Vec<CurveBreak<'a>> = Vec::new();
-    for parameter in parameters(scene) {
-        let series_list = curves(scene, parameter);
-        let log = matches!(scale(&series_list), Scale::Log(..));
-        for series in series_list {
-            let first = result.len();
-            for (index, adapter) in methods.adapters.iter().enumerate() {
-                let curve = series.curve(index);
-                let (Some(start), Some(end)) = (curve.first(), curve.last()) else {
-                    continue;
-                };
-                let Some(found) = breaks::find(&curve, log) else {
-                    continue;
-                };
-                let range = format!(
-                    "{parameter} {} to {}",
-                    value_text(start.0),
-                    value_text(end.0)
-                );
-                let sentence = found.sentence(&series.name(), parameter, &range);
-                match result[first..].iter_mut().find(|f| f.sentence == sentence) {
-                    Some(same) => same.adapters.push(adapter.name),
-                    None => result.push(CurveBreak {
-                        between: between(series, &found),
-                        method: series.method,
-                        series: series.name(),
-                        adapters: vec![adapter.name],
-                        sentence,
-                        found,
-                        range,
-                    }),
-                }
-            }
-        }
-    }
-    result
-}
-
-/// Returns the settings on both sides of each crossing of a curve.
-fn between<'a>(series: &MethodSeries<'a>, found: &Break) -> Vec<[SceneSetting<'a>; 2]> {
-    let Break::Crossings(crossings) = found else {
-        return Vec::new();
-    };
-    let setting = |value: f64| SceneSetting {
-        variant: series.variant.clone(),
-        parameter: series.parameter.map(|name| (name, value)),
-    };
-    let pairs = crossings.iter().map(|c| c.between.map(setting));
-    pairs.collect()
+/// Returns the break of a curve on an adapter; `None` for fewer than two values.
+pub(super) fn break_of(
+    scene: &SceneSeries<'_>,
+    series: &MethodSeries<'_>,
+    adapter: usize,
+) -> Option<Break> {
+    let log = matches!(scale(&curves(scene, series.parameter?)), Scale::Log(..));
+    breaks::find(&series.curve(adapter), log)
 }
 
 /// Returns all charts of a scene; empty if no method has several values of a parameter.
@@ -121,61 +57,29 @@ pub(super) fn charts(shown: &ShownScene<'_, '_>) -> Vec<Markup> {
     panels
 }
 
-/// Lists the breaks of a scene: a sentence for each crossing, and one item for all series that stay on the same
-/// side.
-pub(super) fn list(shown: &ShownScene<'_, '_>) -> Markup {
-    let methods = shown.methods;
-    let (broken, steady): (Vec<_>, Vec<_>) = found(shown).into_iter().partition(|f| f.crosses());
-    let groups = grouped(steady.into_iter().map(|f| {
-        let side = if f.found == Break::Always {
-            "Always"
-        } else {
-            "Never"
-        };
-        let on = if f.adapters.len() == methods.adapters.len() {
-            String::new()
-        } else {
-            format!(" ({})", f.adapters.join(", "))
-        };
-        let head = format!("{side} beyond 1\u{a0}% RMSE, {}", f.range);
-        (head, f.series + &on)
-    }));
-    html! {
-        ul.breaks {
-            @for found in &broken {
-                li {
-                    (found.sentence)
-                    @if methods.adapters.len() > 1 { " " small { "(" (who(methods, found)) ")" } }
+/// Returns the crossings of all scenes for a terminal. Adapters with equal ones share a line.
+pub(super) fn lines(methods: &Methods<'_>) -> Vec<String> {
+    let mut found = Vec::new();
+    for scene in methods.scenes() {
+        for series in &scene.series {
+            for (index, adapter) in methods.adapters.iter().enumerate() {
+                if let Some(Break::Crossings(crossings)) = break_of(scene, series, index) {
+                    let parameter = series.parameter.unwrap_or_default();
+                    let sentence = breaks::sentence(&series.name(), parameter, &crossings);
+                    let line = format!("{}/{}: {sentence}", scene.question, scene.name);
+                    found.push((line, adapter.name));
                 }
             }
-            @for (head, names) in &groups { li { (head) ": " (names.join(", ")) } }
         }
     }
-}
-
-/// Returns the breaks of all scenes for a terminal.
-pub(super) fn lines(methods: &Methods<'_>, shown: &[ShownScene<'_, '_>]) -> Vec<String> {
-    let breaks = shown.iter().flat_map(|shown| {
-        let broken = found(shown).into_iter().filter(CurveBreak::crosses);
-        broken.map(move |found| (shown.scene, found))
-    });
-    let line = |(scene, found): (&SceneSeries<'_>, CurveBreak<'_>)| {
-        let on = who(methods, &found);
-        format!(
-            "{}/{}: {} ({on})",
-            scene.question, scene.name, found.sentence
-        )
+    let line = |(line, on): (String, Vec<&str>)| {
+        if on.len() == methods.adapters.len() {
+            format!("{line} (all adapters)")
+        } else {
+            format!("{line} ({})", on.join(", "))
+        }
     };
-    breaks.map(line).collect()
-}
-
-/// Returns the adapters that a break was found on.
-pub(super) fn who(methods: &Methods<'_>, found: &CurveBreak<'_>) -> String {
-    if found.adapters.len() == methods.adapters.len() {
-        "all adapters".to_owned()
-    } else {
-        found.adapters.join(", ")
-    }
+    grouped(found).into_iter().map(line).collect()
 }
 
 /// Groups adapters whose curves look the same in a chart.

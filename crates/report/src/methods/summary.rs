@@ -158,10 +158,7 @@ pub(crate) fn lines(methods: &Methods<'_>) -> String {
             "Methods: accuracy against time",
             choice::lines(methods, &shown),
         ),
-        (
-            "Break points, at 1 % RMSE",
-            stability::lines(methods, &shown),
-        ),
+        ("Break points, at 1 % RMSE", stability::lines(methods)),
         (
             "Scenes: the most accurate method, and the fastest within 1 % RMSE",
             scenes(methods),

@@ -12,7 +12,6 @@ use crate::chart::{
 use crate::methods::breaks::LIMIT;
 use crate::methods::data::{Methods, Question, ShownScene};
 use crate::methods::name::title;
-use crate::methods::stability;
 use crate::numbers::{between, count, round_duration, share};
 use etalon_methods::Order;
 use etalon_record::{Clock, Estimate};
@@ -146,16 +145,11 @@ pub(in crate::methods) fn tables(
     if points.points.is_empty() {
         return html! {};
     }
-    let breaks: Vec<_> = points
-        .scenes
-        .iter()
-        .map(|shown| stability::found(shown))
-        .collect();
     html! {
         @for (number, adapter) in methods.adapters.iter().enumerate() {
             div.off[number > 0] data-on=(number) {
                 p.cap { "Error, frame time and break point in each scene, at " (size.text()) " on " (adapter.name) ". A click on a heading sorts." }
-                (super::table::table(methods, &points, &breaks, number, size))
+                (super::table::table(&points, number, size))
             }
         }
     }

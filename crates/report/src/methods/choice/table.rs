@@ -3,26 +3,19 @@
 use super::{FrameSize, QuestionPoints, error, time};
 use crate::chart::key;
 use crate::methods::breaks::Break;
-use crate::methods::data::{Methods, SceneSetting, ShownScene};
+use crate::methods::data::{MethodSeries, SceneSetting, ShownScene};
 use crate::methods::name::title;
-use crate::methods::stability::CurveBreak;
+use crate::methods::stability;
 use crate::numbers::{round_duration, share};
 use crate::table::{Cell, Table};
 use maud::{Markup, html};
 
-/// Returns the table of a question on an adapter at a size; `breaks` are those of each scene.
-pub(super) fn table(
-    methods: &Methods<'_>,
-    points: &QuestionPoints<'_, '_>,
-    breaks: &[Vec<CurveBreak<'_>>],
-    adapter: usize,
-    size: FrameSize,
-) -> Markup {
-    let name = methods.adapters[adapter].name;
+/// Returns the table of a question on an adapter at a size.
+pub(super) fn table(points: &QuestionPoints<'_, '_>, adapter: usize, size: FrameSize) -> Markup {
     let mut table = Table::<&str>::new("numbers sortable").head("Method", |method| {
         html! { (key(points.question.style(method))) " " (method) }
     });
-    for (scene, (shown, breaks)) in points.scenes.iter().zip(breaks).enumerate() {
+    for (scene, shown) in points.scenes.iter().enumerate() {
         let heading = html! {
             a href={ "#" (shown.anchor) } { (title(shown.scene.name)) }
             @let setting = shown.settings.get(shown.main).map(SceneSetting::text).unwrap_or_default();
@@ -37,7 +30,7 @@ pub(super) fn table(
                 return Some(Cell::from("not at this size"));
             };
             let time = time(measured, size).map(|[_, time, _]| round_duration(time));
-            let broken = broken_at(breaks, method, name, shown);
+            let broken = broken_at(shown, method, adapter);
             let shown = html! {
                 (share(rmse))
                 @if let Some(time) = time { br; small { (time) } }
@@ -50,16 +43,15 @@ pub(super) fn table(
 }
 
 /// Returns the first value of the parameter at which a method's error crosses the limit, if it does.
-fn broken_at(
-    breaks: &[CurveBreak<'_>],
-    method: &str,
-    adapter: &str,
-    shown: &ShownScene<'_, '_>,
-) -> Option<String> {
-    let of_method = |b: &&CurveBreak<'_>| b.method == method && b.adapters.contains(&adapter);
-    let Break::Crossings(crossings) = &breaks.iter().find(of_method)?.found else {
-        return None;
+fn broken_at(shown: &ShownScene<'_, '_>, method: &str, adapter: usize) -> Option<String> {
+    let setting = shown.settings.get(shown.main)?;
+    let (parameter, _) = setting.parameter?;
+    let along = |s: &&MethodSeries<'_>| {
+        s.method == method && s.variant == setting.variant && s.parameter == Some(parameter)
     };
-    let (parameter, _) = shown.settings.get(shown.main)?.parameter?;
-    Some(format!("{parameter} {}", crossings.first()?.text()))
+    let series = shown.scene.series.iter().find(along)?;
+    match stability::break_of(shown.scene, series, adapter)? {
+        Break::Crossings(crossings) => Some(format!("{parameter} {}", crossings.first()?.text())),
+        Break::Never | Break::Always => None,
+    }
 }
