@@ -71,8 +71,8 @@ struct Candidate<'a> {
     error: Spread,
     /// True if no texel of any scene is off by more than two codes of 255.
     is_exact: bool,
-    /// The number of scenes.
-    scenes: usize,
+    /// The scenes by their indices in the question.
+    scenes: Vec<usize>,
 }
 
 /// A method in one scene on one adapter.
@@ -144,7 +144,8 @@ impl<'s, 'a> QuestionPoints<'s, 'a> {
         found.retain(|(_, p)| !p.is_empty() && 2 * p.len() >= most.unwrap_or(0));
         keep_common(&mut found);
         let candidate = |(method, points): (&'a str, BTreeMap<usize, (Spread, [f64; 2])>)| {
-            let points: Vec<(Spread, [f64; 2])> = points.into_values().collect();
+            let (scenes, points): (Vec<usize>, Vec<(Spread, [f64; 2])>) =
+                points.into_iter().unzip();
             let times = [0, 1, 2].map(|end| middle(points.iter().map(|(time, _)| time[end])));
             let errors = || points.iter().map(|(_, [rmse, _])| *rmse);
             Candidate {
@@ -157,7 +158,7 @@ impl<'s, 'a> QuestionPoints<'s, 'a> {
                     errors().fold(0.0, f64::max),
                 ],
                 is_exact: points.iter().all(|(_, [_, most])| *most <= EXACT),
-                scenes: points.len(),
+                scenes,
             }
         };
         found.into_iter().map(candidate).collect()

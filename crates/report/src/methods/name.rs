@@ -16,6 +16,11 @@ pub(super) fn anchor(question: usize, scene: usize) -> String {
     format!("s{question}-{scene}")
 }
 
+/// Returns the id of a method's row in the table of a question on an adapter.
+pub(super) fn row_anchor(question: usize, adapter: usize, method: usize) -> String {
+    format!("m{question}-{adapter}-{method}")
+}
+
 /// Returns a method's name for a sentence, where `none` alone would read as "nothing".
 pub(super) fn in_words(method: &str) -> &str {
     match method {

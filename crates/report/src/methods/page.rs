@@ -75,7 +75,7 @@ fn sections(run: &Run, methods: &Methods<'_>, pictures: &mut PagePictures<'_>) -
         @for (q, question) in methods.questions.iter().enumerate() {
             section id={ "q" (q) } {
                 h2 { (title(question.name)) }
-                (choice::tables(methods, question, &shown))
+                (choice::tables(methods, q, &shown))
                 (explained(question))
                 @for (shown, scene) in shown.iter().zip(&scenes) { @if std::ptr::eq(shown.question, question) { (scene) } }
             }

@@ -419,7 +419,7 @@ fn methods_get_a_page_of_charts() {
         "never among the others"
     );
     // Every record is in a table, and every scene has its command.
-    let rows = |html: &str| html.matches("<tr><th scope=\"row\">").count();
+    let rows = |html: &str| html.matches("<tr><th scope=\"row\"").count();
     let tables = page.split("<table class=\"numbers sortable\">").skip(1);
     let of_methods: usize = tables
         .map(|t| rows(t.split("</table>").next().unwrap()))

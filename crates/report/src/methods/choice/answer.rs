@@ -122,18 +122,18 @@ pub(super) fn sentence(candidates: &[Candidate<'_>], budget: MethodBudget, place
 /// Returns a method with its error and its time.
 fn figures(candidate: &Candidate<'_>) -> String {
     let [low, error, high] = candidate.error;
-    let range = if candidate.scenes > 1 && low < high {
+    let range = if candidate.scenes.len() > 1 && low < high {
         format!(
             " ({} over {} scenes)",
             between([low, high], share),
-            candidate.scenes
+            candidate.scenes.len()
         )
     } else {
         String::new()
     };
     let error = match error {
         0.0 => "no error".to_owned(),
-        error if candidate.scenes > 1 => format!("median error {}", share(error)),
+        error if candidate.scenes.len() > 1 => format!("median error {}", share(error)),
         error => format!("error {}", share(error)),
     };
     format!(
@@ -209,7 +209,7 @@ mod tests {
             time,
             error: [error; 3],
             is_exact: error < 0.001,
-            scenes: 1,
+            scenes: vec![0],
         }
     }
 
@@ -230,7 +230,7 @@ mod tests {
             at("rough", 0.0002, 0.2),
             Candidate {
                 error: [0.004, 0.018, 0.061],
-                scenes: 7,
+                scenes: (0..7).collect(),
                 ..at("weighted", 0.0003, 0.018)
             },
             at("slow", 0.02, 0.1),

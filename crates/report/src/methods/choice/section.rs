@@ -10,8 +10,8 @@ use crate::chart::{
     zero_band,
 };
 use crate::methods::breaks::LIMIT;
-use crate::methods::data::{Methods, Question, ShownScene};
-use crate::methods::name::title;
+use crate::methods::data::{Methods, ShownScene};
+use crate::methods::name::{row_anchor, title};
 use crate::numbers::{between, count, round_duration, share};
 use etalon_methods::Order;
 use etalon_record::{Clock, Estimate};
@@ -53,7 +53,7 @@ pub(in crate::methods) fn section(methods: &Methods<'_>, shown: &[ShownScene<'_,
                 "Each mark is a method: its median over the scenes of the question. The thin upright line is the range of its error over "
                 "scenes, the bar the interval of its time. After the name: "
                 b { "⇅" } " the method sorts what it draws, " b { "!" } " its picture depends on the order of draws. Faint marks are beyond the budget. "
-                "Dotted: an error of 1 %. A click on a mark leads to its scenes."
+                "Dotted: an error of 1 %. A click on a mark leads to its scene or, if it stands for several, to its row in the table."
             }
         }
     }
@@ -133,15 +133,15 @@ fn caveat(methods: &Methods<'_>, sizes: &[FrameSize]) -> String {
     )
 }
 
-/// Returns the table of a question's methods and scenes, on the adapter and at the size with which the page begins.
+/// Returns the tables of a question's methods and scenes, one per adapter, at the size with which the page begins.
 pub(in crate::methods) fn tables(
     methods: &Methods<'_>,
-    question: &Question<'_>,
+    question: usize,
     shown: &[ShownScene<'_, '_>],
 ) -> Markup {
     let sizes = sizes(methods);
     let size = sizes[default_size(&sizes)];
-    let points = QuestionPoints::new(question, shown);
+    let points = QuestionPoints::new(&methods.questions[question], shown);
     if points.points.is_empty() {
         return html! {};
     }
@@ -149,7 +149,7 @@ pub(in crate::methods) fn tables(
         @for (number, adapter) in methods.adapters.iter().enumerate() {
             div.off[number > 0] data-on=(number) {
                 p.cap { "Error, frame time and break point in each scene, at " (size.text()) " on " (adapter.name) ". A click on a heading sorts." }
-                (super::table::table(&points, number, size))
+                (super::table::table(question, &points, number, size))
             }
         }
     }
@@ -205,7 +205,8 @@ fn card(
     let names = points.question.methods.iter();
     let names = names.map(|m| json!([m, etalon_methods::order(points.question.name, m).map(sign)]));
     html! {
-        article.card data-methods=(Value::from_iter(names)) data-points=(Value::from_iter(points.points.iter().map(|p| data(p, sizes)))) {
+        article.card data-methods=(Value::from_iter(names)) data-scenes=(Value::from_iter(points.scenes.iter().map(|s| &*s.anchor)))
+            data-points=(Value::from_iter(points.points.iter().map(|p| data(p, sizes)))) {
             h3 { a href={ "#q" (number) } { (title(points.question.name)) } }
             p.answer { (sentence(&candidates, budget, &place)) }
             @if let Some(plot) = &plot {
@@ -214,7 +215,7 @@ fn card(
                         (plot.frame(round_duration, share, "frame time →", "RMSE, share of full brightness →"))
                         (level(plot))
                         g.limits {}
-                        g.marks { (marks(points, plot, &candidates, number)) }
+                        g.marks { (marks(points, plot, &candidates, [number, beginning.adapter])) }
                     }))
                 }
             }
@@ -304,12 +305,13 @@ fn level(plot: &Plot) -> Markup {
     html! { path.level.one d={ "M" (n(LEFT)) " " (n(y)) "H" (n(RIGHT)) } {} }
 }
 
-/// Returns the marks of the methods with their names.
+/// Returns the marks of the methods with their names; each leads to its scene or, over several scenes, to its row in the
+/// table.
 fn marks(
     points: &QuestionPoints<'_, '_>,
     plot: &Plot,
     candidates: &[Candidate<'_>],
-    question: usize,
+    [question, adapter]: [usize; 2],
 ) -> Markup {
     let place = |c: &Candidate<'_>| (plot.x(c.time[1]), plot.y(c.error[1]));
     let mut labels = LabelPlaces::new(candidates.iter().map(place));
@@ -319,7 +321,12 @@ fn marks(
             @let (x, y) = place(c);
             @let about = format!("{}: {} ({}), {} ({})", c.method, share(c.error[1]), between([c.error[0], c.error[2]], share),
                 round_duration(c.time[1]), between([c.time[0], c.time[2]], round_duration));
-            a class={ "of " (color(style)) } href={ "#q" (question) } {
+            @let row = points.question.methods.iter().position(|m| *m == c.method);
+            @let target = match c.scenes[..] {
+                [only] => points.scenes[only].anchor.clone(),
+                _ => row_anchor(question, adapter, row.unwrap_or(0)),
+            };
+            a class={ "of " (color(style)) } href={ "#" (target) } {
                 path.spread d={ "M" (n(x)) " " (n(plot.y(c.error[0]))) "V" (n(plot.y(c.error[2]))) } {}
                 path.spread.wide d={ "M" (n(plot.x(c.time[0]))) " " (n(y)) "H" (n(plot.x(c.time[2]))) } {}
                 (marker(style, (x, y), false, &about))

@@ -4,16 +4,23 @@ use super::{FrameSize, QuestionPoints, error, time};
 use crate::chart::key;
 use crate::methods::breaks::Break;
 use crate::methods::data::{MethodSeries, SceneSetting, ShownScene};
-use crate::methods::name::title;
+use crate::methods::name::{row_anchor, title};
 use crate::methods::stability;
 use crate::numbers::{round_duration, share};
 use crate::table::{Cell, Table};
 use maud::{Markup, html};
 
-/// Returns the table of a question on an adapter at a size.
-pub(super) fn table(points: &QuestionPoints<'_, '_>, adapter: usize, size: FrameSize) -> Markup {
+/// Returns the table of a question, by its number, on an adapter at a size.
+pub(super) fn table(
+    number: usize,
+    points: &QuestionPoints<'_, '_>,
+    adapter: usize,
+    size: FrameSize,
+) -> Markup {
     let mut table = Table::<&str>::new("numbers sortable").head("Method", |method| {
-        html! { (key(points.question.style(method))) " " (method) }
+        let place = points.question.methods.iter().position(|m| m == method);
+        Cell::from(html! { (key(points.question.style(method))) " " (method) })
+            .with("id", place.map(|place| row_anchor(number, adapter, place)))
     });
     for (scene, shown) in points.scenes.iter().enumerate() {
         let heading = html! {

@@ -103,14 +103,16 @@ function answer(all, most, limit, place) {
 const drawn = (name, attributes, ...children) =>
   filled(document.createElementNS(document.querySelector("svg").namespaceURI, name), attributes, children);
 
-// Draws the marks of a card's methods and the limits of the budget.
-function plotMarks(card, all, most, limit) {
+// Draws the marks of a card's methods on an adapter, and the limits of the budget.
+function plotMarks(card, adapter, all, most, limit) {
   const plotted = card.querySelector(".plotted");
   if (!plotted) return;
   const [[x0, x1], left, right] = JSON.parse(plotted.dataset.x), [[y0, y1], top, bottom, zero] = JSON.parse(plotted.dataset.y);
   const part = (value, low, high) => Math.min(1, Math.max(0, (Math.log10(value) - low) / (high - low)));
   const x = time => left + part(time, x0, x1) * (right - left);
   const y = error => zero > 0 && error <= 0 ? bottom - zero / 2 : bottom - zero - part(error, y0, y1) * (bottom - zero - top);
+  const scenes = JSON.parse(card.dataset.scenes), question = card.querySelector("h3 a").hash.slice(2);
+  const target = one => one.scenes.length === 1 ? scenes[one.scenes[0]] : `m${question}-${adapter}-${one.key}`;
   const keys = card.querySelectorAll(".legend .key path"), taken = all.map(one => box(x(one.time[1]) - 5, y(one.error[1]) + 5, 10, 10));
   const marks = all.map(one => {
     const [at, up] = [x(one.time[1]), y(one.error[1])], name = one.name + (one.order ?? "");
@@ -118,7 +120,7 @@ function plotMarks(card, all, most, limit) {
     mark.setAttribute("transform", `translate(${at} ${up})`);
     mark.append(drawn("title", {}, `${one.name}: ${percent(one.error[1])} (${percent(one.error[0])} to ${percent(one.error[2])}), ` +
       `${seconds(one.time[1])} (${seconds(one.time[0])} to ${seconds(one.time[2])})`));
-    const group = drawn("a", { class: mark.getAttribute("class").replace("mark", "of"), href: card.querySelector("h3 a").getAttribute("href") },
+    const group = drawn("a", { class: mark.getAttribute("class").replace("mark", "of"), href: "#" + target(one) },
       drawn("path", { class: "spread", d: `M${at} ${y(one.error[0])}V${y(one.error[2])}` }),
       drawn("path", { class: "spread wide", d: `M${x(one.time[0])} ${up}H${x(one.time[2])}` }), mark);
     group.classList.toggle("beyond", one.time[1] > most || one.error[1] > limit);
@@ -160,7 +162,7 @@ function weigh() {
   for (const card of document.querySelectorAll(".card")) {
     const all = candidates(card, on, frame);
     card.querySelector(".answer").textContent = answer(all, most, limit, place);
-    plotMarks(card, all, most, limit);
+    plotMarks(card, on, all, most, limit);
     const missing = JSON.parse(card.dataset.methods).map(([name]) => name).filter(name => !all.some(one => one.name === name));
     card.querySelector(".untimed").textContent = missing.length ? `Not timed here: ${missing.join(", ")}.` : "";
   }

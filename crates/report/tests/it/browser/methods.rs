@@ -14,8 +14,9 @@ macro_rules! checks {
 }
 
 /// Every check, with its name.
-pub(super) const CHECKS: [(&str, Check); 11] = checks![
+pub(super) const CHECKS: [(&str, Check); 12] = checks![
     a_sentence_keeps_the_budget,
+    a_mark_leads_to_its_scene_or_to_its_row,
     a_legend_highlights_its_method,
     a_slider_swaps_pictures_and_moves_the_mark,
     pictures_stand_side_by_side_on_one_scale,
@@ -104,13 +105,8 @@ fn a_sentence_keeps_the_budget(chromium: &Chromium, path: &Path) {
         |what: &str| -> u64 { page.eval(&format!("document.querySelectorAll(\"{what}\").length")) };
     let marks = count(".card .marks .mark");
     assert!(marks > 4, "{marks}");
-    let set = |id: &str, value: &str| {
-        page.run(&format!(
-            "$('{id}').value = {value}; $('{id}').dispatchEvent(new Event('input', {{ bubbles: true }}))"
-        ));
-    };
     // No method draws in so short a time.
-    set("most-time", "0");
+    set(&page, "most-time", "0");
     assert_eq!(page.text("#budget output[for=most-time]"), "100 µs");
     assert!(
         answers()
@@ -120,8 +116,8 @@ fn a_sentence_keeps_the_budget(chromium: &Chromium, path: &Path) {
         answers()
     );
     assert!(count(".card .of.beyond") > 0);
-    set("most-time", "$('most-time').max");
-    set("most-error", "0");
+    set(&page, "most-time", "$('most-time').max");
+    set(&page, "most-error", "0");
     assert_eq!(page.text("#budget output[for=most-error]"), "0");
     assert!(
         answers()
@@ -129,11 +125,50 @@ fn a_sentence_keeps_the_budget(chromium: &Chromium, path: &Path) {
             .all(|text| text.starts_with("Within 0 at "))
     );
     // Another adapter has its own marks.
-    set("most-error", "$('most-error').max");
+    set(&page, "most-error", "$('most-error').max");
     let before = answers();
-    set("on", "1");
+    set(&page, "on", "1");
     assert!(answers().iter().all(|text| text.starts_with("At ")));
     assert_ne!(answers(), before);
+}
+
+/// Chooses the stop or option of a control, as a reader does.
+fn set(page: &Page<'_>, id: &str, value: &str) {
+    page.run(&format!(
+        "$('{id}').value = {value}; for (const kind of ['input', 'change']) $('{id}').dispatchEvent(new Event(kind, {{ bubbles: true }}))"
+    ));
+}
+
+fn a_mark_leads_to_its_scene_or_to_its_row(chromium: &Chromium, path: &Path) {
+    let page = chromium.open(path, "");
+    let target =
+        || -> String { page.eval("document.querySelector(':target')?.textContent.trim() ?? ''") };
+    let in_view = "(r => r.top > -1 && r.top < innerHeight)(document.querySelector(':target').getBoundingClientRect())";
+    let focus = "document.querySelector('.card .marks a').focus()";
+    // The page and its script lead to the same places.
+    let written = std::fs::read_to_string(path).unwrap();
+    let marks = written.split("<g class=\"marks\">").skip(1);
+    let links = marks.flat_map(|m| m.split("</g>").next().unwrap().split("href=\"").skip(1));
+    let links: Vec<&str> = links.map(|l| l.split('"').next().unwrap()).collect();
+    assert_eq!(
+        page.eval::<Vec<String>>(
+            "[...document.querySelectorAll('.marks a')].map(a => a.getAttribute('href'))"
+        ),
+        links
+    );
+    // On the first adapter only one scene counts.
+    page.run(focus);
+    page.press("Enter");
+    page.wait("document.querySelector(':target')");
+    assert!(target().starts_with("Windows"), "{}", target());
+    page.wait(in_view);
+    // On the second one, a mark is the median of two scenes.
+    set(&page, "on", "1");
+    page.run("scrollTo(0, 0)");
+    page.click(".card .marks a .mark");
+    page.wait("document.querySelector('th:target')");
+    assert_eq!(target(), "alpha-test");
+    page.wait(in_view);
 }
 
 fn opacity(page: &Page<'_>, class: &str) -> String {
@@ -421,7 +456,7 @@ fn break_points_are_those_of_the_chosen_device(chromium: &Chromium, path: &Path)
     let [text, strip] = weighted();
     assert!(text.starts_with("above from 0.5"), "{text}");
     assert_eq!(strip, "0");
-    page.run("$('on').value = 3; $('on').dispatchEvent(new Event('input', { bubbles: true }))");
+    set(&page, "on", "3");
     assert_eq!(weighted(), ["never above 1 %", "3"]);
     assert_eq!(
         page.eval::<String>("document.querySelector('#breaks .cap:not(.off)').textContent"),
