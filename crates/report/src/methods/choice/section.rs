@@ -81,7 +81,7 @@ fn form(methods: &Methods<'_>, sizes: &[FrameSize], beginning: &Beginning) -> Ma
                 }
                 @if sizes.len() > 1 { option value="computed" { "another size" } }
             } }
-            label.computed hidden { output for="texels" {} " " input id="texels" type="range" min="0" max="100" value="50"; }
+            label.computed for="texels" hidden { output for="texels" {} " " input id="texels" type="range" min="0" max="100" value="50"; }
             (limit("most-time", "Frame time at most"))
             (limit("most-error", "Error at most"))
         }

@@ -3,6 +3,10 @@
 const TIMES = [1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 4e-3, 8e-3, 2e-2, 5e-2, 1e-1, 2e-1, 5e-1, Infinity];
 const ERRORS = [0, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 1e-1, Infinity];
 const ROUNDING = 1 / (255 * Math.sqrt(12)), EXACT = 2 / 255 + 1e-9;
+// The numbers of texels of timed frames, and those of computed ones: from half the least to twice the largest.
+const KNOWN = JSON.parse($("overview")?.dataset.sizes ?? "[]").slice(1).map(([width, height]) => width * height);
+const TEXELS = Array.from({ length: 101 }, (_, i) => Math.min(...KNOWN) / 2 * (4 * Math.max(...KNOWN) / Math.min(...KNOWN)) ** (i / 100));
+const bounded = (value, text) => value === Infinity ? "any" : text(value);
 const worstAlike = error => Math.max(error * 1.05, ROUNDING);
 
 // Numbers as text, as `numbers.rs` writes them.
@@ -21,6 +25,8 @@ function seconds(value) {
   const [factor, unit] = value === 0 ? [1, "s"] : value < 1e-6 ? [1e9, "ns"] : value < 1e-3 ? [1e6, "µs"] : value < 1 ? [1e3, "ms"] : [1, "s"];
   return digits(value * factor) + " " + unit;
 }
+
+const megapixels = texels => digits(texels / 1e6) + " megapixels";
 
 function median(values) {
   const sorted = [...values].sort((a, b) => a - b), middle = (sorted.length - 1) / 2;
@@ -143,19 +149,17 @@ const box = (left, bottom, width, height) => [left, bottom - height, left + widt
 const meet = (a, b) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
 
 function weigh() {
-  const sizes = JSON.parse($("overview").dataset.sizes), on = Number($("on").value);
+  const on = Number($("on").value);
   const [most, limit] = [[TIMES, "most-time"], [ERRORS, "most-error"]].map(([stops, id]) => stops[Number($(id).value)]);
   const outputs = [["most-time", most, seconds], ["most-error", limit, percent]];
-  for (const [id, value, text] of outputs) $(id).labels[0].querySelector("output").textContent = value === Infinity ? "any" : text(value);
-  const computed = $("frame").value === "computed", texelsOf = sides => sides[0] * sides[1];
+  for (const [id, value, text] of outputs) $(id).labels[0].querySelector("output").textContent = bounded(value, text);
+  const computed = $("frame").value === "computed";
   $("texels").closest("label").hidden = !computed;
   let frame = { index: Number($("frame").value) }, size = $("frame").selectedOptions[0].textContent;
   if (computed) {
-    const known = sizes.slice(1).map(texelsOf), [low, high] = [Math.min(...known) / 2, Math.max(...known) * 2];
-    const texels = low * (high / low) ** (Number($("texels").value) / 100);
-    const away = i => Math.abs(Math.log(known[i] / texels));
-    frame = { texels, nearest: 1 + known.map((_, i) => i).reduce((best, i) => away(i) < away(best) ? i : best, 0) };
-    size = digits(texels / 1e6) + " megapixels";
+    const texels = TEXELS[Number($("texels").value)], away = i => Math.abs(Math.log(KNOWN[i] / texels));
+    frame = { texels, nearest: 1 + KNOWN.map((_, i) => i).reduce((best, i) => away(i) < away(best) ? i : best, 0) };
+    size = megapixels(texels);
     $("texels").labels[0].querySelector("output").textContent = size;
   }
   const place = `${size} on ${$("on").selectedOptions[0].textContent}`;
@@ -169,6 +173,50 @@ function weigh() {
   for (const part of document.querySelectorAll("[data-on]")) part.classList.toggle("off", Number(part.dataset.on) !== on);
 }
 
+// The choice as the address has it, `#device=cpu&size=1280x720&time=2ms&error=any`: each name with its controls, and
+// the text of each of their settings.
+function settings() {
+  const options = id => [...$(id).options];
+  const plain = text => text.replace(/[\u00a0 ]/g, "").replace("×", "x").replace("µ", "u").replace("%", "pct").replace("megapixels", "MP");
+  const stops = (values, text) => values.map((value, i) => [plain(bounded(value, text)), i]);
+  const sizes = ({ value, textContent }) => value === "computed"
+    ? stops(TEXELS, megapixels).map(([text, i]) => [text, value, i])
+    : [[value === "0" ? "pictures" : plain(textContent), value]];
+  return [
+    ["device", ["on"], options("on").map(one => [one.textContent, one.value])],
+    ["size", ["frame", "texels"], options("frame").flatMap(sizes)],
+    ["time", ["most-time"], stops(TIMES, seconds)],
+    ["error", ["most-error"], stops(ERRORS, percent)],
+  ];
+}
+
+// Puts the choice into the address, and the id of the element to which a link led. Other parameters stay.
+let isKept = false;
+function keep(id) {
+  const parts = parameters();
+  parts.delete("at");
+  for (const [name, ids, all] of settings()) {
+    parts.set(name, all.find(([, ...values]) => values.every((value, i) => $(ids[i]).value === String(value)))[0]);
+  }
+  if (id) parts.set("at", id);
+  history.replaceState(null, "", "#" + [...parts].map(([name, text]) => `${encoded(name)}=${encoded(text)}`).join("&"));
+  isKept = true;
+}
+
+// Takes from the address what it names of the choice. A link within the page leaves the choice in the address.
+function follow() {
+  if (!$("budget")) return;
+  const named = parameters(), id = location.hash.slice(1);
+  for (const [name, ids, all] of settings()) {
+    const [, ...values] = all.find(([text]) => text === named.get(name)) ?? [];
+    values.forEach((value, i) => { $(ids[i]).value = value; });
+    isKept ||= values.length > 0;
+  }
+  weigh();
+  if (named.has("at")) $(named.get("at"))?.scrollIntoView();
+  else if (isKept && $(id)) keep(id);
+}
+
 if ($("budget")) {
   $("budget").hidden = false;
   const begin = Number($("budget").dataset.time);
@@ -177,8 +225,11 @@ if ($("budget")) {
     $(id).value = start;
   }
   $("budget").addEventListener("input", weigh);
+  $("budget").addEventListener("change", () => keep());
   $("budget").addEventListener("submit", event => event.preventDefault());
-  weigh();
+  // A page that shows its charts anew replaces the listener.
+  window.onhashchange = follow;
+  follow();
 }
 
 // A click on the head of a column sorts the rows by it, a second one the other way round.

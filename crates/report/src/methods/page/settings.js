@@ -23,6 +23,7 @@ for (const link of document.querySelectorAll("a[data-go]")) {
     if (pictures) {
       event.preventDefault();
       history.pushState(null, "", link.hash);
+      follow();
       pictures.scrollIntoView({ block: "center" });
       pictures.setAttribute("tabindex", "-1");
       pictures.focus({ preventScroll: true });

@@ -14,8 +14,10 @@ macro_rules! checks {
 }
 
 /// Every check, with its name.
-pub(super) const CHECKS: [(&str, Check); 12] = checks![
+pub(super) const CHECKS: [(&str, Check); 14] = checks![
     a_sentence_keeps_the_budget,
+    the_choice_is_kept_in_the_address,
+    a_damaged_address_changes_nothing,
     a_mark_leads_to_its_scene_or_to_its_row,
     a_legend_highlights_its_method,
     a_slider_swaps_pictures_and_moves_the_mark,
@@ -137,6 +139,76 @@ fn set(page: &Page<'_>, id: &str, value: &str) {
     page.run(&format!(
         "$('{id}').value = {value}; for (const kind of ['input', 'change']) $('{id}').dispatchEvent(new Event(kind, {{ bubbles: true }}))"
     ));
+}
+
+/// Returns the texts of device, size and limits.
+fn choice(page: &Page<'_>) -> Vec<String> {
+    page.eval(
+        "[...['on', 'frame'].map(id => $(id).selectedOptions[0].textContent), ...[...document.querySelectorAll('#budget output')].map(o => o.textContent)]",
+    )
+}
+
+fn hash(page: &Page<'_>) -> String {
+    page.eval("location.hash")
+}
+
+fn the_choice_is_kept_in_the_address(chromium: &Chromium, path: &Path) {
+    let page = chromium.open(path, "");
+    assert_eq!(hash(&page), "", "nothing is chosen yet");
+    let entries = || -> u64 { page.eval("history.length") };
+    let before = entries();
+    for (id, stop) in [("on", 1), ("most-time", 4), ("most-error", 3)] {
+        set(&page, id, &stop.to_string());
+    }
+    let measured = "#device=vulkan:lavapipe&size=1280x720&time=2ms&error=0.2pct";
+    assert_eq!(hash(&page), measured);
+    assert_eq!(entries(), before, "Back leaves the page");
+    set(&page, "frame", "'computed'");
+    set(&page, "texels", "70");
+    let [first, second] = [measured, &hash(&page)].map(|hash| {
+        let again = chromium.open(path, hash);
+        let choice = choice(&again);
+        assert_eq!(choice[..1], ["vulkan:lavapipe"]);
+        assert_eq!(choice[3..], ["2 ms", "0.2\u{a0}%"]);
+        choice
+    });
+    assert_eq!(first[1], "1280×720");
+    assert_eq!(second, choice(&page));
+    assert!(hash(&page).contains("&size=1.22MP&"), "{}", hash(&page));
+    // A link within the page adds its target.
+    page.click("nav a[href='#claims']");
+    page.wait("location.hash.endsWith('&error=0.2pct&at=claims')");
+    let again = chromium.open(path, &hash(&page));
+    let in_view = "(r => r.top < innerHeight && r.bottom > 0)($('claims').getBoundingClientRect())";
+    again.wait(in_view);
+    // The page that measures in a browser has parameters of its own, and no charts while it draws.
+    let other = chromium.open(path, "#methods=transparency");
+    set(&other, "most-time", "4");
+    assert!(hash(&other).starts_with("#methods=transparency&device=cpu&"));
+    other.run("{ $('budget').remove(); follow(); }");
+    // A link that names no choice.
+    let linked = chromium.open(path, "#claims");
+    linked.wait(in_view);
+    assert_eq!(hash(&linked), "#claims");
+    linked.run("location.hash = '#time=any'");
+    linked.wait("document.querySelector('#budget output[for=most-time]').textContent === 'any'");
+}
+
+fn a_damaged_address_changes_nothing(chromium: &Chromium, path: &Path) {
+    let untouched = choice(&chromium.open(path, ""));
+    for damaged in [
+        "#device=nothing&size=0x0&time=-1ms&error=NaN&at=nowhere",
+        "#device=%E0%A4%A&size=%&time&=error&&at=",
+        "#size=1e999MP&size=computed&device=0&device=constructor",
+    ] {
+        let page = chromium.open(path, damaged);
+        assert_eq!(choice(&page), untouched, "{damaged}");
+        // An error would end the script, and be one of this call too.
+        page.run("follow()");
+        page.click("table.sortable thead th");
+        page.wait("document.querySelector('th[aria-sort]')");
+        assert_eq!(hash(&page), damaged);
+    }
 }
 
 fn a_mark_leads_to_its_scene_or_to_its_row(chromium: &Chromium, path: &Path) {
