@@ -123,7 +123,7 @@ fn broken(row: &Row<'_, '_>, adapter: usize) -> Markup {
             Some(Break::Always) => "always above 1 %",
             Some(Break::Crossings(crossings)) => @for (i, c) in crossings.iter().enumerate() {
                 @if i > 0 { "; " }
-                @if c.leaves { "above from " } @else { "within from " }
+                @if c.leaves { "above from " } @else { "below from " }
                 b { (c.text()) } " (" (link(c.between[0])) " → " (link(c.between[1])) ")"
             },
         }
