@@ -202,6 +202,11 @@ impl CaseFile {
         file
     }
 
+    /// Returns true if its scenes are random.
+    pub fn is_random(&self) -> bool {
+        matches!(self.source, SceneSource::Random(_))
+    }
+
     /// Returns true if the cases draw by methods.
     pub(crate) fn is_method(&self) -> bool {
         matches!(self.source, SceneSource::Method(_))

@@ -7,6 +7,7 @@
 
 pub(crate) mod edges;
 mod idle;
+pub(crate) mod pairs;
 
 use crate::processors::processors;
 use edges::{Near, nearest};

@@ -14,6 +14,7 @@
 mod choices;
 mod document;
 mod edit;
+mod facts;
 mod fuzz;
 mod pairs;
 mod passes;
@@ -22,6 +23,7 @@ mod scenes;
 mod space;
 
 pub use document::{keys, leaves, states};
+pub use facts::{DrawFact, FactKind, FactPairs, Facts};
 pub use fuzz::{Fuzzer, RandomScene};
 pub use reduce::{Candidate, MOST_DRAWS, Oracle, Reduction, ReductionLimits, reduce};
 pub use space::Space;

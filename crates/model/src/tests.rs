@@ -162,7 +162,7 @@ fn triangles_are_cut_where_a_texture_changes() {
     };
     let shown = |code: f64| displayed(linear(code / 255.0) * 0.9) * 0.92;
     let [light, dark] = [230.0, 150.0].map(|code| near(shown(code)));
-    // Each of 288 triangles has two pieces of each, less those that the camera does not see.
+    // Each of 288 triangles has two pieces of each, less what the camera does not see.
     assert!(
         light > 200 && dark > 200,
         "{light} light, {dark} dark, {:?}",

@@ -1,10 +1,11 @@
 //! `etalon check`.
 
 use crate::cases::library;
+use crate::check::pairs::{self, ToldPairs};
 use crate::check::{CheckedCase, CheckedFile, check};
 use crate::failure::{Failure, UNEXPECTED, USAGE};
 use crate::flags::{CaseProfile, OutputFormat};
-use crate::output::{print, print_json};
+use crate::output::{print, print_json, say};
 use clap::Args;
 use etalon_case::{CaseError, CaseFile, Library};
 use serde_json::{Value, json};
@@ -19,6 +20,10 @@ pub(crate) struct Arguments {
     /// Share of each family of cases to judge; all cases are built
     #[arg(long, value_enum, default_value = "quick")]
     pub(crate) profile: CaseProfile,
+    /// Count instead the pairs of facts that meet in draws, such as depth bias and several samples: pairs with a scene,
+    /// pairs that cannot meet (cases/pairs.txt), and pairs that no scene has. Random scenes do not count
+    #[arg(long)]
+    pub(crate) pairs: bool,
     /// Output format
     #[arg(long, value_enum, default_value = "text")]
     pub(crate) format: OutputFormat,
@@ -47,6 +52,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     if files.is_empty() && broken.is_empty() {
         return Err(Failure::nothing("there are no case files"));
     }
+    if arguments.pairs {
+        return told_pairs(&files, &broken, arguments);
+    }
     let checked = check(&files, arguments.profile.into());
     let report = ToldCheck {
         broken: &broken,
@@ -63,6 +71,23 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         (0, 1..) => UNEXPECTED,
         (0, 0) => 0,
     })
+}
+
+/// Prints the pairs of facts that meet in the cases.
+fn told_pairs(
+    files: &[CaseFile],
+    broken: &[CaseError],
+    arguments: &Arguments,
+) -> Result<u8, Failure> {
+    let pairs = ToldPairs::new(&pairs::count(files, arguments.profile.into()));
+    for error in broken {
+        say!("error: {error}");
+    }
+    match arguments.format {
+        OutputFormat::Text => print(&pairs.text())?,
+        OutputFormat::Json => print_json(&pairs.json())?,
+    }
+    Ok(if broken.is_empty() { 0 } else { USAGE })
 }
 
 /// Reads one case file. Its ids follow from its path below a folder named `cases`, or from its name alone.

@@ -1,0 +1,494 @@
+//! The facts of a draw: its states that are not the defaults, those of its pass, and how its scene is drawn.
+//!
+//! Drivers break where two facts meet, so the suite counts in how many scenes each pair of them does.
+
+use etalon_frame::{ChannelEncoding, PathValue, TextureFormat};
+use etalon_scene::{
+    Attachment, BlendFactor, BlendState, CullMode, Draw, EarlyTests, Fetch, FilterMode, FrontFace,
+    LoadOperation, Pass, PolygonMode, PrimitiveTopology, Scene, Shader, StoreOperation, Viewport,
+};
+use std::collections::{BTreeSet, HashMap};
+
+/// A draw with what surrounds it.
+#[derive(Clone, Copy)]
+struct DrawPlace<'a> {
+    scene: &'a Scene,
+    pass: &'a Pass,
+    draw: &'a Draw,
+}
+
+/// What a fact is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum FactKind {
+    /// A state of the draw or of its pass.
+    State,
+    /// The number of samples.
+    Samples,
+    /// The class of a format.
+    Format,
+    /// The topology.
+    Topology,
+    /// A value of the path.
+    Path,
+}
+
+impl FactKind {
+    /// Returns the name for people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::State => "state",
+            Self::Samples => "samples",
+            Self::Format => "format",
+            Self::Topology => "topology",
+            Self::Path => "path",
+        }
+    }
+}
+
+/// A fact that a draw can have.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DrawFact {
+    /// What it is about.
+    pub kind: FactKind,
+    /// Its name: `depth-clamp`, `samples=4`, `color=half-float`, `topology=line-list`, `path.end=blit`.
+    pub name: String,
+}
+
+/// Decides whether a draw has a state.
+#[derive(Clone, Copy)]
+enum StateOf {
+    /// The shader has it.
+    Shader(fn(Shader) -> bool),
+    /// The draw has it, with a shader that can have it.
+    Both(fn(Shader) -> bool, fn(&DrawPlace<'_>) -> bool),
+    /// The draw or its pass has it.
+    Draw(fn(&DrawPlace<'_>) -> bool),
+}
+use StateOf::{Both as OfBoth, Draw as OfDraw, Shader as OfShader};
+
+/// The states that are not the defaults.
+const STATES: [(&str, StateOf); 58] = [
+    ("depth-test", OfDraw(|p| p.draw.depth.is_some())),
+    (
+        "depth-write",
+        OfDraw(|p| p.draw.depth.is_some_and(|d| d.write)),
+    ),
+    ("depth-clamp", OfDraw(|p| p.draw.depth_clamp)),
+    (
+        "depth-bias",
+        OfDraw(|p| p.draw.depth_bias.constant != 0 || p.draw.depth_bias.slope != 0.0),
+    ),
+    (
+        "depth-bias-clamp",
+        OfDraw(|p| p.draw.depth_bias.clamp != 0.0),
+    ),
+    ("depth-bounds", OfDraw(|p| p.draw.depth_bounds.is_some())),
+    ("written-depth", OfShader(Shader::writes_depth)),
+    ("stencil-test", OfDraw(|p| p.draw.stencil.is_some())),
+    (
+        "stencil-by-face",
+        OfDraw(|p| p.draw.stencil.is_some_and(|s| s.front != s.back)),
+    ),
+    (
+        "stencil-masks",
+        OfDraw(|p| {
+            p.draw
+                .stencil
+                .is_some_and(|s| s.front.write_mask != 0xff || s.front.read_mask != 0xff)
+        }),
+    ),
+    (
+        "written-stencil-reference",
+        OfShader(Shader::writes_reference),
+    ),
+    ("scissor", OfDraw(|p| p.draw.scissor.is_some())),
+    (
+        "viewport-part",
+        OfDraw(|p| p.draw.viewport.area() != p.whole()),
+    ),
+    (
+        "viewport-fractional",
+        OfDraw(|p| p.draw.viewport.rect.iter().any(|v| v.fract() != 0.0)),
+    ),
+    (
+        "viewport-mirrored",
+        OfDraw(|p| p.draw.viewport.is_mirrored()),
+    ),
+    (
+        "depth-range-part",
+        OfDraw(|p| p.draw.viewport.depth != [0.0, 1.0] && !p.has_reversed_range()),
+    ),
+    ("depth-range-reversed", OfDraw(|p| p.has_reversed_range())),
+    ("cull", OfDraw(|p| p.draw.cull != CullMode::None)),
+    (
+        "front-face-cw",
+        OfDraw(|p| p.draw.front_face == FrontFace::Cw),
+    ),
+    (
+        "polygon-mode-line",
+        OfDraw(|p| p.draw.polygon_mode == PolygonMode::Line),
+    ),
+    ("rasterizer-discard", OfDraw(|p| p.draw.rasterizer_discard)),
+    ("tessellation", OfDraw(|p| p.draw.tessellation.is_some())),
+    ("provoking-vertex", OfDraw(|p| p.draw.provoking.is_some())),
+    ("indices", OfDraw(|p| p.draw.mesh.indices.is_some())),
+    (
+        "first-or-base-vertex",
+        OfDraw(|p| {
+            p.draw.fetch.first_vertex + p.draw.fetch.first_index > 0
+                || p.draw.fetch.base_vertex != 0
+        }),
+    ),
+    (
+        "instances",
+        OfDraw(|p| {
+            p.draw.fetch.instances != Fetch::default().instances || p.draw.fetch.first_instance != 0
+        }),
+    ),
+    (
+        "clip-distances",
+        OfBoth(
+            |s| s.clip_distances() > 0,
+            |p| p.draw.clipping_distances() != 0,
+        ),
+    ),
+    ("cull-distances", OfShader(|s| s.cull_distances() > 0)),
+    ("no-fragment-shader", OfShader(|s| !s.has_fragment())),
+    (
+        "early-tests-forced",
+        OfDraw(|p| p.draw.early_tests != EarlyTests::Implicit),
+    ),
+    ("discard", OfShader(Shader::discards)),
+    ("texture", OfShader(|s| s.textures() > 0)),
+    (
+        "linear-filter",
+        OfBoth(Shader::samples_texture, |p| {
+            p.draw
+                .sampler
+                .as_ref()
+                .is_some_and(|s| s.filter == FilterMode::Linear)
+        }),
+    ),
+    (
+        "blend",
+        OfDraw(|p| p.draw.targets.iter().any(|t| t.blend.is_some())),
+    ),
+    (
+        "blend-alike",
+        OfDraw(|p| p.has_blend(|b| b.color == b.alpha)),
+    ),
+    (
+        "blend-apart",
+        OfDraw(|p| p.has_blend(|b| b.color != b.alpha)),
+    ),
+    (
+        "blend-constant",
+        OfDraw(|p| p.has_factor(BlendFactor::is_constant)),
+    ),
+    ("dual-source", OfShader(Shader::has_second_source)),
+    (
+        "advanced-blend",
+        OfDraw(|p| p.draw.targets.iter().any(|t| t.advanced.is_some())),
+    ),
+    ("logic-operation", OfDraw(|p| p.draw.logic.is_some())),
+    (
+        "write-mask-part",
+        OfDraw(|p| {
+            p.draw
+                .targets
+                .iter()
+                .any(|t| !matches!(t.write_mask, 0 | 0b1111))
+        }),
+    ),
+    (
+        "write-mask-none",
+        OfDraw(|p| p.draw.targets.iter().any(|t| t.write_mask == 0)),
+    ),
+    (
+        "alpha-to-coverage",
+        OfDraw(|p| p.draw.multisample.alpha_to_coverage),
+    ),
+    ("alpha-to-one", OfDraw(|p| p.draw.multisample.alpha_to_one)),
+    (
+        "sample-mask",
+        OfDraw(|p| {
+            p.draw.multisample.mask != u32::MAX || p.draw.multisample.sample_coverage.is_some()
+        }),
+    ),
+    ("written-sample-mask", OfShader(Shader::writes_mask)),
+    (
+        "sample-shading",
+        OfDraw(|p| {
+            p.draw.multisample.min_sample_shading.is_some() || p.draw.shader.runs_per_sample()
+        }),
+    ),
+    ("counters", OfDraw(|p| !p.draw.counters.is_empty())),
+    ("pool", OfShader(Shader::uses_pool)),
+    ("several-targets", OfDraw(|p| p.pass.color.len() > 1)),
+    ("no-color", OfDraw(|p| p.pass.color.is_empty())),
+    (
+        "resolve",
+        OfDraw(|p| p.pass.resolve.iter().any(Option::is_some)),
+    ),
+    (
+        "depth-stencil-resolve",
+        OfDraw(|p| p.pass.depth_stencil_resolve.is_some()),
+    ),
+    (
+        "depth-stencil-read-only",
+        OfDraw(|p| p.pass.depth_stencil_read_only),
+    ),
+    ("load-clear", OfDraw(|p| p.loads_by_clear())),
+    ("store-discard", OfDraw(|p| p.discards_stores())),
+    ("clear-command", OfDraw(|p| !p.pass.clears.is_empty())),
+    (
+        "clear-command-part",
+        OfDraw(|p| {
+            p.pass
+                .clears
+                .iter()
+                .any(|clear| clear.rect.is_some() || clear.target.is_masked())
+        }),
+    ),
+];
+
+impl DrawPlace<'_> {
+    /// Returns the attachment that decides the pass's size and samples.
+    fn target(&self) -> Option<&Attachment> {
+        let index = self.pass.color.first().copied().or(self.pass.depth_stencil);
+        self.scene.attachments.get(index?)
+    }
+
+    fn whole(&self) -> [f32; 4] {
+        self.target()
+            .map_or([0.0; 4], |target| Viewport::whole(target.size).area())
+    }
+
+    fn has_reversed_range(&self) -> bool {
+        self.draw.viewport.depth[0] > self.draw.viewport.depth[1]
+    }
+
+    fn has_blend(&self, is: impl Fn(&BlendState) -> bool) -> bool {
+        self.draw
+            .targets
+            .iter()
+            .filter_map(|t| t.blend.as_ref())
+            .any(is)
+    }
+
+    fn has_factor(&self, is: impl Fn(BlendFactor) -> bool) -> bool {
+        self.has_blend(|b| {
+            [b.color, b.alpha]
+                .iter()
+                .any(|c| is(c.src_factor) || is(c.dst_factor))
+        })
+    }
+
+    fn loads_by_clear(&self) -> bool {
+        let operations = &self.pass.operations;
+        operations
+            .color
+            .iter()
+            .any(|o| matches!(o.load, LoadOperation::Clear(_)))
+            || matches!(operations.depth.load, LoadOperation::Clear(_))
+            || matches!(operations.stencil.load, LoadOperation::Clear(_))
+    }
+
+    fn discards_stores(&self) -> bool {
+        let operations = &self.pass.operations;
+        operations
+            .color
+            .iter()
+            .any(|o| o.store == StoreOperation::Discard)
+            || operations.depth.store == StoreOperation::Discard
+            || operations.stencil.store == StoreOperation::Discard
+    }
+
+    /// Returns the names of its facts other than states.
+    fn others(&self) -> Vec<String> {
+        let format = |index: &usize| self.scene.attachments.get(*index).map(|a| a.format);
+        let colors = self.pass.color.iter().filter_map(format);
+        let depth = self.pass.depth_stencil.as_ref().and_then(format);
+        let mut names: Vec<String> = colors.map(|f| named("color", color_class(f))).collect();
+        names.extend(depth.map(|f| named("depth", f.name())));
+        names.extend(
+            self.target()
+                .map(|target| named("samples", &target.samples.to_string())),
+        );
+        names.push(named("topology", self.draw.topology.name()));
+        names.extend(self.scene.path.values().into_iter().map(of_path));
+        names
+    }
+}
+
+fn named(key: &str, value: &str) -> String {
+    format!("{key}={value}")
+}
+
+fn of_path(value: PathValue) -> String {
+    format!("path.{}={}", value.key(), value.name())
+}
+
+/// Returns the class of a colour format: the formats of a class have the same rules.
+fn color_class(format: TextureFormat) -> &'static str {
+    match format {
+        TextureFormat::Rgba8UnormSrgb => "srgb",
+        TextureFormat::Bgra8Unorm => "bgra",
+        _ => match format.color_channels().first() {
+            Some(ChannelEncoding::Unorm(8)) => "unorm8",
+            Some(ChannelEncoding::Unorm(_)) => "packed",
+            Some(ChannelEncoding::Ufloat(_)) => "packed-float",
+            Some(ChannelEncoding::Snorm(_)) => "snorm",
+            Some(ChannelEncoding::Float16) => "half-float",
+            Some(ChannelEncoding::Float32) => "float",
+            _ => "uint",
+        },
+    }
+}
+
+/// All facts that draws can have, by number.
+#[derive(Clone, Debug)]
+pub struct Facts {
+    facts: Vec<DrawFact>,
+    numbers: HashMap<String, usize>,
+}
+
+impl Default for Facts {
+    fn default() -> Self {
+        let states = STATES
+            .iter()
+            .map(|(name, _)| (FactKind::State, (*name).to_owned()));
+        let samples =
+            [1, 2, 4, 8, 16].map(|n| (FactKind::Samples, named("samples", &n.to_string())));
+        let classes: BTreeSet<&str> = TextureFormat::ALL
+            .into_iter()
+            .filter(|f| f.is_color())
+            .map(color_class)
+            .collect();
+        let classes = classes
+            .into_iter()
+            .map(|class| (FactKind::Format, named("color", class)));
+        let depths = TextureFormat::ALL.into_iter().filter(|f| !f.is_color());
+        let depths = depths.map(|format| (FactKind::Format, named("depth", format.name())));
+        let topologies = PrimitiveTopology::ALL.into_iter();
+        let topologies = topologies.map(|t| (FactKind::Topology, named("topology", t.name())));
+        let paths = PathValue::all()
+            .into_iter()
+            .map(|value| (FactKind::Path, of_path(value)));
+        let all = states
+            .chain(samples)
+            .chain(classes)
+            .chain(depths)
+            .chain(topologies)
+            .chain(paths);
+        let facts: Vec<DrawFact> = all.map(|(kind, name)| DrawFact { kind, name }).collect();
+        let numbers = facts
+            .iter()
+            .enumerate()
+            .map(|(number, fact)| (fact.name.clone(), number))
+            .collect();
+        Self { facts, numbers }
+    }
+}
+
+impl Facts {
+    /// Returns all facts.
+    pub fn all(&self) -> &[DrawFact] {
+        &self.facts
+    }
+
+    /// Returns the numbers of the facts of each draw of a scene, in ascending order.
+    pub fn of(&self, scene: &Scene) -> Vec<Vec<usize>> {
+        let of_pass = |pass| scene_draws(scene, pass);
+        let places = scene.passes.iter().flat_map(of_pass);
+        let of_draw = |place: DrawPlace<'_>| {
+            let states = (0..STATES.len()).filter(|i| match STATES[*i].1 {
+                OfShader(is) => is(place.draw.shader),
+                OfBoth(_, is) => is(&place),
+                OfDraw(is) => is(&place),
+            });
+            let others = place.others();
+            let others = others
+                .iter()
+                .filter_map(|name| self.numbers.get(name).copied());
+            let mut numbers: Vec<usize> = states.chain(others).collect();
+            numbers.sort_unstable();
+            numbers.dedup();
+            numbers
+        };
+        places.map(of_draw).collect()
+    }
+
+    /// Returns true if the scene model can say two facts together: no draw has two topologies, and no shader has
+    /// everything that shaders can do.
+    pub fn can_meet(&self, a: usize, b: usize) -> bool {
+        let key = |number: usize| self.facts[number].name.split_once('=').map(|(key, _)| key);
+        // A pass has one format of depth, but several of colour.
+        let is_same_choice = key(a).is_some_and(|of_a| of_a != "color" && key(b) == Some(of_a));
+        let of_shader = |number: usize| match STATES.get(number) {
+            Some((_, OfShader(is) | OfBoth(is, _))) => Some(*is),
+            _ => None,
+        };
+        let by_shader = match (of_shader(a), of_shader(b)) {
+            (Some(a), Some(b)) => Shader::ALL.iter().any(|shader| a(*shader) && b(*shader)),
+            _ => true,
+        };
+        a != b && !is_same_choice && by_shader
+    }
+}
+
+fn scene_draws<'a>(scene: &'a Scene, pass: &'a Pass) -> impl Iterator<Item = DrawPlace<'a>> {
+    pass.draws
+        .iter()
+        .map(move |draw| DrawPlace { scene, pass, draw })
+}
+
+/// In how many scenes two facts meet in a draw.
+#[derive(Clone, Debug)]
+pub struct FactPairs {
+    /// The facts.
+    pub facts: Facts,
+    /// The number of scenes, by the numbers of both facts, the greater one first.
+    scenes: Vec<Vec<u64>>,
+}
+
+impl Default for FactPairs {
+    fn default() -> Self {
+        let facts = Facts::default();
+        let scenes = (0..facts.all().len())
+            .map(|number| vec![0; number])
+            .collect();
+        Self { facts, scenes }
+    }
+}
+
+impl FactPairs {
+    /// Adds the pairs of a scene.
+    pub fn add(&mut self, scene: &Scene) {
+        let mut met = BTreeSet::new();
+        for facts in self.facts.of(scene) {
+            for (place, greater) in facts.iter().enumerate() {
+                met.extend(facts[..place].iter().map(|lesser| (*greater, *lesser)));
+            }
+        }
+        for (greater, lesser) in met {
+            self.scenes[greater][lesser] += 1;
+        }
+    }
+
+    /// Adds the pairs that were counted elsewhere.
+    pub fn add_all(&mut self, other: &Self) {
+        let counts = self.scenes.iter_mut().flatten();
+        for (count, more) in counts.zip(other.scenes.iter().flatten()) {
+            *count += more;
+        }
+    }
+
+    /// Returns the pairs that the scene model can say, each with the number of scenes that have it.
+    pub fn pairs(&self) -> impl Iterator<Item = ([&DrawFact; 2], u64)> {
+        let all =
+            (0..self.scenes.len()).flat_map(|a| (a + 1..self.scenes.len()).map(move |b| [a, b]));
+        let sayable = all.filter(|[a, b]| self.facts.can_meet(*a, *b));
+        sayable.map(|[a, b]| ([a, b].map(|n| &self.facts.all()[n]), self.scenes[b][a]))
+    }
+}
