@@ -8,6 +8,7 @@ mod data;
 mod driver;
 mod front;
 mod grid;
+mod layers;
 mod name;
 mod page;
 mod pictures;

@@ -5,7 +5,7 @@ use super::data::{
 };
 use super::name::{title, value_text};
 use super::pictures::PagePictures;
-use super::{choice, claims, grid, scatter, stability};
+use super::{choice, claims, grid, layers, scatter, stability};
 use crate::chart::{self, color, key, line_key};
 use crate::command::quoted;
 use crate::lists::{distinct, grouped};
@@ -209,6 +209,7 @@ fn in_scene(run: &Run, pictures: &mut PagePictures<'_>, shown: &ShownScene<'_, '
                 @if truth > 0.0 { "The truth itself may be off by " (share(truth)) " in a channel. " }
                 @else { "The truth is exact. " }
             }
+            @if let Some(costs) = layers::section(shown) { (costs) }
             details {
                 summary { "Table and command" }
                 p.again { "Drawn by " code { (run.header.provenance.command.join(" ")) } "; this scene alone by "
