@@ -19,3 +19,15 @@ pub struct Distance {
     /// The largest error of the truth itself in any channel of any texel: 0 if it is in closed form.
     pub truth_error: f64,
 }
+
+/// The distance of a frame from the truth on a lattice of its texels, in units of full brightness.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SizedDistance {
+    /// The number of texels that were compared.
+    pub texels: u64,
+    /// Root of the mean squared difference over these texels and red, green and blue.
+    pub rmse: f64,
+    /// The largest difference of any channel.
+    pub max: f64,
+}

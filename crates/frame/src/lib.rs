@@ -54,7 +54,7 @@ pub use compare::{ChannelMismatch, Comparison, TexelCounts, WrongTexel, compare}
 pub use contents::{Codes, Contents, ValueRange};
 pub use counter::{CountRange, CounterKind, CounterOutcome, CounterSet};
 pub use device_offer::DeviceOffer;
-pub use distance::Distance;
+pub use distance::{Distance, SizedDistance};
 pub use encoding::{ChannelEncoding, linear_of_half_codes, linear_to_srgb, srgb_to_linear};
 pub use error_kind::ErrorKind;
 pub use event::{

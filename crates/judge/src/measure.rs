@@ -1,8 +1,8 @@
 //! The distance of a method's picture from the truth, and its cost.
 
 use etalon_case::{Case, Method};
-use etalon_frame::Frame;
-use etalon_record::{Measured, Parameter, SizedDistance};
+use etalon_frame::{Frame, SizedDistance};
+use etalon_record::{Measured, Parameter};
 use etalon_scene::Scene;
 use etalon_truth::{
     Lattice, LatticeTruth, MethodScene, Truth, TruthPicture, at_size, distance, lattice_distance,
@@ -89,12 +89,7 @@ impl SizedScene {
 
     /// Returns the distance of a frame from the truth; `None` without a truth or a picture to compare.
     pub fn distance(&self, frame: &Frame) -> Option<SizedDistance> {
-        let distance = lattice_distance(self.truth.as_ref()?, frame.images.first()?)?;
-        Some(SizedDistance {
-            texels: distance.texels,
-            rmse: distance.rmse,
-            max: distance.max,
-        })
+        lattice_distance(self.truth.as_ref()?, frame.images.first()?)
     }
 }
 

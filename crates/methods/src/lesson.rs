@@ -1,5 +1,7 @@
 //! Short explanations of methods, with their sources.
 
+use crate::order::Order;
+
 /// One method: how it works, and where and why it fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Lesson {
@@ -11,6 +13,9 @@ pub struct Lesson {
     pub fails: &'static str,
     /// The publication or specification.
     pub source: &'static str,
+    /// The part that the order of draws plays; `None` for questions whose surfaces hide each other, so that the depth test
+    /// makes up for any order.
+    pub order: Option<Order>,
 }
 
 impl Lesson {
@@ -25,6 +30,13 @@ impl Lesson {
             works,
             fails,
             source,
+            order: None,
         }
+    }
+
+    /// Returns the lesson with the part that the order of draws plays.
+    pub(crate) const fn ordered(mut self, order: Order) -> Self {
+        self.order = Some(order);
+        self
     }
 }

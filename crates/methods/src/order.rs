@@ -10,14 +10,3 @@ pub enum Order {
     /// The picture depends on the order in which surfaces happen to be drawn.
     Submitted,
 }
-
-/// Returns the part that the order of draws plays; `None` for questions whose surfaces hide each other, so that the depth
-/// test makes up for any order.
-pub fn order(question: &str, method: &str) -> Option<Order> {
-    let order = match method {
-        "sorted" | "sorted-triangles" | "front-to-back" => Order::Sorted,
-        "unsorted" | "depth-write-off" => Order::Submitted,
-        _ => Order::Independent,
-    };
-    (question == "transparency").then_some(order)
-}

@@ -4,6 +4,7 @@ use crate::claim::Claim;
 use crate::error::ParameterError;
 use crate::lesson::Lesson;
 use crate::method_scene::MethodScene;
+use crate::order::Order;
 use crate::{
     accumulation, anti_aliasing, culling, cut_outs, depth_precision, depth_shown, stencil_effects,
     texture_sampling, transparency, visibility_cost,
@@ -85,6 +86,14 @@ pub fn claims() -> impl Iterator<Item = &'static Claim> {
     ]
     .into_iter()
     .flatten()
+}
+
+/// Returns the part that the order of draws plays for a method, if it plays any.
+pub fn order(question: &str, method: &str) -> Option<Order> {
+    let lesson = lessons(question)
+        .iter()
+        .find(|lesson| lesson.method == method);
+    lesson?.order
 }
 
 /// Returns the explanations of a question's methods; empty for an unknown question.

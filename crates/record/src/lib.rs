@@ -95,7 +95,7 @@ pub use line::{frame_file, header_line, picture_file, record_line};
 pub use lists::{About, Imported, ListError, ListKind, Lists};
 pub use lock::FolderLock;
 pub use machine::Machine;
-pub use measured::{Clock, Cost, Estimate, Measured, Parameter, SizedDistance, SizedFrame, Times};
+pub use measured::{Clock, Cost, Estimate, Measured, Parameter, SizedFrame, Times};
 pub use merge::{Merge, Merged};
 pub use output_folder::OutputFolder;
 pub use paths::open_below;

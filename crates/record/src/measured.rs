@@ -1,7 +1,7 @@
 //! The measurements of a method case: the distance of its picture from the truth, and its cost.
 
 use crate::reason::Reason;
-use etalon_frame::Distance;
+use etalon_frame::{Distance, SizedDistance};
 use serde::{Deserialize, Serialize};
 
 /// Accuracy and cost of one method on one adapter.
@@ -89,18 +89,6 @@ pub struct SizedFrame {
     /// The reason why it was not drawn or not read back.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reason: Option<Reason>,
-}
-
-/// The distance of a frame from the truth on a lattice of its texels, in units of full brightness.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SizedDistance {
-    /// The number of texels that were compared.
-    pub texels: u64,
-    /// Root of the mean squared difference over these texels and red, green and blue.
-    pub rmse: f64,
-    /// The largest difference of any channel.
-    pub max: f64,
 }
 
 /// What a frame costs: a fixed time, and a time for each megapixel.

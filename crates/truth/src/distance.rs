@@ -3,7 +3,7 @@
 use crate::flip::mean_flip;
 use crate::picture::{LatticeTruth, TruthPicture};
 use crate::rgb8::{decode, quantized};
-use etalon_frame::{Aspect, ChannelEncoding, Distance, Image};
+use etalon_frame::{Aspect, ChannelEncoding, Distance, Image, SizedDistance};
 
 /// The difference of a channel above which a texel counts as wrong: two codes of 255, plus a margin for
 /// rounding.
@@ -56,20 +56,9 @@ pub fn distance(truth: &TruthPicture, picture: &Image) -> Option<Distance> {
     })
 }
 
-/// The distance of a frame from the truth on a lattice, in units of full brightness.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LatticeDistance {
-    /// The number of texels that were compared.
-    pub texels: u64,
-    /// Root of the mean squared difference over these texels and red, green and blue.
-    pub rmse: f64,
-    /// The largest difference of any channel.
-    pub max: f64,
-}
-
 /// Returns the distance of a frame from the truth over the texels of its lattice that are compared. Channels, values and
 /// refusals are those of [`distance`].
-pub fn lattice_distance(truth: &LatticeTruth, frame: &Image) -> Option<LatticeDistance> {
+pub fn lattice_distance(truth: &LatticeTruth, frame: &Image) -> Option<SizedDistance> {
     let lattice = truth.lattice;
     if frame.size != lattice.size || !is_comparable(frame) {
         return None;
@@ -87,7 +76,7 @@ pub fn lattice_distance(truth: &LatticeTruth, frame: &Image) -> Option<LatticeDi
             &decoded(frame, &frame.codes[texel..texel + channels]),
         );
     }
-    (sum.texels > 0).then(|| LatticeDistance {
+    (sum.texels > 0).then(|| SizedDistance {
         texels: sum.texels,
         rmse: sum.rmse(),
         max: sum.max,

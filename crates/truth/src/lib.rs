@@ -16,7 +16,7 @@ mod render;
 mod rgb8;
 mod surface;
 
-pub use distance::{LatticeDistance, distance, lattice_distance};
+pub use distance::{distance, lattice_distance};
 pub use etalon_methods::{MethodScene, Truth, at_size};
 pub use picture::{Lattice, LatticeTruth, TruthPicture};
 pub use render::{truth, truth_on};

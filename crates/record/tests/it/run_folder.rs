@@ -3,15 +3,15 @@
 use etalon_frame::{
     Accuracy, AdapterInfo, Api, ApiVersion, Aspect, Band, ChannelEncoding, ChannelMismatch,
     CounterKind, CounterOutcome, DepthTest, Distance, Effect, ErrorKind, Event, Limits, Origin,
-    Rejection, Requirement, SceneName, Step, Story, TexelCounts, TextureFormat, ToldLine,
-    ValueRange, WrongTexel,
+    Rejection, Requirement, SceneName, SizedDistance, Step, Story, TexelCounts, TextureFormat,
+    ToldLine, ValueRange, WrongTexel,
 };
 use etalon_record::{
     AdapterRecord, Assertion, Bench, Clock, ComparedPair, Content, Cost, Dead, Denial, Estimate,
     ExitStatus, Expected, FORMAT, FailedRoundTrip, FolderKind, FrameFile, FrameImage, Fresh,
     Header, Hunt, MAX_LINE, MAX_WRONG_TEXELS, Measured, OutputFolder, Parameter, ProcessEnd,
-    Provenance, Reason, Record, RecordError, Run, RunWriter, Seconds, Settings, Shard,
-    SizedDistance, SizedFrame, Times, Verdict, Versions, beside, read_cases, selection_digest,
+    Provenance, Reason, Record, RecordError, Run, RunWriter, Seconds, Settings, Shard, SizedFrame,
+    Times, Verdict, Versions, beside, read_cases, selection_digest,
 };
 use proptest::prelude::*;
 use std::fs;

@@ -1,10 +1,10 @@
 //! A synthetic run of methods with plausible numbers.
 
 use super::{adapter, header};
-use etalon_frame::{Accuracy, Api, Aspect, Distance};
+use etalon_frame::{Accuracy, Api, Aspect, Distance, SizedDistance};
 use etalon_record::{
-    Clock, Cost, Estimate, Measured, Parameter, Record, RunWriter, Seconds, SizedDistance,
-    SizedFrame, Times, Verdict,
+    Clock, Cost, Estimate, Measured, Parameter, Record, RunWriter, Seconds, SizedFrame, Times,
+    Verdict,
 };
 use std::path::Path;
 
