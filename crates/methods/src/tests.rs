@@ -172,7 +172,7 @@ fn parameters_out_of_range_are_refused_by_name() {
         ("eye", json!(-2), json!(9)),
         ("angle", json!(-200), json!(200)),
         ("alpha", json!(-0.5), json!(1.5)),
-        ("segments", json!(3), json!(65)),
+        ("segments", json!(3), json!(257)),
         ("objects", json!(0), json!(2000)),
         ("width", json!(0), json!(30)),
         ("shift", json!(-1), json!(4)),

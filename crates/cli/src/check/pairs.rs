@@ -1,4 +1,4 @@
-//! The pairs of facts that draws of cases have, and those that no draw can have.
+//! The pairs of facts that meet in draws of cases, and the pairs that cannot meet.
 
 use crate::processors::processors;
 use etalon_case::{CaseFile, Profile};

@@ -38,6 +38,9 @@ pub(super) struct GlassScene {
     pub(super) coverage: TexelCoverage,
 }
 
+/// The greatest alpha of more than 64 layers.
+const MANY_ALPHA: f64 = 0.25;
+
 impl GlassScene {
     /// Returns the scene of a case.
     ///
@@ -54,8 +57,11 @@ impl GlassScene {
             TransparencyScene::NestedGlass => nested_glass(alpha(0.4)?),
             TransparencyScene::ThinLayers => {
                 let layers = wire.layers.unwrap_or(16);
-                within("layers", f64::from(layers), 1.0..=256.0)?;
-                thin_layers(layers, alpha(0.1)?)
+                let alpha = alpha(0.1)?;
+                // The weights of more opaque layers would add up to more than a half float holds.
+                let most = if alpha > MANY_ALPHA { 64.0 } else { 256.0 };
+                within("layers", f64::from(layers), 1.0..=most)?;
+                thin_layers(layers, alpha)
             }
             TransparencyScene::Hair => hair(alpha(0.6)?),
             TransparencyScene::Smoke => smoke(alpha(0.2)?),

@@ -88,7 +88,7 @@ fn parameters_at_their_ends_are_drawn_and_those_beyond_are_refused_by_name() {
         )
     };
     let most = TransparencyWire {
-        layers: Some(64),
+        layers: Some(256),
         ..single_layer.clone()
     };
     let once = TransparencyWire {
@@ -132,7 +132,15 @@ fn parameters_at_their_ends_are_drawn_and_those_beyond_are_refused_by_name() {
         (
             "layers",
             TransparencyWire {
+                layers: Some(257),
+                ..thin.clone()
+            },
+        ),
+        (
+            "layers",
+            TransparencyWire {
                 layers: Some(65),
+                alpha: Some(0.26),
                 ..thin.clone()
             },
         ),
@@ -235,7 +243,7 @@ fn passes_grow_with_what_is_peeled_and_with_nothing_else() {
         };
         scene(&wire).passes.len()
     };
-    for layers in [2, 16, 64] {
+    for layers in [2, 16, 256] {
         assert_eq!(passes(TransparencyMethod::WeightedBlended, layers, None), 2);
         assert_eq!(passes(TransparencyMethod::MomentBased, layers, None), 3);
         assert_eq!(passes(TransparencyMethod::LinkedLists, layers, None), 2);
@@ -391,10 +399,15 @@ fn panes_pass_through_each_other_from_a_third_of_a_right_angle_on() {
 
 #[test]
 fn no_shader_writes_what_half_floats_do_not_hold() {
-    for name in SCENES {
+    let cases = SCENES.map(|name| (name, 0.99, 64));
+    for (name, alpha, layers) in
+        cases
+            .into_iter()
+            .chain([(TransparencyScene::ThinLayers, 0.25, 256)])
+    {
         let made = scene(&TransparencyWire {
-            alpha: Some(0.99),
-            layers: Some(64),
+            alpha: Some(alpha),
+            layers: Some(layers),
             ..wire(name, TransparencyMethod::WeightedBlended)
         });
         let draws = made.passes.iter().flat_map(|p| &p.draws);

@@ -13,7 +13,7 @@ pub struct TransparencyWire {
     pub(crate) method: TransparencyMethod,
     /// Alpha of the transparent surfaces, 0.01 to 0.99.
     pub(crate) alpha: Option<f64>,
-    /// The number of thin layers, 1 to 256.
+    /// The number of thin layers, 1 to 256, or to 64 if alpha is above 0.25.
     pub(crate) layers: Option<u32>,
     /// The angle by which panes are turned in degrees, 0 to 65.
     pub(crate) angle: Option<f64>,
