@@ -5,7 +5,7 @@ use crate::error::{At, CaseError};
 use crate::json::parse_json;
 use crate::pairwise::{self, Cover};
 use crate::values::{is_word, typed};
-use crate::wire::{AxisValue, FileWire, QuickWire, SceneSource};
+use crate::wire::{AxisValue, FileWire, FullWire, QuickWire, SceneSource};
 use etalon_frame::without_mark;
 use etalon_methods::Model;
 use serde_json::{Value, json};
@@ -147,6 +147,10 @@ impl CaseFile {
         if let Some(error) = wrong {
             return Err(fail(error.key("quick")));
         }
+        if wire.full == FullWire::Pairwise && matches!(wire.quick, Some(QuickWire::Each(_))) {
+            let message = "the quick profile would take cases that the file does not have: use `{ \"first\": … }`";
+            return Err(fail(At::new(message).key("quick")));
+        }
         let source = wire.take_source().map_err(fail)?;
         if matches!(source, SceneSource::Method(_))
             && let Some(quick) = &wire.quick
@@ -229,18 +233,24 @@ impl CaseFile {
 
     /// Returns the cases of a profile; the last axis (in alphabetical order) varies fastest.
     pub fn cases(&self, profile: Profile) -> impl Iterator<Item = CaseRef<'_>> {
-        let indices: Vec<usize> = match (profile, &self.wire.quick) {
+        let all = match self.wire.full {
+            FullWire::Product => (0..self.count).collect(),
+            FullWire::Pairwise => self.covering(Cover::Pairs),
+        };
+        let mut indices: Vec<usize> = match (profile, &self.wire.quick) {
             (Profile::Quick, Some(QuickWire::Pairwise)) => self.covering(Cover::Pairs),
             (Profile::Quick, Some(QuickWire::Each(n))) => self.covering(Cover::AtLeast(n.get())),
-            (Profile::Quick, Some(QuickWire::First(n))) => (0..self.count.min(n.get())).collect(),
+            (Profile::Quick, Some(QuickWire::First(n))) => all.into_iter().take(n.get()).collect(),
             (Profile::Quick, Some(QuickWire::Where(chosen))) => {
-                (0..self.count).filter(|i| self.has(*i, chosen)).collect()
+                all.into_iter().filter(|i| self.has(*i, chosen)).collect()
             }
-            (Profile::Quick, Some(QuickWire::Any(rows))) => (0..self.count)
+            (Profile::Quick, Some(QuickWire::Any(rows))) => all
+                .into_iter()
                 .filter(|i| rows.iter().any(|chosen| self.has(*i, chosen)))
                 .collect(),
-            _ => (0..self.count).collect(),
+            _ => all,
         };
+        indices.sort_unstable();
         let case = move |index| CaseRef { file: self, index };
         indices.into_iter().map(case)
     }
@@ -253,16 +263,14 @@ impl CaseFile {
             .all(|(axis, name)| self.wire.axes[axis][positions[axis.as_str()]].name == *name)
     }
 
-    /// Returns the indices in the product of a covering array's rows, ascending.
+    /// Returns the indices in the product of a covering array's rows, in the order in which they cover most.
     fn covering(&self, cover: Cover) -> Vec<usize> {
         let lengths: Vec<usize> = self.wire.axes.values().map(|axis| axis.len()).collect();
         let index = |row: &Vec<usize>| {
             let axes = row.iter().zip(&lengths);
             axes.fold(0, |index, (value, length)| index * length + value)
         };
-        let mut indices: Vec<usize> = pairwise::rows(&lengths, cover).iter().map(index).collect();
-        indices.sort_unstable();
-        indices
+        pairwise::rows(&lengths, cover).iter().map(index).collect()
     }
 
     pub(crate) fn positions(&self, mut index: usize) -> BTreeMap<&str, usize> {

@@ -8,8 +8,11 @@ use etalon_scene::{
     AttachmentContents, CompareFunction, DepthState, Draw, Scene, StencilFace, StencilOperation,
 };
 
+/// The bits of fields that hold an edge, and their largest number.
+const FIELDS: [(u32, u32); 3] = [(15, 0x7fff), (16, 0xffff), (24, 0x00ff_ffff)];
+
 /// Changes scissor rectangles, given the size of the attachments.
-fn scissors(bug: fn([u32; 4], [u32; 2]) -> Option<[u32; 4]>) -> Plant {
+fn scissors(bug: impl Fn([u32; 4], [u32; 2]) -> Option<[u32; 4]> + Send + Sync + 'static) -> Plant {
     sized(move |draw, size| draw.scissor = draw.scissor.and_then(|rect| bug(rect, size)))
 }
 
@@ -113,6 +116,16 @@ bugs! {
     "from-the-origin: Rectangles begin at the origin." => scissors(|[_, _, w, h], _| Some([0, 0, w, h]));
     "lost-when-partly-outside: Rectangles that reach outside count as no scissor test." =>
         scissors(|[x, y, w, h], [all_w, all_h]| (x + w <= all_w && y + h <= all_h).then_some([x, y, w, h]));
+    source "lavapipe and Mesa's OpenGL 22.3.6: scissor edges in 16 bits";
+    for (bits, most) in FIELDS {
+        "ends-in-{bits}-bits: The far edges of rectangles are kept in {bits} bits." =>
+            scissors(move |[x, y, w, h], _| {
+                let kept = |start: u32, length| (start.saturating_add(length) & most).saturating_sub(start);
+                Some([x, y, kept(x, w), kept(y, h)])
+            });
+        "begins-in-{bits}-bits: The beginnings of rectangles are kept in {bits} bits." =>
+            scissors(move |[x, y, w, h], _| Some([x & most, y & most, w, h]));
+    }
     source CONFUSION;
     "kept-where-none-is-set: Without a rectangle, the last one stays." =>
         scene(|scene| {

@@ -26,7 +26,10 @@ pub(crate) struct FileWire {
     pub(crate) spec: Vec<String>,
     /// The cases of the product that the quick profile takes; by default all.
     pub(crate) quick: Option<QuickWire>,
-    /// The axes; the file expands to their whole product.
+    /// The cases of the product that the file has; by default all.
+    #[serde(default)]
+    pub(crate) full: FullWire,
+    /// The axes; the file expands to their product.
     #[serde(default)]
     pub(crate) axes: BTreeMap<String, Axis>,
     /// Values that are derived from an axis and are not part of the id.
@@ -258,6 +261,17 @@ pub(crate) enum QuickWire {
     Where(BTreeMap<String, String>),
     /// The cases that have all the values of one of these rows: for products that a few rows represent.
     Any(Vec<BTreeMap<String, String>>),
+}
+
+/// The cases that a file has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum FullWire {
+    /// The whole product.
+    #[default]
+    Product,
+    /// Enough that every two values of every two axes occur together: for many axes, whose product is too large to draw.
+    Pairwise,
 }
 
 impl QuickWire {
