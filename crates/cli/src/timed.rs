@@ -5,6 +5,7 @@ use crate::failure::Failure;
 use crate::flags::{AdapterFileArguments, CaseArguments, CaseProfile, OutputFormat};
 use etalon_record::{Content, FolderKind, OutputFolder, Shard, TIMED_FOLDER};
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
 
 /// A case of each kind of work, at a size that keeps a processor and a graphics card busy.
 const CASES: [&str; 10] = [
@@ -33,8 +34,9 @@ pub(crate) fn time(
     timeout: f64,
     cold: bool,
     resume: bool,
+    stop: &AtomicBool,
 ) -> Result<DoneBench, Failure> {
-    bench::timed(&bench::Arguments {
+    let set = bench::Arguments {
         selection: CaseArguments {
             globs: CASES.map(str::to_owned).to_vec(),
             cases: None,
@@ -56,7 +58,8 @@ pub(crate) fn time(
         instructions: false,
         cold,
         format: OutputFormat::Text,
-    })
+    };
+    bench::timed(&set, stop)
 }
 
 /// Removes the frame times of the run that a new one replaces.

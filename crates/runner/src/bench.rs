@@ -29,6 +29,7 @@ pub use instructions::instruction_counter;
 use round::{fingerprint, seconds};
 use std::collections::HashMap;
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
@@ -53,6 +54,8 @@ pub struct BenchPlan<'a> {
     pub folder: &'a Path,
     /// The header of the bench, with its number of rounds.
     pub header: BenchHeader,
+    /// No picture and no round begins once it is true.
+    pub stop: &'a AtomicBool,
 }
 
 /// An event of a bench, reported as it happens.
@@ -180,12 +183,16 @@ pub fn bench(
         limit: plan.header.settings.limit.map(Duration::from_secs_f64),
         budget: plan.budget,
         counter: plan.counter,
+        stop: plan.stop,
     };
     let run = |bench: &mut RunningBench<'_, '_>| -> Result<(), RecordError> {
         let mut pairs = bench.judge()?;
         bench.count(&mut pairs)?;
         for number in 0..bench.rounds {
             bench.finish(number, &mut pairs)?;
+            if bench.is_stopped() {
+                return Ok(());
+            }
             bench.round(number, &mut pairs)?;
         }
         bench.finish(bench.rounds, &mut pairs)?;
@@ -257,15 +264,23 @@ struct RunningBench<'a, 'e> {
     limit: Option<Duration>,
     budget: Duration,
     counter: Option<InstructionCounter>,
+    stop: &'a AtomicBool,
 }
 
 impl RunningBench<'_, '_> {
+    fn is_stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
     /// Judges all pictures. Returns the pairs that may be timed, in the order of timing.
     fn judge(&mut self) -> Result<Vec<TimedPair>, RecordError> {
         let judge = Judge::default();
         let mut pairs = Vec::new();
         for (number, case) in self.cases.iter().enumerate() {
             for index in 0..self.adapters.len() {
+                if self.is_stopped() {
+                    return Ok(pairs);
+                }
                 let key = (
                     case.id.clone(),
                     self.adapters[index].record.info.name.clone(),

@@ -21,6 +21,7 @@ use indicatif::ProgressBar;
 use serde_json::json;
 use std::collections::{BTreeSet, HashMap};
 use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 #[derive(Debug, Args)]
@@ -85,7 +86,8 @@ const MATRIX: &str = "perf/matrix/";
 
 /// Judges the pictures of the selected cases, measures the correct ones, writes samples and reports.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
-    let done = timed(arguments)?;
+    // An interruption ends a bench at once; its samples can be continued.
+    let done = timed(arguments, &AtomicBool::new(false))?;
     print(arguments, &done)?;
     for end in beside::read(&arguments.out).map_err(Failure::incomplete)? {
         say!(
@@ -110,8 +112,8 @@ pub(crate) struct DoneBench {
     pub(crate) written: WrittenBench,
 }
 
-/// Measures, and writes samples and reports.
-pub(crate) fn timed(arguments: &Arguments) -> Result<DoneBench, Failure> {
+/// Measures until `stop` is true, and writes samples and reports.
+pub(crate) fn timed(arguments: &Arguments, stop: &AtomicBool) -> Result<DoneBench, Failure> {
     let selected = BenchCases::new(arguments)?;
     let counter = arguments.instructions.then(instruction_counter).transpose();
     let counter = counter.map_err(Failure::usage)?;
@@ -147,6 +149,7 @@ pub(crate) fn timed(arguments: &Arguments) -> Result<DoneBench, Failure> {
         resume,
         folder: &arguments.out,
         header,
+        stop,
     })?;
     let written = etalon_report::write_bench(&arguments.out).map_err(Failure::incomplete)?;
     Ok(DoneBench {

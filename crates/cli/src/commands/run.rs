@@ -35,7 +35,7 @@ use std::collections::BTreeMap;
 use std::mem::ManuallyDrop;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 /// The folder that each run without `--out` replaces.
@@ -250,7 +250,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             timeout,
             ..
         } = arguments;
-        timed::time(out, adapters, file, *timeout, cold, resume).map(Some)
+        timed::time(out, adapters, file, *timeout, cold, resume, stop).map(Some)
     } else {
         timed::forget(&arguments.out, resume).map(|()| None)
     };
@@ -271,6 +271,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let run = &results.run;
     if run.missing() > 0 {
         return Err(incomplete(run, summary.interrupted));
+    }
+    if arguments.timed && stop.load(Ordering::Relaxed) {
+        return Err(Failure::incomplete(format!(
+            "interrupted while frames were timed; {}",
+            how_to_resume()
+        )));
     }
     arguments.news.tell_how_to_add(&arguments.out);
     if let Some(path) = &to_bless {

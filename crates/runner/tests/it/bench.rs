@@ -12,6 +12,7 @@ use etalon_record::{
 };
 use etalon_runner::{BenchEvent, BenchPlan, BenchSummary, Launch, Worker};
 use etalon_scene::Scene;
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 use tempfile::TempDir;
 
@@ -110,6 +111,7 @@ fn bench(adapters: Vec<(Launch, Worker)>) -> (Bench, BenchSummary, Vec<String>) 
         absent: Vec::new(),
     };
     let plan = BenchPlan {
+        stop: &AtomicBool::new(false),
         cases: &cases,
         adapters,
         budget: Duration::from_millis(2),
@@ -295,6 +297,7 @@ fn an_unwritable_folder_is_an_error_before_anything_is_timed() {
     let blocked = folder.path().join("fill.json");
     let lone_adapter = adapter("a", "");
     let plan = BenchPlan {
+        stop: &AtomicBool::new(false),
         cases: &cases,
         budget: Duration::from_millis(1),
         timeout: std::time::Duration::from_secs(60),
