@@ -122,9 +122,9 @@ bugs! {
             scissors(move |[x, y, w, h], _| {
                 let kept = |start: u32, length| (start.saturating_add(length) & most).saturating_sub(start);
                 Some([x, y, kept(x, w), kept(y, h)])
-            });
+            }), area "size";
         "begins-in-{bits}-bits: The beginnings of rectangles are kept in {bits} bits." =>
-            scissors(move |[x, y, w, h], _| Some([x & most, y & most, w, h]));
+            scissors(move |[x, y, w, h], _| Some([x & most, y & most, w, h])), area "size";
     }
     source CONFUSION;
     "kept-where-none-is-set: Without a rectangle, the last one stays." =>
