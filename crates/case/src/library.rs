@@ -275,16 +275,19 @@ mod tests {
         };
         let ids =
             |file: &CaseFile, profile| file.cases(profile).map(|c| c.id()).collect::<Vec<_>>();
-        let whole = file("").unwrap();
+        let whole = file("").expect("it is valid");
         let all = ids(&whole, Profile::Full);
         assert!((6..12).contains(&all.len()), "{all:?}");
         assert_eq!(ids(&whole, Profile::Quick), all);
-        let first = ids(&file(r#""quick":{"first":2},"#).unwrap(), Profile::Quick);
+        let first = ids(
+            &file(r#""quick":{"first":2},"#).expect("it is valid"),
+            Profile::Quick,
+        );
         assert!(
             first.len() == 2 && first.iter().all(|id| all.contains(id)),
             "{first:?}"
         );
-        let error = file(r#""quick":{"each":1},"#).unwrap_err();
+        let error = file(r#""quick":{"each":1},"#).expect_err("it would take others");
         assert_eq!(error.key, "quick");
     }
 

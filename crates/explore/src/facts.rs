@@ -370,7 +370,7 @@ impl Default for Facts {
             .map(|class| (FactKind::Format, named("color", class)));
         let depths = TextureFormat::ALL.into_iter().filter(|f| !f.is_color());
         let depths = depths.map(|format| (FactKind::Format, named("depth", format.name())));
-        let topologies = PrimitiveTopology::ALL.into_iter();
+        let topologies = PrimitiveTopology::ALL.iter();
         let topologies = topologies.map(|t| (FactKind::Topology, named("topology", t.name())));
         let paths = PathValue::all()
             .into_iter()
