@@ -4,8 +4,8 @@
 
 use etalon_frame::{ChannelEncoding, PathValue, TextureFormat};
 use etalon_scene::{
-    Attachment, BlendFactor, BlendState, CullMode, Draw, EarlyTests, Fetch, FilterMode, FrontFace,
-    LoadOperation, Pass, PolygonMode, PrimitiveTopology, Scene, Shader, StoreOperation, Viewport,
+    BlendFactor, BlendState, CullMode, Draw, EarlyTests, Fetch, FilterMode, FrontFace, Pass,
+    PolygonMode, PrimitiveTopology, Scene, Shader, Viewport,
 };
 use std::collections::{BTreeSet, HashMap};
 
@@ -238,8 +238,8 @@ const STATES: [(&str, StateOf); 58] = [
         "depth-stencil-read-only",
         OfDraw(|p| p.pass.depth_stencil_read_only),
     ),
-    ("load-clear", OfDraw(|p| p.loads_by_clear())),
-    ("store-discard", OfDraw(|p| p.discards_stores())),
+    ("load-clear", OfDraw(|p| !p.pass.cleared().is_empty())),
+    ("store-discard", OfDraw(|p| !p.pass.discarded().is_empty())),
     ("clear-command", OfDraw(|p| !p.pass.clears.is_empty())),
     (
         "clear-command-part",
@@ -253,15 +253,8 @@ const STATES: [(&str, StateOf); 58] = [
 ];
 
 impl DrawPlace<'_> {
-    /// Returns the attachment that decides the pass's size and samples.
-    fn target(&self) -> Option<&Attachment> {
-        let index = self.pass.color.first().copied().or(self.pass.depth_stencil);
-        self.scene.attachments.get(index?)
-    }
-
     fn whole(&self) -> [f32; 4] {
-        self.target()
-            .map_or([0.0; 4], |target| Viewport::whole(target.size).area())
+        Viewport::whole(self.scene.pass_size(self.pass)).area()
     }
 
     fn has_reversed_range(&self) -> bool {
@@ -284,26 +277,6 @@ impl DrawPlace<'_> {
         })
     }
 
-    fn loads_by_clear(&self) -> bool {
-        let operations = &self.pass.operations;
-        operations
-            .color
-            .iter()
-            .any(|o| matches!(o.load, LoadOperation::Clear(_)))
-            || matches!(operations.depth.load, LoadOperation::Clear(_))
-            || matches!(operations.stencil.load, LoadOperation::Clear(_))
-    }
-
-    fn discards_stores(&self) -> bool {
-        let operations = &self.pass.operations;
-        operations
-            .color
-            .iter()
-            .any(|o| o.store == StoreOperation::Discard)
-            || operations.depth.store == StoreOperation::Discard
-            || operations.stencil.store == StoreOperation::Discard
-    }
-
     /// Returns the names of its facts other than states.
     fn others(&self) -> Vec<String> {
         let format = |index: &usize| self.scene.attachments.get(*index).map(|a| a.format);
@@ -311,10 +284,8 @@ impl DrawPlace<'_> {
         let depth = self.pass.depth_stencil.as_ref().and_then(format);
         let mut names: Vec<String> = colors.map(|f| named("color", color_class(f))).collect();
         names.extend(depth.map(|f| named("depth", f.name())));
-        names.extend(
-            self.target()
-                .map(|target| named("samples", &target.samples.to_string())),
-        );
+        let samples = self.scene.pass_samples(self.pass);
+        names.push(named("samples", &samples.to_string()));
         names.push(named("topology", self.draw.topology.name()));
         names.extend(self.scene.path.values().into_iter().map(of_path));
         names
@@ -348,7 +319,7 @@ fn color_class(format: TextureFormat) -> &'static str {
 
 /// All facts that draws can have, by number.
 #[derive(Clone, Debug)]
-pub struct Facts {
+struct Facts {
     facts: Vec<DrawFact>,
     numbers: HashMap<String, usize>,
 }
@@ -392,20 +363,16 @@ impl Default for Facts {
 }
 
 impl Facts {
-    /// Returns all facts.
-    pub fn all(&self) -> &[DrawFact] {
-        &self.facts
-    }
-
     /// Returns the numbers of the facts of each draw of a scene, in ascending order.
-    pub fn of(&self, scene: &Scene) -> Vec<Vec<usize>> {
-        let of_pass = |pass| scene_draws(scene, pass);
-        let places = scene.passes.iter().flat_map(of_pass);
+    fn of(&self, scene: &Scene) -> Vec<Vec<usize>> {
+        let places = scene.passes.iter().flat_map(|pass| {
+            let draws = pass.draws.iter();
+            draws.map(move |draw| DrawPlace { scene, pass, draw })
+        });
         let of_draw = |place: DrawPlace<'_>| {
             let states = (0..STATES.len()).filter(|i| match STATES[*i].1 {
                 OfShader(is) => is(place.draw.shader),
-                OfBoth(_, is) => is(&place),
-                OfDraw(is) => is(&place),
+                OfBoth(_, is) | OfDraw(is) => is(&place),
             });
             let others = place.others();
             let others = others
@@ -421,7 +388,7 @@ impl Facts {
 
     /// Returns true if the scene model can say two facts together: no draw has two topologies, and no shader has
     /// everything that shaders can do.
-    pub fn can_meet(&self, a: usize, b: usize) -> bool {
+    fn can_meet(&self, a: usize, b: usize) -> bool {
         let key = |number: usize| self.facts[number].name.split_once('=').map(|(key, _)| key);
         // A pass has one format of depth, but several of colour.
         let is_same_choice = key(a).is_some_and(|of_a| of_a != "color" && key(b) == Some(of_a));
@@ -437,17 +404,10 @@ impl Facts {
     }
 }
 
-fn scene_draws<'a>(scene: &'a Scene, pass: &'a Pass) -> impl Iterator<Item = DrawPlace<'a>> {
-    pass.draws
-        .iter()
-        .map(move |draw| DrawPlace { scene, pass, draw })
-}
-
 /// In how many scenes two facts meet in a draw.
 #[derive(Clone, Debug)]
 pub struct FactPairs {
-    /// The facts.
-    pub facts: Facts,
+    facts: Facts,
     /// The number of scenes, by the numbers of both facts, the greater one first.
     scenes: Vec<Vec<u64>>,
 }
@@ -455,7 +415,7 @@ pub struct FactPairs {
 impl Default for FactPairs {
     fn default() -> Self {
         let facts = Facts::default();
-        let scenes = (0..facts.all().len())
+        let scenes = (0..facts.facts.len())
             .map(|number| vec![0; number])
             .collect();
         Self { facts, scenes }
@@ -489,6 +449,6 @@ impl FactPairs {
         let all =
             (0..self.scenes.len()).flat_map(|a| (a + 1..self.scenes.len()).map(move |b| [a, b]));
         let sayable = all.filter(|[a, b]| self.facts.can_meet(*a, *b));
-        sayable.map(|[a, b]| ([a, b].map(|n| &self.facts.all()[n]), self.scenes[b][a]))
+        sayable.map(|[a, b]| ([a, b].map(|n| &self.facts.facts[n]), self.scenes[b][a]))
     }
 }
