@@ -207,6 +207,17 @@ impl Interval {
         self.clamp(other.low, other.high)
     }
 
+    /// Clamps a number to a range. No specification says what a clamp makes of NaN, and a computation without NaN may
+    /// yield anything for it (Vulkan, Floating-Point Computation; OpenGL 4.6, 2.3.4.1), so NaN stays open.
+    #[inline]
+    pub fn clamp_number(self, low: f64, high: f64) -> Self {
+        if self.may_be_nan() {
+            self
+        } else {
+            self.clamp(low, high)
+        }
+    }
+
     /// Clamps both ends to a range.
     #[inline]
     pub fn clamp(self, low: f64, high: f64) -> Self {

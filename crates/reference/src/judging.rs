@@ -399,18 +399,13 @@ impl<'r> Judging<'r> {
         }
     }
 
-    /// Clamps an operand of a blend into a normalized format. No specification says what a clamp makes of NaN, and a
-    /// computation without NaN may yield anything for it (Vulkan, Floating-Point Computation; OpenGL 4.6,
-    /// 2.3.4.1), so NaN stays open until it is stored.
+    /// Clamps an operand of a blend into a normalized format.
     #[inline]
     fn blend_clamp(&self, encoding: ChannelEncoding, value: Interval) -> Interval {
         let Some((low, high)) = encoding.normalized_range() else {
             return value;
         };
-        if value.may_be_nan() {
-            return value;
-        }
-        let clamped = value.clamp(f64::from(low), f64::from(high));
+        let clamped = value.clamp_number(f64::from(low), f64::from(high));
         if low >= 0.0 {
             return clamped;
         }
@@ -421,8 +416,8 @@ impl<'r> Judging<'r> {
         };
         match clamp {
             SignedClamp::Signed => clamped,
-            SignedClamp::Unit => value.clamp(0.0, 1.0),
-            SignedClamp::Either => clamped.hull(value.clamp(0.0, 1.0)),
+            SignedClamp::Unit => value.clamp_number(0.0, 1.0),
+            SignedClamp::Either => clamped.hull(value.clamp_number(0.0, 1.0)),
         }
     }
 
@@ -837,7 +832,7 @@ impl Arithmetic for Judging<'_> {
             Interval { low, high }
         });
         let ratio = self.divided(encoding, exact, a, b);
-        ratio.map(|v| if v.may_be_nan() { v } else { v.clamp(0.0, 1.0) })
+        ratio.map(|v| v.clamp_number(0.0, 1.0))
     }
 
     fn blend_root(&mut self, encoding: ChannelEncoding, value: Range) -> Range {

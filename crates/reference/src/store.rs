@@ -65,7 +65,7 @@ impl Walk<'_> {
         let value = if is_signed {
             value
         } else {
-            value.map(|v| if v.may_be_nan() { v } else { v.clamp(0.0, 1.0) })
+            value.map(|v| v.clamp_number(0.0, 1.0))
         };
         judging.encode(encoding, value)
     }
