@@ -63,10 +63,10 @@ pub(crate) fn time(
 }
 
 /// Removes the frame times of the run that a new one replaces.
-pub(crate) fn forget(folder: &Path, resume: bool) -> Result<(), Failure> {
+pub(crate) fn forget(folder: &Path) -> Result<(), Failure> {
     let folder = folder.join(TIMED_FOLDER);
     match Content::of(&folder).map_err(Failure::of)? {
-        Content::Recorded(FolderKind::Bench) if !resume => {
+        Content::Recorded(FolderKind::Bench) => {
             let out = OutputFolder::open(&folder).map_err(Failure::of)?;
             out.clear(None).map_err(Failure::of)
         }

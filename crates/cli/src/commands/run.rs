@@ -217,6 +217,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let launches: Vec<Launch> = adapters.ready.iter().map(|(l, _)| l.clone()).collect();
     let resume = claim.resume;
     let _lock = claim.take()?;
+    if !resume {
+        timed::forget(&arguments.out)?;
+    }
     let header = header(arguments, &selected, &adapters, &dead);
     let adapter_names = header
         .adapters
@@ -252,7 +255,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         } = arguments;
         timed::time(out, adapters, file, *timeout, cold, resume, stop).map(Some)
     } else {
-        timed::forget(&arguments.out, resume).map(|()| None)
+        Ok(None)
     };
     // Without frame times the records still have their reports.
     let mut results = Results::write(
