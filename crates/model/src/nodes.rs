@@ -121,13 +121,17 @@ impl<'a> Nodes<'a> {
     /// Returns all triangles, in the order of nodes and primitives. Where colours vary within triangles, these are cut into
     /// pieces.
     pub(crate) fn triangles(&self) -> Vec<ModelTriangle> {
-        let varies = |meshes: &&Vec<PaintedMesh<'_>>| meshes.iter().any(PaintedMesh::varies);
-        let varying: Vec<_> = self.meshes.iter().filter(varies).collect();
-        let parts = parts(&varying.iter().copied().flatten().collect::<Vec<_>>());
+        // The primitives of a mesh can share edges.
+        let varies = self
+            .meshes
+            .iter()
+            .map(|meshes| meshes.iter().any(PaintedMesh::varies));
+        let meshes: Vec<_> = self.meshes.iter().zip(varies).collect();
+        let varying = meshes.iter().filter(|(_, varies)| *varies);
+        let parts = parts(&varying.flat_map(|(meshes, _)| *meshes).collect::<Vec<_>>());
         let mut triangles = Vec::new();
-        for meshes in &self.meshes {
-            // The primitives of a mesh can share edges.
-            let parts = if varies(&meshes) { parts } else { 1 };
+        for (meshes, varies) in meshes {
+            let parts = if varies { parts } else { 1 };
             for mesh in meshes {
                 mesh.add_to(&mut triangles, parts);
             }
