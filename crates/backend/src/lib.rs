@@ -91,7 +91,8 @@ pub trait Prepared {
 /// The duration of one submit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FrameTime {
-    /// The time from the first call until the API returned from submitting the last work.
+    /// The time from the first call until the API returned from submitting the last work; in OpenGL, until
+    /// the last draw call returned.
     pub cpu: Duration,
     /// The time between GPU timestamps around the passes, if supported.
     pub gpu: Option<Duration>,

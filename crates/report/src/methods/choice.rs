@@ -126,8 +126,7 @@ impl<'s, 'a> QuestionPoints<'s, 'a> {
     }
 
     /// Returns the methods that were timed on an adapter at a size in at least half as many scenes as any other, over the
-    /// scenes that all of them draw: errors of different scenes do not
-    /// compare.
+    /// scenes that all of them draw: errors of different scenes do not compare.
     fn candidates(&self, adapter: usize, size: FrameSize) -> Vec<Candidate<'a>> {
         let here = |method: &'a str| -> BTreeMap<usize, (Spread, [f64; 2])> {
             let of_method = |p: &&ScenePoint<'a>| p.method == method && p.adapter == adapter;

@@ -50,6 +50,7 @@ const SCRIPT: &str = concat!(
     include_str!("index/script/route.js"),
     "})();\n"
 );
+
 /// What the page shows beside the records.
 #[derive(Clone, Copy)]
 pub(crate) struct PageParts<'a> {
