@@ -4,6 +4,8 @@ use crate::failure::Failure;
 use crate::named_files::replace;
 use crate::provenance;
 use clap::Args;
+use etalon_explore::fact_names;
+use etalon_glob::{Glob, did_you_mean};
 use etalon_record::{Entry, Expectations, RecordError};
 use std::path::{Path, PathBuf};
 
@@ -25,6 +27,7 @@ impl ExpectArguments {
         let mut expectations = Expectations::default();
         for path in &self.expect {
             let more = Expectations::read(path).map_err(Failure::usage)?;
+            check_needs(&more)?;
             expectations = expectations.and(more);
         }
         if !self.expect_only {
@@ -32,6 +35,24 @@ impl ExpectArguments {
         }
         Ok(counting(expectations, labels))
     }
+}
+
+/// Checks that draws can have the facts that findings need.
+fn check_needs(expectations: &Expectations) -> Result<(), Failure> {
+    let facts: Vec<String> = fact_names().collect();
+    for known in expectations.all() {
+        let can_be = |need: &&String| {
+            Glob::new(need).is_ok_and(|need| facts.iter().any(|fact| need.is_match(fact)))
+        };
+        if let Some(need) = known.needs.iter().find(|need| !can_be(need)) {
+            let near = did_you_mean(need, facts.iter().map(String::as_str));
+            return Err(Failure::usage(format!(
+                "{}: \"needs\": no draw has a fact `{need}`{near}; `etalon check --pairs` lists the facts",
+                known.place()
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// Returns the built-in findings that apply today on this machine.

@@ -4,8 +4,8 @@ use crate::failure::Failure;
 use crate::match_text::match_sentence;
 use crate::reducing::file_name;
 use etalon_case::Case;
-use etalon_diagnose::{Groups, KnownBugs, Symptom};
-use etalon_explore::{RandomScene, keys, states};
+use etalon_diagnose::{Groups, KnownBugs, Symptom, Traits};
+use etalon_explore::{RandomScene, draw_facts, keys, states};
 use etalon_frame::threads::share;
 use etalon_record::{OutputFolder, Record};
 use etalon_report::ReducedCase;
@@ -150,7 +150,8 @@ impl<'a> FailingScenes<'a> {
             file,
             unconfirmed: None,
         };
-        let mut group = FailureGroup::new(kept, document, seen.symptom, seen.key);
+        let traits = Traits::of(document, &seen.symptom, draw_facts(&seen.scene.case));
+        let mut group = FailureGroup::new(kept, traits, seen.symptom, seen.key);
         group.scene.unconfirmed = group.steady.then_some(seen.scene.case);
         self.groups.push(group);
         Ok(())

@@ -2,14 +2,14 @@
 //!
 //! Findings name the suite's cases, so none of them names a user's own case that meets a known bug. Failing
 //! cases and the cases of findings are therefore reduced on the driver. If both reduce to the same states and
-//! the same violation, the failure is known by its look.
+//! the same violation, and have the facts that the finding needs, the failure is known by its look.
 
 use crate::failure::Failure;
 use crate::match_text::match_sentence;
 use crate::output::say;
 use etalon_case::{Case, CaseRef, Library, Profile, build, select};
-use etalon_diagnose::{Group, Groups, KnownBugs, Match, Symptom};
-use etalon_explore::Candidate;
+use etalon_diagnose::{Group, Groups, KnownBugs, Match, Symptom, Traits};
+use etalon_explore::{Candidate, draw_facts};
 use etalon_record::{AdapterRecord, Expectation, Expectations, Expected, Record, Run};
 use etalon_runner::{Launch, Reducer, confirm};
 use serde_json::Value;
@@ -85,8 +85,8 @@ impl LookInputs<'_> {
         names.collect()
     }
 
-    /// Marks an adapter's failures that findings explain, if its records show these findings too. A reduced
-    /// scene can lack what its finding is about, so a finding that the run does not show proves nothing.
+    /// Marks an adapter's failures that findings explain, if its records show these findings too. The needs of a
+    /// finding do not say all that it is about, so a finding that the run does not show proves nothing.
     fn mark_all(
         &self,
         failing: Vec<&mut Record>,
@@ -188,7 +188,8 @@ fn group(
         return Ok(number);
     }
     let Candidate { document, case } = looked.scene;
-    let mut group = Group::new(None, &document, looked.symptom, looked.key);
+    let traits = Traits::of(&document, &looked.symptom, draw_facts(&case));
+    let mut group = Group::new(None, traits, looked.symptom, looked.key);
     group.scene = group.steady.then_some(case);
     Ok(groups.push(group))
 }

@@ -35,18 +35,17 @@ pub enum Unreduced {
 impl Key {
     /// Returns the key of a scene that was reduced to a document.
     pub fn reduced(document: &Value, symptom: &Symptom) -> Self {
-        let Traits { way, states, .. } = Traits::of(document, symptom);
         Self {
-            way,
+            way: Violation::of(symptom),
             unreduced: None,
-            states: Some(states),
+            states: Some(Signature::of(document)),
         }
     }
 
     /// Returns the key of a scene that was not reduced, with the reason.
-    pub fn whole(document: &Value, symptom: &Symptom, why: Unreduced) -> Self {
+    pub fn whole(symptom: &Symptom, why: Unreduced) -> Self {
         Self {
-            way: Traits::of(document, symptom).way,
+            way: Violation::of(symptom),
             unreduced: Some(why),
             states: None,
         }
@@ -78,14 +77,14 @@ pub struct Group<S> {
 }
 
 impl<S> Group<S> {
-    /// Creates a group from its first scene, given its reduced document.
-    pub fn new(scene: S, document: &Value, symptom: Symptom, key: Key) -> Self {
+    /// Creates a group from its first scene, given the traits of the reduced scene.
+    pub fn new(scene: S, traits: Traits, symptom: Symptom, key: Key) -> Self {
         Self {
             scene,
             count: 1,
             reduced: 1,
             verdict: symptom.verdict,
-            traits: Traits::of(document, &symptom),
+            traits,
             steady: key.states.is_some(),
             known: None,
             common: key.states.as_ref().map(Signature::without_depth_formats),

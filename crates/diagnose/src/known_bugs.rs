@@ -53,6 +53,9 @@ pub trait Driver {
         record: Record,
     ) -> Result<(Self::Case, Symptom, Traits), Self::Error>;
 
+    /// Returns the facts of each draw of a case.
+    fn facts(case: &Self::Case) -> Vec<Vec<String>>;
+
     /// Returns true if a case fails with a symptom in a new process.
     fn is_steady(&self, case: &Self::Case, symptom: &Symptom) -> bool;
 }
@@ -259,15 +262,20 @@ impl<D: Driver> KnownBugs<D> {
         verdict: Verdict,
         traits: &Traits,
     ) -> Option<Similarity> {
-        self.finding(place.0, verdict)?;
-        traits.similarity(&self.left(place)?.traits)
+        let known = &self.left(place)?.traits;
+        self.finding(place.0, verdict, &[known, traits])?;
+        traits.similarity(known)
     }
 
-    /// Returns the first finding that names a case and excuses a verdict.
-    fn finding(&self, number: usize, verdict: Verdict) -> Option<&Known> {
-        let entries = self.expectations.all();
-        let mut findings = self.named[number].findings.iter().map(|f| &*entries[*f]);
-        findings.find(|known| known.excuses(verdict))
+    /// Returns the first finding that names a case, excuses a verdict, and needs only what all these scenes have.
+    fn finding(&self, number: usize, verdict: Verdict, scenes: &[&Traits]) -> Option<&Known> {
+        let entries = &self.expectations;
+        let is_it = |finding: &&usize| {
+            let is_met = |scene: &&Traits| entries.are_needs_met(**finding, &scene.draws);
+            entries.all()[**finding].excuses(verdict) && scenes.iter().all(is_met)
+        };
+        let finding = self.named[number].findings.iter().find(is_it)?;
+        Some(&entries.all()[*finding])
     }
 
     fn matched(
@@ -277,10 +285,9 @@ impl<D: Driver> KnownBugs<D> {
         traits: &Traits,
         difference: Option<Difference>,
     ) -> Match {
-        let known = self.finding(place.0, verdict);
-        let states = self
-            .left(place)
-            .map_or(&traits.states, |r| &r.traits.states);
+        let reduced = self.left(place).map_or(traits, |r| &r.traits);
+        let known = self.finding(place.0, verdict, &[reduced, traits]);
+        let states = &reduced.states;
         Match {
             finding: known.map(Known::name).unwrap_or_default(),
             title: known.map(|k| k.reason.clone()).unwrap_or_default(),
@@ -361,10 +368,10 @@ impl<D: Driver> KnownBugs<D> {
         let Some((case, record)) = self.driver.draw(&document)? else {
             return Ok(None);
         };
-        if self.finding(number, record.verdict).is_none() {
+        if self.finding(number, record.verdict, &[]).is_none() {
             return Ok(None);
         }
-        let traits = Traits::of(&document, &Symptom::of(&record));
+        let traits = Traits::of(&document, &Symptom::of(&record), D::facts(&case));
         Ok(Some(DrawnCase {
             case,
             record,

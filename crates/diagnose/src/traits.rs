@@ -20,6 +20,8 @@ pub struct Traits {
     pub states: Signature,
     /// The states of the failing scene, with their values.
     pub words: Signature,
+    /// The facts of each draw.
+    pub draws: Vec<Vec<String>>,
 }
 
 /// The wrong part of a result, without names of attachments and earlier contents.
@@ -35,7 +37,7 @@ pub struct Violation {
 }
 
 impl Violation {
-    fn of(symptom: &Symptom) -> Self {
+    pub(crate) fn of(symptom: &Symptom) -> Self {
         let mut operations = match symptom.subject {
             WrongPart::Picture(_) => symptom.of_draws(),
             _ => Vec::new(),
@@ -85,12 +87,13 @@ pub enum Similarity {
 }
 
 impl Traits {
-    /// Returns the traits of a document that fails with a symptom.
-    pub fn of(document: &Value, symptom: &Symptom) -> Self {
+    /// Returns the traits of a document that fails with a symptom. `draws` are the facts of each of its draws.
+    pub fn of(document: &Value, symptom: &Symptom, draws: Vec<Vec<String>>) -> Self {
         Self {
             way: Violation::of(symptom),
             states: Signature::of(document),
             words: Signature::exact(document),
+            draws,
         }
     }
 
@@ -163,7 +166,7 @@ mod tests {
             "attachments": { "target": { "format": "rgba8unorm", "size": [1, 1] } },
             "passes": [{ "color": ["target"], "draws": [draw] }], "read": ["target"]
         } });
-        Traits::of(&document, &symptom)
+        Traits::of(&document, &symptom, Vec::new())
     }
 
     fn named(name: &&str) -> Operation {

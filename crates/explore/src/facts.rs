@@ -2,12 +2,14 @@
 //!
 //! Drivers break where two facts meet, so the suite counts in how many scenes each pair of them does.
 
+use etalon_case::Case;
 use etalon_frame::{ChannelEncoding, PathValue, TextureFormat};
 use etalon_scene::{
     BlendFactor, BlendState, CullMode, Draw, EarlyTests, Fetch, FilterMode, FrontFace, Pass,
     PolygonMode, PrimitiveTopology, Scene, Shader, Viewport,
 };
 use std::collections::{BTreeSet, HashMap};
+use std::iter;
 
 /// A draw with what surrounds it.
 #[derive(Clone, Copy)]
@@ -402,6 +404,24 @@ impl Facts {
         };
         a != b && !is_same_choice && by_shader
     }
+}
+
+/// Returns the names of all facts that draws can have.
+pub fn fact_names() -> impl Iterator<Item = String> {
+    Facts::default().facts.into_iter().map(|fact| fact.name)
+}
+
+/// Returns the names of the facts of each draw of a case's scenes.
+pub fn draw_facts(case: &Case) -> Vec<Vec<String>> {
+    let facts = Facts::default();
+    let name = |number: usize| facts.facts[number].name.clone();
+    let variants = case.variants.iter().map(|variant| &variant.scene);
+    let draws = iter::once(&case.scene)
+        .chain(variants)
+        .flat_map(|scene| facts.of(scene));
+    draws
+        .map(|numbers| numbers.into_iter().map(name).collect())
+        .collect()
 }
 
 /// In how many scenes two facts meet in a draw.

@@ -23,7 +23,7 @@ mod scenes;
 mod space;
 
 pub use document::{keys, leaves, states};
-pub use facts::{DrawFact, FactKind, FactPairs};
+pub use facts::{DrawFact, FactKind, FactPairs, draw_facts, fact_names};
 pub use fuzz::{Fuzzer, RandomScene};
 pub use reduce::{Candidate, MOST_DRAWS, Oracle, Reduction, ReductionLimits, reduce};
 pub use space::Space;

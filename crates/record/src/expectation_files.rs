@@ -225,6 +225,7 @@ fn globs_of(
         adapters: compiled(&known.adapters, |glob| shared(keys[0], glob))?,
         driver: shared("driver", &known.driver)?,
         cases: compiled(&known.cases, |case| glob(keys[1], case))?,
+        needs: compiled(&known.needs, |need| glob("needs", need))?,
     })
 }
 

@@ -35,6 +35,7 @@ pub(crate) struct EntryGlobs {
     /// False if the machine has another processor, or if the run lacks a label.
     pub(crate) applies: bool,
     pub(crate) cases: Vec<Glob>,
+    pub(crate) needs: Vec<Glob>,
 }
 
 /// Returns true if a glob matches or is absent.
@@ -56,6 +57,12 @@ impl EntryGlobs {
 
     fn match_case(&self, case: &str) -> bool {
         self.cases.iter().any(|glob| glob.is_match(case))
+    }
+
+    fn are_needs_met(&self, draws: &[Vec<String>]) -> bool {
+        let has = |facts: &Vec<String>, need: &Glob| facts.iter().any(|fact| need.is_match(fact));
+        let mut draws = draws.iter();
+        self.needs.is_empty() || draws.any(|facts| self.needs.iter().all(|need| has(facts, need)))
     }
 }
 
@@ -196,6 +203,12 @@ impl Expectations {
     /// Returns true if an expectation names a case, on any adapter.
     pub fn names(&self, number: usize, case: &str) -> bool {
         self.globs.get(number).is_some_and(|g| g.match_case(case))
+    }
+
+    /// Returns true if a scene has what the bug of an expectation needs. `draws` are the facts of each draw.
+    pub fn are_needs_met(&self, number: usize, draws: &[Vec<String>]) -> bool {
+        let globs = self.globs.get(number);
+        globs.is_some_and(|g| g.are_needs_met(draws))
     }
 
     /// Returns true if an expectation applies to an adapter.

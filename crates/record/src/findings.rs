@@ -37,6 +37,10 @@ pub struct Finding {
     pub versions: Option<String>,
     /// Globs over the ids of the cases that show the bug; `*` also matches `/`.
     pub cases: Vec<String>,
+    /// Globs over facts of draws, such as `scissor` and `samples={2,4,8,16}`: without one draw that has them all, a
+    /// failure is another bug.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub needs: Vec<String>,
     /// The expected verdict, if it differs from the grade's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,

@@ -81,6 +81,8 @@ pub struct Known {
     pub version: Option<String>,
     /// Globs over case ids.
     pub cases: Vec<String>,
+    /// Globs over facts of draws: without one draw that has them all, a failure is another bug.
+    pub needs: Vec<String>,
     /// The verdict that is expected of every case that the expectation names.
     pub verdict: Verdict,
     /// The reason why the verdict is accepted; for a finding, its title.
@@ -109,6 +111,7 @@ impl Known {
             device: entry.device,
             version: entry.version,
             cases: vec![entry.case],
+            needs: Vec::new(),
             verdict: entry.verdict,
             reason: entry.reason,
             expires: entry.expires,
@@ -132,6 +135,7 @@ impl Known {
             device: finding.device.clone(),
             version: finding.versions.clone(),
             cases: finding.cases.clone(),
+            needs: finding.needs.clone(),
             verdict: finding.expected(),
             reason: finding.title.clone(),
             expires: finding.expires.clone(),

@@ -126,7 +126,8 @@ pub(crate) struct Arguments {
     pub(crate) shader_cache: CacheState,
     /// Compare unexpected failures with the findings about the driver, by reducing both on it. A failure that
     /// reduces to the same states and violation as a finding's case is known by its look and counts as
-    /// expected, if another record of this adapter shows the finding. For your own cases
+    /// expected, if both have the facts that the finding needs and another record of this adapter shows the
+    /// finding. For your own cases
     #[arg(long, conflicts_with = "history")]
     pub(crate) known_by_look: bool,
     /// Failures whose complete frames are kept. Except with `all`, one case per finding and adapter keeps the story

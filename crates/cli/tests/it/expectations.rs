@@ -577,3 +577,28 @@ fn a_long_list_is_imported_at_once() {
         assert!(begun.elapsed() < Duration::from_secs(40), "{flag}");
     }
 }
+
+#[test]
+fn a_finding_that_needs_an_unknown_fact_is_refused() {
+    let work = Work::new();
+    let file = work.path("finding.json");
+    let finding = |need: &str| {
+        let finding = json!({
+            "title": "t", "adapters": ["*"], "driver": "*", "cases": ["cull/*"], "needs": [need],
+            "grade": "proven", "clause": "c", "evidence": "e"
+        });
+        fs::write(&file, finding.to_string()).unwrap();
+    };
+    for (need, message) in [
+        (
+            "scisor",
+            "no draw has a fact `scisor`; did you mean `scissor`?",
+        ),
+        ("samples={2,4", "\"needs\": "),
+    ] {
+        finding(need);
+        work.run(&CRASHING, &file)
+            .code(64)
+            .stderr(contains(message));
+    }
+}

@@ -1,6 +1,9 @@
 //! The findings of `ci/findings`: all were read twice, and pages list them. A test in `src/dead.rs` finds dead globs.
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
+use etalon_case::{Library, Profile, select};
+use etalon_explore::{draw_facts, fact_names};
+use etalon_glob::Glob;
 use etalon_record::{Expectations, Finding, Grade, KnownSource};
 use std::collections::BTreeMap;
 use std::fs;
@@ -187,4 +190,32 @@ fn the_pages_list_the_findings() {
             );
         }
     }
+}
+
+#[test]
+fn every_case_of_a_finding_has_what_the_finding_needs() {
+    let expectations = Expectations::read(&root().join("ci/findings")).unwrap();
+    let known: Vec<String> = fact_names().collect();
+    let mut with_needs = 0;
+    for (number, finding) in expectations.all().iter().enumerate() {
+        let (place, needs) = (finding.place(), &finding.needs);
+        for need in needs {
+            let glob = Glob::new(need).unwrap();
+            let is_fact = known.iter().any(|fact| glob.is_match(fact));
+            assert!(is_fact, "{place}: no draw has a fact `{need}`");
+        }
+        if needs.is_empty() {
+            continue;
+        }
+        with_needs += 1;
+        let selected = select(Library::built_in(), Profile::Full, &finding.cases).unwrap();
+        for case in selected.cases {
+            let draws = draw_facts(&case.build().unwrap());
+            let has_all = expectations.are_needs_met(number, &draws);
+            let id = case.id();
+            assert!(has_all, "{place}: no draw of {id} has all of {needs:?}");
+        }
+    }
+    // Bugs of clears, resolves and copies need no draw.
+    assert!(with_needs > 150, "{with_needs}");
 }

@@ -14,15 +14,24 @@ const CASE: &str = "mine/over/equation=over/format=rg11b10ufloat";
 /// The same case under the name that the finding has.
 const NAMED: &str = "blend/formats/equation=over/format=rg11b10ufloat";
 
+/// Copies a case file of the suite into a folder of cases, under its own path and others.
+fn copy_case(folder: &Path, name: &str, others: &[&str]) {
+    let built_in = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
+    for to in others.iter().chain([&name]) {
+        let to = folder.join("cases").join(to);
+        fs::create_dir_all(to.parent().unwrap()).unwrap();
+        fs::copy(built_in.join(name), to).unwrap();
+    }
+}
+
 fn drawn(folder: &Path, more: &[&str]) -> Assert {
-    let built_in = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/blend/formats.json");
-    let mine = folder.join("cases/mine");
-    fs::create_dir_all(&mine).unwrap();
-    fs::copy(&built_in, mine.join("over.json")).unwrap();
-    let suite = folder.join("cases/blend");
-    fs::create_dir_all(&suite).unwrap();
-    fs::copy(built_in, suite.join("formats.json")).unwrap();
-    etalon(&["run", CASE, "--adapter", "gl:softpipe", "--force"])
+    copy_case(folder, "blend/formats.json", &["mine/over.json"]);
+    run(folder, "gl:softpipe", &[&[CASE], more].concat())
+}
+
+/// Runs cases of a folder on an adapter.
+fn run(folder: &Path, adapter: &str, more: &[&str]) -> Assert {
+    etalon(&["run", "--adapter", adapter, "--force"])
         .arg("--cases")
         .arg(folder.join("cases"))
         .arg("--out")
@@ -57,4 +66,29 @@ fn a_failure_of_a_users_own_case_is_known_by_its_look() {
     drawn(folder.path(), &[&only[..], &["--expect-only"]].concat()).code(1);
     let run = Run::read(&folder.path().join("out")).unwrap();
     assert!(run.records.iter().all(|record| record.look.is_none()));
+}
+
+/// Counts the samples of two per texel, without a scissor rectangle; virgl's host makes four of them.
+const TWO_SAMPLES: &str = r#"{ "about": "Counted samples.", "spec": ["OpenGL 4.6: 17.3.5"], "scene": {
+    "attachments": { "color": { "format": "rgba8unorm", "size": [4, 4], "clear": [0, 0, 0, 1], "samples": 2 } },
+    "counters": { "passed": "samples-passed" },
+    "passes": [{ "color": ["color"], "draws": [{ "mesh": { "kind": "full" }, "shader": "uniform_color",
+        "params": { "color": [1, 0, 0, 1] }, "counters": ["passed"] }] }],
+    "read": ["color"] } }"#;
+
+#[test]
+fn a_finding_does_not_excuse_a_scene_without_the_facts_that_it_needs() {
+    let folder = tempfile::tempdir().unwrap();
+    copy_case(folder.path(), "found/fuzzed.json", &[]);
+    let mine = folder.path().join("cases/mine");
+    fs::create_dir_all(&mine).unwrap();
+    fs::write(mine.join("two-samples.json"), TWO_SAMPLES).unwrap();
+    // The finding is about a scissor rectangle, which its case loses when it is reduced on virgl.
+    let named = "found/fuzzed/bug=counted-beside-scissor";
+    let cases = [named, "mine/two-samples", "--known-by-look"];
+    run(folder.path(), "gl:virgl", &cases).code(1);
+    let run = Run::read(&folder.path().join("out")).unwrap();
+    let record = |case: &str| run.records.iter().find(|r| r.case == case).unwrap();
+    assert!(record(named).verdict.is_bad() && !record(named).unexpected());
+    assert!(record("mine/two-samples").unexpected());
 }

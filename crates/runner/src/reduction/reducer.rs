@@ -7,7 +7,7 @@ use crate::trial::Trials;
 use crate::worker::Worker;
 use etalon_case::{CaseRef, build};
 use etalon_diagnose::{Driver, Key, Symptom, Traits, Unreduced};
-use etalon_explore::{Candidate, MOST_DRAWS, Oracle, keys};
+use etalon_explore::{Candidate, MOST_DRAWS, Oracle, draw_facts, keys};
 use etalon_frame::Limits;
 use etalon_record::Record;
 use serde_json::Value;
@@ -87,7 +87,7 @@ impl<'a> Reducer<'a> {
         symptom: Symptom,
     ) -> Result<Looked, ReductionError> {
         let unreduced = |scene: Candidate, record: Record, symptom: Symptom, why| Looked {
-            key: Key::whole(&scene.document, &symptom, why),
+            key: Key::whole(&symptom, why),
             scene,
             record,
             symptom,
@@ -165,8 +165,12 @@ impl<'a> Driver for Reducer<'a> {
         let mut oracle = self.oracle(record)?;
         let smallest = oracle.reduce(case, &self.limits, MOST_DRAWS).smallest;
         let (_, symptom) = self.finish(oracle)?;
-        let traits = Traits::of(&smallest.document, &symptom);
+        let traits = Traits::of(&smallest.document, &symptom, Self::facts(&smallest));
         Ok((smallest, symptom, traits))
+    }
+
+    fn facts(case: &Candidate) -> Vec<Vec<String>> {
+        draw_facts(&case.case)
     }
 
     fn is_steady(&self, case: &Candidate, symptom: &Symptom) -> bool {
