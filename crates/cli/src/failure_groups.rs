@@ -91,7 +91,7 @@ impl<'a> FailingScenes<'a> {
     /// Compares all groups with the known bugs. After an error, the remaining groups are not compared.
     pub(crate) fn compare(&mut self, bugs: &mut KnownBugs<Reducer<'_>>) -> Result<(), Failure> {
         for group in self.groups.iter_mut().filter(|g| g.can_be_compared()) {
-            group.known = bugs.matching(group.verdict, &group.traits, group.steady)?;
+            group.known = bugs.matching(&group.symptom, &group.traits, group.steady)?;
             file_under(group, self.out)?;
         }
         Ok(())

@@ -48,7 +48,7 @@ impl LookInputs<'_> {
         for adapter in &run.header.adapters {
             let seen = self.seen(&run.records, adapter);
             let of_adapter = |r: &&mut Record| {
-                r.adapter == adapter.info.name && r.unexpected() && r.verdict.is_violation()
+                r.adapter == adapter.info.name && r.unexpected() && Symptom::of(r).keeps_worker()
             };
             let failing: Vec<&mut Record> = run.records.iter_mut().filter(of_adapter).collect();
             let mut launches = self.launches.iter();
@@ -119,7 +119,7 @@ impl LookInputs<'_> {
                 group.steady = steady.is_ok();
             }
             let found = if group.can_be_compared() {
-                bugs.matching(group.verdict, &group.traits, group.steady)?
+                bugs.matching(&group.symptom, &group.traits, group.steady)?
             } else {
                 None
             };

@@ -106,7 +106,7 @@ impl<S> Group<S> {
     /// Returns true if all states of the group's first scene belong to the failure. A scene that was not
     /// reduced still has nearly all its states.
     pub fn can_be_compared(&self) -> bool {
-        self.key.states.is_some() || !self.verdict.is_violation()
+        self.key.states.is_some() || !self.symptom.keeps_worker()
     }
 
     /// Returns true if a finding explains the group.
@@ -148,7 +148,7 @@ impl<S> Groups<S> {
     pub fn count(&mut self, document: &Value, symptom: &Symptom, stopped: bool) -> Option<usize> {
         let states = Signature::of(document);
         // Each reduction of a scene that ends its worker costs processes, so the states are not compared.
-        let ends = !symptom.verdict.is_violation();
+        let ends = !symptom.keeps_worker();
         let number = self.all.iter().position(|group| {
             let left = group.common.as_ref().filter(|_| group.steady);
             symptom.covers_elsewhere(&group.symptom)

@@ -190,12 +190,14 @@ impl<D: Driver> KnownBugs<D> {
     /// If the driver cannot be started again.
     pub fn matching(
         &mut self,
-        verdict: Verdict,
+        symptom: &Symptom,
         traits: &Traits,
         steady: bool,
     ) -> Result<Option<Match>, D::Error> {
+        let verdict = symptom.verdict;
         let part = ComparedAttachments::of(traits);
-        if steady && verdict.is_violation() {
+        let is_reduced = steady && symptom.keeps_worker();
+        if is_reduced {
             for number in self.may_leave(traits) {
                 let place = (number, part);
                 self.reduced(place, traits)?;
@@ -239,7 +241,7 @@ impl<D: Driver> KnownBugs<D> {
         let mut alike = alike.into_iter();
         let best = alike.find(|(place, _)| !steady || self.is_steady(*place));
         Ok(best.map(|(place, similarity)| {
-            if steady && similarity == Similarity::Same && verdict.is_violation() {
+            if is_reduced && similarity == Similarity::Same {
                 return self.matched(place, verdict, traits, None);
             }
             let known = self.left(place).map(|r| &r.traits);
@@ -382,10 +384,11 @@ impl<D: Driver> KnownBugs<D> {
     /// Reduces a case. A case that ends its worker is kept as it is, because each step would cost a
     /// process.
     fn reduce(&mut self, seen: DrawnCase<D::Case>) -> Result<Reduced<D::Case>, D::Error> {
-        let (case, symptom, traits) = if seen.record.verdict.is_violation() {
+        let symptom = Symptom::of(&seen.record);
+        let (case, symptom, traits) = if symptom.keeps_worker() {
             self.driver.reduce(seen.case, seen.record)?
         } else {
-            (seen.case, Symptom::of(&seen.record), seen.traits)
+            (seen.case, symptom, seen.traits)
         };
         Ok(Reduced {
             case,

@@ -141,6 +141,13 @@ impl Symptom {
         Self { subject, ..bare }
     }
 
+    /// Returns true if the worker draws further cases after the failure, so that the case can be reduced: a frame was
+    /// judged, or a shader was not compiled.
+    pub fn keeps_worker(&self) -> bool {
+        let shader = matches!(self.subject, WrongPart::Error(ErrorKind::Shader(_)));
+        self.verdict.is_violation() || shader
+    }
+
     /// Returns true if a smaller case that fails like `other` also fails like this one.
     pub fn covers(&self, other: &Self) -> bool {
         self.attachment == other.attachment && self.covers_elsewhere(other)

@@ -92,3 +92,21 @@ fn a_finding_does_not_excuse_a_scene_without_the_facts_that_it_needs() {
     assert!(record(named).verdict.is_bad() && !record(named).unexpected());
     assert!(record("mine/two-samples").unexpected());
 }
+
+#[test]
+fn a_shader_that_does_not_compile_is_known_by_its_look() {
+    let folder = tempfile::tempdir().unwrap();
+    copy_case(
+        folder.path(),
+        "early-z/shader-mask.json",
+        &["mine/mask.json"],
+    );
+    let point =
+        "compare=less/early=*/format=depth32float-stencil8/mask=all/occlusion=any-*/stencil=off";
+    let cases = ["early-z/shader-mask", "mine/mask"].map(|file| format!("{file}/{point}"));
+    let known = contains("known by their look").and(contains("like early-z/"));
+    let arguments = [&cases[0], &cases[1], "--known-by-look"];
+    run(folder.path(), "wgpu:gl:llvmpipe", &arguments)
+        .code(0)
+        .stdout(known);
+}

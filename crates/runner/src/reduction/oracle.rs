@@ -118,7 +118,7 @@ impl<'a> DriverOracle<'a> {
         draws: usize,
     ) -> Reduction {
         let can_draw = |case: &Case| limits.missing(&case.requirements()).is_none();
-        let budget = if self.record.verdict.is_violation() {
+        let budget = if self.symptom.keeps_worker() {
             ReductionLimits::draws(draws)
         } else {
             ReductionLimits::of_processes()
