@@ -10,7 +10,7 @@
 
 use etalon_frame::{
     Aspect, Band, ChannelMismatch, CounterKind, Effect, ErrorKind, Event, Operation, Rejection,
-    Step, Story, Target,
+    Step, Story, Target, WrongTexel,
 };
 use etalon_record::{LossKind, ProcessEnd, Record, Verdict};
 use std::fmt;
@@ -109,11 +109,13 @@ impl Symptom {
             let subject = WrongPart::Process { kind, signal, exit };
             return Self { subject, ..bare };
         }
-        if let Some(invariance) = invariance(events) {
+        let by_counter = record.is_decided_by_counter();
+        if let Some(invariance) = invariance(events).filter(|_| !by_counter) {
             let subject = WrongPart::Relation(invariance);
             return Self { subject, ..bare };
         }
-        let wrong = record.wrong.first().filter(|w| w.band > Band::Imprecise);
+        let is_deciding = |w: &&WrongTexel| w.band > Band::Imprecise && !by_counter;
+        let wrong = record.wrong.first().filter(is_deciding);
         if let Some(channel) = wrong.and_then(|w| w.channels.first()) {
             let operations = story.map(|s| deciding(s, &channel.attachment, channel.aspect));
             return Self {
@@ -554,6 +556,24 @@ mod tests {
         assert_ne!(high, broad(3, vec![blend(0)]));
         assert_ne!(high, broad(30, vec![depth_test(0, Effect::None)]));
         assert_eq!(broad(3, vec![]).text(), "color too low");
+    }
+
+    #[test]
+    fn a_counter_on_stronger_evidence_than_a_texel_is_the_symptom() {
+        let mut counted = record(30, vec![store(0, "c")]);
+        counted.counters = vec![CounterOutcome {
+            name: "passed".to_owned(),
+            kind: CounterKind::SamplesPassed,
+            low: 0,
+            high: Some(32),
+            actual: 64,
+            band: Some(Band::Fail),
+        }];
+        let subject = |record: &Record| Symptom::of(record).subject;
+        assert_eq!(subject(&counted), WrongPart::Picture(Aspect::Color));
+        counted.wrong[0].band = Band::RequiredByCts;
+        let counter = WrongPart::Counter(CounterKind::SamplesPassed);
+        assert_eq!(subject(&counted), counter);
     }
 
     #[test]

@@ -230,6 +230,12 @@ impl Record {
         judged || channels || self.counters.iter().any(CounterOutcome::is_asserted)
     }
 
+    /// Returns true if stronger evidence forbids the value of a counter than that of any texel.
+    pub fn is_decided_by_counter(&self) -> bool {
+        let texels = self.wrong.iter().map(|texel| texel.band).max();
+        self.counters.iter().any(|counter| counter.band > texels)
+    }
+
     /// Returns the parts of the case's id.
     pub fn parts(&self) -> CaseId<'_> {
         CaseId::new(&self.case)

@@ -21,8 +21,8 @@ pub(crate) fn process_end(end: &ProcessEnd) -> String {
     format!("{cause}, after {}.", duration(end.seconds))
 }
 
-/// Returns the most informative line about a record: the ruling of its story, its first wrong texel, or the
-/// last line of its message, which usually names the cause of a crash.
+/// Returns the most informative line about a record, which names what its verdict is about: the ruling of its story,
+/// its first wrong texel, or the last line of its message, which names wrong counters and the cause of a crash.
 pub(crate) fn headline(record: &Record) -> String {
     let message = message(record);
     let last = message.lines().rev().find(|l| !l.trim().is_empty());
@@ -30,6 +30,7 @@ pub(crate) fn headline(record: &Record) -> String {
         _ if Tone::of(record) == Tone::Missed => {
             format!("{}, but the selftest is due to fail", name(record.verdict))
         }
+        (_, Some(line)) if record.is_decided_by_counter() => line.trim().to_owned(),
         (Some(texel), _) if record.verdict.is_judged() => {
             let sentence = record.story.as_ref().and_then(sentence);
             sentence.unwrap_or_else(|| texel_line(texel, multisampled(record)))
@@ -44,6 +45,34 @@ pub(crate) fn headline(record: &Record) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use etalon_frame::{Band, CounterKind, CounterOutcome, WrongTexel};
+    use etalon_record::{Reason, Verdict};
+
+    #[test]
+    fn a_proven_counter_is_named_before_a_texel_that_only_the_cts_forbids() {
+        let mut record = Record::new("a/b", "gl:x", Verdict::Fail);
+        record.wrong = vec![WrongTexel {
+            x: 1,
+            y: 2,
+            sample: 0,
+            band: Band::RequiredByCts,
+            channels: Vec::new(),
+        }];
+        let counter = CounterOutcome {
+            name: "passed".to_owned(),
+            kind: CounterKind::SamplesPassed,
+            low: 16,
+            high: Some(16),
+            actual: 64,
+            band: Some(Band::Fail),
+        };
+        record.counters = vec![counter.clone()];
+        record.reasons = vec![Reason::Counters(vec![counter])];
+        let text = "counter passed (samples-passed) is 64, 16 is legal";
+        assert_eq!(headline(&record), text);
+        record.wrong[0].band = Band::Fail;
+        assert_ne!(headline(&record), text);
+    }
 
     #[test]
     fn a_lost_process_is_described_in_one_sentence() {
