@@ -93,11 +93,14 @@ bugs! {
             positions.iter_mut().zip(two).for_each(|(place, of_two)| *place = of_two);
         });
     source "dEQP sees alpha to coverage ignored in 2 of 32 cases";
-    "alpha-to-coverage-ignored: Alpha removes no samples." => alpha_covers(|_, _, _| true), permitted vec![under!(alpha_to_coverage: AlphaToCoverage::Any)];
-    "alpha-to-coverage-inverted: Alpha 1 covers nothing." => alpha_covers(|a, s, n| s < share(1.0 - a, n)), permitted vec![under!(alpha_to_coverage: AlphaToCoverage::Any)];
+    "alpha-to-coverage-ignored: Alpha removes no samples." => alpha_covers(|_, _, _| true),
+        permitted vec![under!(alpha_to_coverage: AlphaToCoverage::Any), under!(colorless_alpha_to_coverage: AlphaToCoverage::Opaque | AlphaToCoverage::Any)];
+    "alpha-to-coverage-inverted: Alpha 1 covers nothing." => alpha_covers(|a, s, n| s < share(1.0 - a, n)),
+        permitted vec![under!(alpha_to_coverage: AlphaToCoverage::Any), under!(colorless_alpha_to_coverage: AlphaToCoverage::Any)];
     "alpha-to-coverage-one-less: Alpha covers one sample too few." => alpha_covers(|a, s, n| s + 1 < share(a, n));
     "alpha-to-coverage-one-more: Alpha covers one sample too many." => alpha_covers(|a, s, n| s < share(a, n) + 1);
-    "alpha-to-coverage-never: Alpha to coverage draws nothing." => alpha_covers(|_, _, _| false), permitted vec![under!(alpha_to_coverage: AlphaToCoverage::Any)];
+    "alpha-to-coverage-never: Alpha to coverage draws nothing." => alpha_covers(|_, _, _| false),
+        permitted vec![under!(alpha_to_coverage: AlphaToCoverage::Any), under!(colorless_alpha_to_coverage: AlphaToCoverage::Any)];
     source CONFUSION;
     "alpha-to-coverage-for-zero-alone: Only alpha 0 removes samples." =>
         alpha_covers(|a, _, _| a > 0.0), source "an alpha test for alpha to coverage", permitted vec![under!(alpha_to_coverage: _)];

@@ -3,17 +3,17 @@
 
 use crate::rules::Rules;
 use etalon_frame::{Api, ApiVersion, Limits, Rejection};
-use etalon_scene::PrimitiveTopology;
+use etalon_scene::{Pass, PrimitiveTopology};
 
 /// Returns the clause of a rejection, with document, version and section.
 pub(crate) fn clause(
     rejection: Rejection,
     rules: &Rules,
     limits: &Limits,
-    topology: PrimitiveTopology,
+    (pass, topology): (&Pass, PrimitiveTopology),
 ) -> String {
     match rejection {
-        Rejection::AlphaToCoverage => return rules.alpha_to_coverage.citation.to_owned(),
+        Rejection::AlphaToCoverage => return rules.alpha_to_coverage_in(pass).citation.to_owned(),
         Rejection::SampleCoverage => return rules.sample_coverage.citation.to_owned(),
         Rejection::Stencil => return rules.stencil.to_owned(),
         _ => {}

@@ -692,8 +692,10 @@ impl Walk<'_> {
         }
         let alpha = alpha.hull();
         let several = place.at.samples > 1;
-        match self.rules.alpha_to_coverage.value() {
+        let pass = &self.scene.passes[place.pass];
+        match self.rules.alpha_to_coverage_in(pass).value() {
             AlphaToCoverage::Ends => Possible::of(alpha.high > 0.0 || !several, alpha.low >= 1.0),
+            AlphaToCoverage::Opaque => Possible::of(true, alpha.low >= 1.0),
             AlphaToCoverage::Any => Possible::Maybe,
         }
     }

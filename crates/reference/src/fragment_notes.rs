@@ -61,7 +61,7 @@ impl Walk<'_> {
                     rejection,
                     self.rules,
                     self.limits,
-                    place.draw.topology,
+                    (&self.scene.passes[place.pass], place.draw.topology),
                 )),
             },
             stored: None,

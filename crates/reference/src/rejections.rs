@@ -68,7 +68,12 @@ impl Walk<'_> {
                 },
                 step,
                 effect: Effect::Rejects(rejection),
-                citation: Some(clause(rejection, self.rules, self.limits, draw.topology)),
+                citation: Some(clause(
+                    rejection,
+                    self.rules,
+                    self.limits,
+                    (&self.scene.passes[pass], draw.topology),
+                )),
             },
             stored: None,
         });

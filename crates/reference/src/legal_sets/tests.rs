@@ -610,6 +610,34 @@ fn alpha_does_nothing_to_the_coverage_of_integers() {
     }
 }
 
+/// Returns whether a draw with this alpha to coverage may leave the stencil and whether it may write it, in a pass
+/// without colour attachments.
+fn colorless(api: Api, alpha: u8) -> [bool; 2] {
+    let scene = case(&format!(
+        r#"{{"about":"t","spec":["t"],"scene":{{
+            "attachments":{{"stencil":{{"format":"stencil8","size":[1,1],"samples":4,"clear":9}}}},
+            "passes":[{{"color":[],"depth_stencil":"stencil","draws":[{{
+                "mesh":{{"kind":"full"}},"shader":"uniform_color","params":{{"color":[0,0,0,{alpha}]}},
+                "multisample":{{"alpha_to_coverage":true}},
+                "stencil":{{"front":{{"compare":"always","pass_op":"zero"}}}}}}]}}],
+            "read":["stencil"]}}}}"#
+    ))
+    .scene;
+    let limits = limits(api);
+    let set = legal_set(&scene, &limits, &Rules::of(&limits));
+    [9, 0].map(|stencil| set.groups[0].sample(0, 0, 0).allows(&[stencil]))
+}
+
+#[test]
+fn without_colour_attachments_alpha_covers_what_a_case_of_the_cts_without_them_demands() {
+    for alpha in [0, 1] {
+        assert_eq!(colorless(Api::OpenGl, alpha), [true, true], "{alpha}");
+        assert_eq!(colorless(Api::OpenGlEs, alpha), [true, true], "{alpha}");
+    }
+    assert_eq!(colorless(Api::Vulkan, 0), [true, true]);
+    assert_eq!(colorless(Api::Vulkan, 1), [false, true]);
+}
+
 /// Returns true for each depth that a polygon of one depth may have after a constant bias of 255.
 fn may_be_biased_to<const N: usize>(z: f32, depths: [f32; N]) -> [bool; N] {
     let scene = scene(

@@ -609,6 +609,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                     "OpenGL 4.6: 17.3.1 Alpha To Coverage: intended; dEQP-GL45-ES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
                 ]),
             ) },
+        colorless_alpha_to_coverage: permit(
+            AlphaToCoverage::Any,
+            text.cite([
+                "OpenGL 3.3: 4.1.3 Multisample Fragment Operations: no particular algorithm; that the ends give none and all is intended",
+                "OpenGL 4.5: 17.3.1 Alpha To Coverage: that the ends give none and all is intended; no case of the CTS lacks a colour attachment",
+                "OpenGL 4.6: 17.3.1 Alpha To Coverage: that the ends give none and all is intended; no case of the CTS lacks a colour attachment",
+            ]),
+        ),
         sample_coverage: if old { permit(
                 AlphaToCoverage::Any,
                 "OpenGL 3.3: 4.1.3 Multisample Fragment Operations: a function of the coverage value, inverted bit by bit; that the ends give none and all is intended",

@@ -547,6 +547,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: 15.1.1 Alpha To Coverage: intended; dEQP-GLES3.functional.multisample.*.proportionality_alpha_to_coverage demands the ends",
             ]),
         ),
+        colorless_alpha_to_coverage: permit(
+            AlphaToCoverage::Any,
+            text.cite([
+                "OpenGL ES 3.0: 4.1.3 Multisample Fragment Operations: that the ends give none and all is intended; no case of the CTS lacks a colour attachment",
+                "OpenGL ES 3.1: 15.1.1 Alpha To Coverage: that the ends give none and all is intended; no case of the CTS lacks a colour attachment",
+                "OpenGL ES 3.2: 15.1.1 Alpha To Coverage: that the ends give none and all is intended; no case of the CTS lacks a colour attachment",
+            ]),
+        ),
         sample_coverage: narrowed(
             AlphaToCoverage::Ends,
             AlphaToCoverage::Any,

@@ -1,6 +1,7 @@
 //! Permissions as data: the choices that a specification leaves open, each with its citation.
 
 use etalon_frame::{ChannelEncoding, Grade};
+use etalon_scene::Pass;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A permission with its citation and the evidence for what it forbids. It records whether it was asked for,
@@ -283,6 +284,8 @@ pub enum SrgbLogic {
 pub enum AlphaToCoverage {
     /// Alpha 0 gives no samples, alpha 1 all samples, and any alpha in between any samples.
     Ends,
+    /// Alpha 1 gives all samples, and any other alpha any samples.
+    Opaque,
     /// Any alpha gives any samples.
     Any,
 }
@@ -616,8 +619,10 @@ rules! {
     /// True if the sample shading fraction requires a minimum number of shader runs; otherwise one run may
     /// serve all samples.
     runs_by_share: bool,
-    /// Alpha to coverage.
+    /// Alpha to coverage in passes with colour attachments.
     alpha_to_coverage: AlphaToCoverage,
+    /// Alpha to coverage in passes without colour attachments.
+    colorless_alpha_to_coverage: AlphaToCoverage,
     /// Sample coverage, with the permissions of alpha to coverage. The same value always covers the same
     /// samples, and the inverted value covers the others.
     sample_coverage: AlphaToCoverage,
@@ -630,6 +635,15 @@ rules! {
 }
 
 impl Rules {
+    /// Returns the permission of alpha to coverage in a pass.
+    pub(crate) fn alpha_to_coverage_in(&self, pass: &Pass) -> &Permission<AlphaToCoverage> {
+        if pass.color.is_empty() {
+            &self.colorless_alpha_to_coverage
+        } else {
+            &self.alpha_to_coverage
+        }
+    }
+
     /// Returns the rules with an assumed step of depth bias, in the unit of [`BiasUnit`].
     pub(crate) fn assuming(&self, step: (f64, f64)) -> Self {
         let mut rules = self.clone();

@@ -427,6 +427,12 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             Grade::RequiredByCts,
             "Vulkan: Multisample Coverage: intended that alpha 0 gives no sample and alpha 1 all; dEQP-VK.pipeline.*.multisample.alpha_to_coverage.* demands the ends",
         ),
+        colorless_alpha_to_coverage: narrowed(
+            AlphaToCoverage::Opaque,
+            AlphaToCoverage::Any,
+            Grade::RequiredByCts,
+            "Vulkan: Multisample Coverage: intended that alpha 0 gives no sample and alpha 1 all; dEQP-VK.pipeline.*.multisample.alpha_to_coverage_no_color_attachment.* demands that alpha 1 gives all",
+        ),
         sample_coverage: permit(
             AlphaToCoverage::Ends,
             "Vulkan: has no sample coverage; as OpenGL 4.6: 14.9.3",

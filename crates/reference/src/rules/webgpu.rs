@@ -318,6 +318,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             AlphaToCoverage::Ends,
             "WebGPU: 23.2.9 Alpha to Coverage: alpha 0 gives no sample and alpha 1 all",
         ),
+        colorless_alpha_to_coverage: permit(
+            AlphaToCoverage::Ends,
+            "WebGPU: 10.3.1 Render Pipeline Creation: alpha to coverage requires a colour target",
+        ),
         sample_coverage: permit(
             AlphaToCoverage::Ends,
             "WebGPU: has no sample coverage; as OpenGL 4.6: 14.9.3",

@@ -224,6 +224,10 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             AlphaToCoverage::Ends,
             "Direct3D 11.3: 17.15 Alpha to Coverage: dither allowed",
         ),
+        colorless_alpha_to_coverage: permit(
+            AlphaToCoverage::Ends,
+            "Direct3D 11.3: 17.15 Alpha to Coverage: dither allowed",
+        ),
         sample_coverage: permit(AlphaToCoverage::Ends, "Yardstick: as alpha to coverage"),
         frag_coord: permit(text.frag_coord.value, "Yardstick: as the API's text says"),
         inputs_at_samples: permit(
