@@ -57,6 +57,8 @@ state_enum! {
         ForcedEarlyTests = "forced-early-tests",
         /// Forced early tests with a shader that writes a depth, which then has no effect.
         ForcedEarlyTestsWithDepth = "forced-early-tests-with-depth",
+        /// A viewport whose place or size has fractions of a texel.
+        FractionalViewport = "fractional-viewport",
         /// Pipeline statistics of fragment shader runs.
         FragmentInvocations = "fragment-invocations",
         /// Draws without a fragment shader.

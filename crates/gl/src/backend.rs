@@ -138,7 +138,7 @@ fn limits(context: &Context, probed: &Probed) -> Limits {
         exempt: probed.exempt.clone(),
         // OpenGL 4.6, table 23.53: at least 4.
         sub_pixel_bits: u8::try_from(bits).unwrap_or(4).max(4),
-        viewport_bits: None,
+        viewport_bits: context.caps.viewport_bits,
         texel_bits: None,
         max_size: u32::try_from(max_size).unwrap_or(0),
         max_storage: context.caps.max_storage,

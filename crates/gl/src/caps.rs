@@ -84,7 +84,7 @@ pub(crate) struct Caps {
     /// The sample count that every required format supports, except integer formats.
     pub(crate) max_samples: u32,
     /// Sub-pixel bits of viewports; `None` if viewports are integers.
-    pub(crate) viewport_bits: Option<u32>,
+    pub(crate) viewport_bits: Option<u8>,
     pub(crate) max_viewport: [i32; 2],
 }
 
@@ -111,7 +111,7 @@ impl Caps {
         let dual_targets =
             dual_source.then(|| integer(glow::MAX_DUAL_SOURCE_DRAW_BUFFERS)) >= Some(1);
         let viewport_bits =
-            viewports.then(|| u32::try_from(integer(glow::VIEWPORT_SUBPIXEL_BITS)).unwrap_or(0));
+            viewports.then(|| u8::try_from(integer(glow::VIEWPORT_SUBPIXEL_BITS)).unwrap_or(0));
         // naga writes bindings from GLSL 4.20 on, and enables the extension by name.
         let storage = since((4, 2), (3, 1)) && (es || has("GL_ARB_shader_storage_buffer_object"));
         let storage = storage && integer(glow::MAX_FRAGMENT_SHADER_STORAGE_BLOCKS) > 0;

@@ -43,6 +43,8 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         Feature::ForcedEarlyTests => caps.early_tests,
         // In ES, such a shader must not write `gl_FragDepth` (GLSL ES 3.20, 4.4.1, Fragment Shader Inputs).
         Feature::ForcedEarlyTestsWithDepth => caps.early_tests && !caps.es,
+        // Without viewport arrays, the place and size of a viewport are integers.
+        Feature::FractionalViewport => caps.viewport_bits.is_some(),
         Feature::FragmentInvocations => caps.fragment_invocations,
         Feature::IndependentBlend => caps.indexed_blend,
         Feature::FirstProvokingVertex | Feature::MixedProvokingVertices => {

@@ -63,8 +63,7 @@ impl DrawState {
         path: &Path,
         variant: Variant,
     ) -> Result<Self, BackendError> {
-        if !viewport_is_exact(context, &draw.viewport) {
-            // The closest requirement to a viewport that GL cannot represent.
+        if !viewport_fits(context, &draw.viewport) {
             let requirement = Requirement::Feature(Feature::ViewportOutside);
             return Err(BackendError::NotSupported(requirement));
         }
@@ -437,14 +436,11 @@ pub(crate) fn set(gl: &glow::Context, capability: u32, on: bool) {
     }
 }
 
-/// Returns true if GL represents a viewport exactly. GL may round it to its sub-pixel positions (OpenGL 4.6,
-/// 13.8.1) and clamp it to its limit.
-fn viewport_is_exact(context: &Context, viewport: &Viewport) -> bool {
-    let steps = 2_f32.powi(context.caps.viewport_bits.unwrap_or(0).min(16) as i32);
+/// Returns true if GL does not clamp a viewport to its largest size (OpenGL 4.6, 13.8.1). An attachment is not larger.
+fn viewport_fits(context: &Context, viewport: &Viewport) -> bool {
     let [_, _, w, h] = viewport.rect;
     let [most_w, most_h] = context.caps.max_viewport;
-    let fits = w <= most_w as f32 && h <= most_h as f32;
-    fits && viewport.rect.iter().all(|v| (v * steps).fract() == 0.0)
+    w <= most_w as f32 && h <= most_h as f32
 }
 
 /// Returns the scissor rectangle in signed integers, which GL takes.

@@ -53,7 +53,13 @@ mod tests {
     use etalon_frame::Api;
 
     fn widths(rect: [f32; 4], bits: u8) -> Vec<[f32; 2]> {
-        let mut limits = limits(Api::Vulkan);
+        let [vulkan, gl] = [Api::Vulkan, Api::OpenGl].map(|api| widths_by(api, rect, bits));
+        assert_eq!(vulkan, gl);
+        vulkan
+    }
+
+    fn widths_by(api: Api, rect: [f32; 4], bits: u8) -> Vec<[f32; 2]> {
+        let mut limits = limits(api);
         limits.viewport_bits = Some(bits);
         let rules = Rules::of(&limits);
         let viewport = Viewport {

@@ -196,6 +196,8 @@ fn features(draw: &Draw, size: [u32; 2]) -> Vec<Feature> {
     let [x, y, w, h] = draw.viewport.area();
     let outside = x < 0.0 || y < 0.0 || x + w > size[0] as f32 || y + h > size[1] as f32;
     need(outside, Feature::ViewportOutside);
+    let is_fractional = draw.viewport.rect.iter().any(|bound| bound.fract() != 0.0);
+    need(is_fractional, Feature::FractionalViewport);
     if let Some([x, y, w, h]) = draw.scissor {
         let outside = x.saturating_add(w) > size[0] || y.saturating_add(h) > size[1];
         need(outside, Feature::ScissorOutside);

@@ -124,6 +124,7 @@ fn has(device: &Device, feature: Feature) -> bool {
         | Feature::FirstProvokingVertex
         | Feature::ForcedEarlyTests
         | Feature::ForcedEarlyTestsWithDepth
+        | Feature::FractionalViewport
         | Feature::FragmentShaderAbsent
         | Feature::FragmentShaderAbsentWithColor
         | Feature::FrontAndBackCulling

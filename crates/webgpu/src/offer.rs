@@ -18,9 +18,10 @@ const VIEWPORT_REACH: u32 = 8192;
 
 /// The features that every WebGPU device has: interpolation (WGSL, Interpolation), first instances of direct
 /// draws, and pipelines without a fragment shader in passes without colour.
-const EVERYWHERE: [Feature; 3] = [
+const EVERYWHERE: [Feature; 4] = [
     Feature::CentroidInterpolation,
     Feature::FirstInstance,
+    Feature::FractionalViewport,
     Feature::FragmentShaderAbsent,
 ];
 

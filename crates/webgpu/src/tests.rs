@@ -28,6 +28,7 @@ fn device() -> Device {
         Feature::DualSourceBlending,
         Feature::FirstInstance,
         Feature::FirstProvokingVertex,
+        Feature::FractionalViewport,
         Feature::FragmentShaderAbsent,
         Feature::FragmentStorage,
         Feature::IndependentBlend,

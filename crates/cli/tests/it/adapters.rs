@@ -416,3 +416,16 @@ fn without_the_validation_layer_nothing_runs_unwatched() {
     });
     insta::assert_snapshot!("adapters-without-layer", said.concat());
 }
+
+#[test]
+fn opengl_with_viewport_arrays_draws_viewports_at_fractions_of_a_texel() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = "scissor/viewport/scissor=none/viewport=between-texels";
+    etalon(&["run", case, "--profile", "full", "--adapter", "gl:llvmpipe"])
+        .arg("--out")
+        .arg(folder.path().join("out"))
+        .assert()
+        .code(0);
+    let run = Run::read(&folder.path().join("out")).unwrap();
+    assert_eq!(run.records[0].verdict, Verdict::Pass);
+}

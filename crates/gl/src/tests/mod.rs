@@ -6,7 +6,7 @@ use etalon_conformance::{
     Defect, GALLIUM_INSTALL, KnownFaults, LLVMPIPE, SOFTPIPE, SOFTPIPE_CLEARS, SOFTPIPE_WRONG,
     TestedDriver, ZINK, in_child, json, known, run_all, scene, variables,
 };
-use etalon_frame::Feature;
+use etalon_frame::{Feature, Requirement};
 
 /// Returns the contexts of a driver, core profile first.
 fn contexts(driver: &str, clip_control: bool) -> [GlBackend; 2] {
@@ -77,9 +77,9 @@ fn features(backend: &GlBackend) {
     assert_eq!(has(Feature::ConservativeDepth), caps.conservative_depth);
 }
 
-/// GL may round a viewport if it has no sub-pixel bits, so the backend must refuse this viewport.
-fn a_viewport_between_texels_is_kept_or_refused(backend: &GlBackend) {
-    let bits = backend.context.caps.viewport_bits;
+/// Without viewport arrays, GL takes integers.
+fn a_viewport_between_texels_is_drawn_with_viewport_arrays(backend: &GlBackend) {
+    let has_arrays = backend.context.entry_points.viewport_indexed.is_some();
     let between = scene(json!({
         "attachments": { "color": { "format": "rgba8unorm", "clear": [0, 0, 1, 1] } },
         "passes": [{ "color": ["color"], "draws": [{
@@ -88,8 +88,9 @@ fn a_viewport_between_texels_is_kept_or_refused(backend: &GlBackend) {
         "read": ["color"],
     }));
     let refused = backend.prepare(&between).err();
-    let refused = matches!(refused, Some(BackendError::NotSupported(_)));
-    assert_eq!(refused, bits.unwrap_or(0) == 0);
+    let lacks = Requirement::Feature(Feature::FractionalViewport);
+    let is_refused = matches!(refused, Some(BackendError::NotSupported(needed)) if needed == lacks);
+    assert_ne!(is_refused, has_arrays);
 }
 
 /// Debug output must report errors: otherwise its silence elsewhere proves nothing.
@@ -108,7 +109,7 @@ fn a_planted_mistake_is_told(backend: &GlBackend) {
 fn insides(driver: &str) {
     for backend in contexts(driver, true) {
         features(&backend);
-        a_viewport_between_texels_is_kept_or_refused(&backend);
+        a_viewport_between_texels_is_drawn_with_viewport_arrays(&backend);
         a_planted_mistake_is_told(&backend);
     }
 }

@@ -4,7 +4,7 @@ use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
     DepthTerms, EarlyUpdates, FactorClamp, FlushedFloats, FragCoord, InputMaskRule, MaskOfOne,
     NegativeAlpha, Permission, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge,
-    SignedClamp, SmallFloats, Snap, SrgbLogic, narrowed, permit,
+    SignedClamp, SmallFloats, Snap, SrgbLogic, narrowed, permit, step,
 };
 use etalon_frame::{ApiVersion, Grade, Limits, Property};
 
@@ -99,11 +99,11 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: Implementation Dependent Values, SUBPIXEL_BITS: at least 4",
             ])),
         viewport_step: permit(
-            0.0,
+            step(limits.viewport_bits.unwrap_or(0)),
             text.cite([
-                "OpenGL 3.3: 2.13.1 Controlling the Viewport: bounds are integers",
-                "OpenGL 4.5: 13.6.1 Controlling the Viewport: bounds that VIEWPORT_SUBPIXEL_BITS cannot hold are rounded (and not drawn)",
-                "OpenGL 4.6: 13.8.1 Controlling the Viewport: bounds that VIEWPORT_SUBPIXEL_BITS cannot hold are rounded (and not drawn)",
+                "OpenGL 3.3: 2.13.1 Controlling the Viewport: bounds are integers; GL_ARB_viewport_array: the precision of bounds is VIEWPORT_SUBPIXEL_BITS, which can be 0",
+                "OpenGL 4.5: 13.6.1 Controlling the Viewport: the precision of bounds is VIEWPORT_SUBPIXEL_BITS, which can be 0",
+                "OpenGL 4.6: 13.8.1 Controlling the Viewport: the precision of bounds is VIEWPORT_SUBPIXEL_BITS, which can be 0",
             ]),
         ),
         snap: permit(

@@ -4,7 +4,7 @@ use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
     DepthTerms, EarlyUpdates, FactorClamp, FlushedFloats, FragCoord, InputMaskRule, MaskOfOne,
     NegativeAlpha, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp,
-    SmallFloats, Snap, SrgbLogic, narrowed, permit,
+    SmallFloats, Snap, SrgbLogic, narrowed, permit, step,
 };
 use etalon_frame::{ApiVersion, Grade, Limits, Property};
 
@@ -80,11 +80,11 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: table 21.40 SUBPIXEL_BITS: at least 4",
             ])),
         viewport_step: permit(
-            0.0,
+            step(limits.viewport_bits.unwrap_or(0)),
             text.cite([
                 "OpenGL ES 3.0: 2.13.1 Controlling the Viewport: bounds are integers",
-                "OpenGL ES 3.1: 12.5.1 Controlling the Viewport: bounds are integers",
-                "OpenGL ES 3.2: 12.6.1 Controlling the Viewport: bounds are integers",
+                "OpenGL ES 3.1: 12.5.1 Controlling the Viewport: bounds are integers; GL_OES_viewport_array: the precision of bounds is VIEWPORT_SUBPIXEL_BITS, which can be 0",
+                "OpenGL ES 3.2: 12.6.1 Controlling the Viewport: bounds are integers; GL_OES_viewport_array: the precision of bounds is VIEWPORT_SUBPIXEL_BITS, which can be 0",
             ]),
         ),
         snap: permit(

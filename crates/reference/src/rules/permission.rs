@@ -98,6 +98,11 @@ pub(super) const fn narrowed<T: Copy>(
     }
 }
 
+/// Returns the step of a grid with this many bits.
+pub(super) fn step(bits: u8) -> f64 {
+    (-f64::from(bits)).exp2()
+}
+
 /// Snapping of vertices to the sub-pixel grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Snap {

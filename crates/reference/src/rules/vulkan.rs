@@ -4,14 +4,9 @@ use super::permission::{
     AlphaToCoverage, BiasUnit, BlendPrecision, ConstantClamp, Copies, DepthOrder, DepthRange,
     DepthTerms, EarlyUpdates, FactorClamp, FlushedFloats, FragCoord, InputMaskRule, MaskOfOne,
     NegativeAlpha, Resolve, Rounding, Rules, SameDepth, SamplesCounted, SharedEdge, SignedClamp,
-    SmallFloats, Snap, SrgbLogic, narrowed, permit,
+    SmallFloats, Snap, SrgbLogic, narrowed, permit, step,
 };
 use etalon_frame::{Grade, Limits, Property};
-
-/// Returns the step of a grid with this many bits.
-fn step(bits: u8) -> f64 {
-    (-f64::from(bits)).exp2()
-}
 
 /// Returns the name of the specification that binds a version.
 fn text(limits: &Limits) -> &'static str {
