@@ -566,9 +566,6 @@ fn check_shader(wire: &DrawWire, targets: &[ColorTarget]) -> Result<(), At> {
         let message = "a factor of the second source needs a shader that writes one";
         return Err(At::new(message).key("shader"));
     }
-    if wire.logic.is_some() && targets.iter().any(|t| t.blend.is_some()) {
-        return Err(At::new("a logic operation excludes blending").key("logic"));
-    }
     Ok(())
 }
 

@@ -639,7 +639,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
                     _ => [0.0; LANES],
                 })
             };
-            let value = match (&target.blend, target.advanced) {
+            let value = match (&self.draw.blend_of(target), target.advanced) {
                 (None, None) => color,
                 (None, Some(mode)) => self.steps.advanced_blend(mode, encodings, color, dst(1.0)),
                 (Some(state), _) => {

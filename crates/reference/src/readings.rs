@@ -82,7 +82,7 @@ fn contested(rules: &Rules, scene: &Scene, pass: &Pass, draw: &Draw) -> SmallVec
     let blends = draw
         .targets
         .iter()
-        .any(|t| t.blend.is_some() || t.advanced.is_some());
+        .any(|t| draw.blend_of(t).is_some() || t.advanced.is_some());
     let signed = formats.clone().any(is_signed);
     let srgb = formats.clone().any(|f| f == TextureFormat::Rgba8UnormSrgb);
     let constant = draw.blend_constant.iter().any(|v| !(0.0..=1.0).contains(v));

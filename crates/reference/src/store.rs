@@ -180,7 +180,8 @@ impl Walk<'_> {
                 })
             };
             let mut in_steps: Vec<[Range; 4]> = Vec::new();
-            let value = match (&target.blend, target.advanced) {
+            let blending = place.draw.blend_of(target);
+            let value = match (&blending, target.advanced) {
                 (None, None) => color,
                 (None, Some(mode)) => {
                     self.advanced(place, mode, per_channel, [color, dst()], notes)
@@ -236,7 +237,7 @@ impl Walk<'_> {
             }
             if !world.cells[*index].is_exact() {
                 let keeps = (0..encodings.len()).any(|c| target.write_mask & (1 << c) == 0);
-                let blends = target.blend.is_some() || target.advanced.is_some();
+                let blends = blending.is_some() || target.advanced.is_some();
                 let read = (keeps || blends || logic.is_some()).then_some(before);
                 // Coverage that is still to be decided leaves the origin unknown, so that no two worlds differ in it
                 // alone.

@@ -1,6 +1,6 @@
 //! Draws and their state.
 
-use crate::blend::{ColorTarget, LogicOperation};
+use crate::blend::{BlendState, ColorTarget, LogicOperation};
 use crate::depth_stencil::{DepthBias, DepthState, StencilState};
 use crate::early_tests::EarlyTests;
 use crate::fetch::Fetch;
@@ -69,7 +69,7 @@ pub struct Draw {
     pub stencil: Option<StencilState>,
     /// The state for each colour attachment of the pass.
     pub targets: Vec<ColorTarget>,
-    /// The logic operation of all targets, in place of blending; `None` turns it off.
+    /// The logic operation of all targets, which turns their blending off; `None` turns it off.
     pub logic: Option<LogicOperation>,
     /// The state that decides which samples of a fragment are drawn.
     pub multisample: Multisample,
@@ -82,6 +82,12 @@ impl Draw {
     /// first output is an integer (Vulkan, Multisample Coverage; OpenGL 4.6, 17.3.1; OpenGL ES 3.2, 15.1.1).
     pub fn alpha_to_coverage(&self) -> bool {
         self.multisample.alpha_to_coverage && !self.shader.writes_integers()
+    }
+
+    /// Returns the blending of a target. While logic operations are enabled, nothing is blended, not even on formats
+    /// on which they do nothing (Vulkan, Logical Operations; OpenGL 4.6, 17.3.6 and 17.3.9).
+    pub fn blend_of(&self, target: &ColorTarget) -> Option<BlendState> {
+        target.blend.filter(|_| self.logic.is_none())
     }
 
     /// Returns true if alpha counts as 1 after alpha to coverage.

@@ -268,7 +268,7 @@ pub(crate) struct DrawWire {
     pub(crate) write_mask: String,
     /// Blending and write mask of each colour attachment separately, in place of `blend` and `write_mask`.
     pub(crate) targets: Option<Vec<TargetWire>>,
-    /// A logic operation in place of blending; off by default.
+    /// A logic operation, under which nothing is blended; off by default.
     pub(crate) logic: Option<LogicOperation>,
     #[serde(default)]
     pub(crate) multisample: Multisample,

@@ -114,7 +114,10 @@ impl TexelPaint {
         let kernel = |target: &ColorTarget, channels: &'static [ChannelEncoding], obeys| {
             let blending = Blending {
                 source,
-                target: *target,
+                target: ColorTarget {
+                    blend: draw.blend_of(target),
+                    ..*target
+                },
                 constant: draw.blend_constant,
                 logic: draw.logic.filter(|_| obeys),
                 alpha_to_one: draw.alpha_to_one(),
@@ -261,7 +264,7 @@ impl Blending {
     /// Returns the blend as weights, if weights can express it and each channel has 8 unsigned normalized
     /// bits.
     fn weights(&self) -> Option<Weights> {
-        let blend = self.target.blend.filter(|_| self.logic.is_none())?;
+        let blend = self.target.blend?;
         let unorm = self.channels.iter().all(|e| *e == UNORM.0[0]);
         let parts = [blend.color, blend.alpha];
         Weights::new(
@@ -275,7 +278,7 @@ impl Blending {
 
     /// Returns the blend as an affine function, if an affine function can express it.
     fn affine(&self) -> Option<Affine> {
-        let blend = self.target.blend.filter(|_| self.logic.is_none())?;
+        let blend = self.target.blend?;
         let mut terms = [None; 4];
         for (c, (term, encoding)) in terms.iter_mut().zip(self.channels).enumerate() {
             if self.target.write_mask & (1 << c) != 0 {
