@@ -92,7 +92,10 @@ fn draw(index: u32, size: [u32; 2]) -> Value {
         "dst_factor": DESTINATION[destination]
     });
     let [column, row] = [index % CELLS[0], index / CELLS[0]];
-    let line = |i: u32, axis: usize| i * size[axis] / CELLS[axis];
+    // At most the size, since no cell is beyond the last.
+    let line = |i: u32, axis: usize| {
+        (u64::from(i) * u64::from(size[axis]) / u64::from(CELLS[axis])) as u32
+    };
     let texels = [
         line(column, 0),
         line(row, 1),
