@@ -161,7 +161,8 @@ impl CaseRef<'_> {
                 SceneSource::Scene(_) | SceneSource::Method(_) => Ok(value),
             }
         };
-        make().map_err(|e| e.key(source.key()))
+        let made = make().map_err(|e| e.key(source.key()))?;
+        self.changed(made, values)
     }
 
     fn expect(

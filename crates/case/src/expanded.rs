@@ -17,16 +17,18 @@ impl CaseRef<'_> {
     /// If a name has no value.
     pub fn expanded(&self) -> Result<Value, CaseError> {
         let key = self.file.scene_key();
-        let value = substitute(self.file.source.value(), &self.values());
-        let value =
-            value.map_err(|error| error.key(key).locate(self.file.name(), &self.file.text))?;
+        let values = self.values();
+        let value = substitute(self.file.source.value(), &values)
+            .map_err(|error| error.key(key))
+            .and_then(|value| self.changed(value, &values))
+            .map_err(|error| error.locate(self.file.name(), &self.file.text))?;
         Ok(json!({ key: value }))
     }
 }
 
 impl CaseFile {
     /// Returns what the cases have in common: `about`, `spec`, the key of the scene, the scene with `"$name"`
-    /// for values, each axis as pairs of name and value, and the derived values.
+    /// for values, each axis as pairs of name and value, the derived values, and the changes.
     pub fn template(&self) -> Value {
         let wire = &self.wire;
         let axes: Map<String, Value> = wire
@@ -56,6 +58,7 @@ impl CaseFile {
             "scene": self.source.value(),
             "axes": axes,
             "derived": derived,
+            "changes": wire.changes,
         })
     }
 }

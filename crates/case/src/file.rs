@@ -1,11 +1,12 @@
 //! Case files, and the cases that the product of their axes gives.
 
+use crate::changes;
 use crate::each::unroll;
 use crate::error::{At, CaseError};
 use crate::json::parse_json;
 use crate::pairwise::{self, Cover};
 use crate::values::{is_word, typed};
-use crate::wire::{AxisValue, FileWire, FullWire, QuickWire, SceneSource};
+use crate::wire::{AxisValue, FileWire, QuickWire, SceneSource};
 use etalon_frame::without_mark;
 use etalon_methods::Model;
 use serde_json::{Value, json};
@@ -128,6 +129,7 @@ impl CaseFile {
                 ));
             }
         }
+        changes::check(&wire).map_err(fail)?;
         let unknown = |chosen: &BTreeMap<String, String>| -> Option<At> {
             chosen.iter().find_map(|(axis, name)| {
                 let values = wire.axes.get(axis).map_or(&[][..], |axis| axis);
@@ -146,10 +148,6 @@ impl CaseFile {
         };
         if let Some(error) = wrong {
             return Err(fail(error.key("quick")));
-        }
-        if wire.full == FullWire::Pairwise && matches!(wire.quick, Some(QuickWire::Each(_))) {
-            let message = "the quick profile would take cases that the file does not have: use `{ \"first\": … }`";
-            return Err(fail(At::new(message).key("quick")));
         }
         let source = wire.take_source().map_err(fail)?;
         if matches!(source, SceneSource::Method(_))
@@ -233,22 +231,17 @@ impl CaseFile {
 
     /// Returns the cases of a profile; the last axis (in alphabetical order) varies fastest.
     pub fn cases(&self, profile: Profile) -> impl Iterator<Item = CaseRef<'_>> {
-        let all = match self.wire.full {
-            FullWire::Product => (0..self.count).collect(),
-            FullWire::Pairwise => self.covering(Cover::Pairs),
-        };
         let mut indices: Vec<usize> = match (profile, &self.wire.quick) {
             (Profile::Quick, Some(QuickWire::Pairwise)) => self.covering(Cover::Pairs),
             (Profile::Quick, Some(QuickWire::Each(n))) => self.covering(Cover::AtLeast(n.get())),
-            (Profile::Quick, Some(QuickWire::First(n))) => all.into_iter().take(n.get()).collect(),
+            (Profile::Quick, Some(QuickWire::First(n))) => (0..self.count.min(n.get())).collect(),
             (Profile::Quick, Some(QuickWire::Where(chosen))) => {
-                all.into_iter().filter(|i| self.has(*i, chosen)).collect()
+                (0..self.count).filter(|i| self.has(*i, chosen)).collect()
             }
-            (Profile::Quick, Some(QuickWire::Any(rows))) => all
-                .into_iter()
+            (Profile::Quick, Some(QuickWire::Any(rows))) => (0..self.count)
                 .filter(|i| rows.iter().any(|chosen| self.has(*i, chosen)))
                 .collect(),
-            _ => all,
+            _ => (0..self.count).collect(),
         };
         indices.sort_unstable();
         let case = move |index| CaseRef { file: self, index };

@@ -7,6 +7,7 @@ mod attachment;
 mod blame;
 mod build;
 mod case;
+mod changes;
 mod codes;
 mod comments;
 mod document;

@@ -265,33 +265,6 @@ mod tests {
     }
 
     #[test]
-    fn a_file_can_have_a_covering_array_of_its_product_alone() {
-        let file = |quick: &str| {
-            let axes = r#""axes":{"a":[1,2,3],"b":[1,2],"c":[1,2],"d":[1,2]}"#;
-            let text = format!(
-                r#"{{"about":"t","spec":["t"],"full":"pairwise",{quick}{axes},"scene":{{}}}}"#
-            );
-            CaseFile::parse("t.json", &text)
-        };
-        let ids =
-            |file: &CaseFile, profile| file.cases(profile).map(|c| c.id()).collect::<Vec<_>>();
-        let whole = file("").expect("it is valid");
-        let all = ids(&whole, Profile::Full);
-        assert!((6..12).contains(&all.len()), "{all:?}");
-        assert_eq!(ids(&whole, Profile::Quick), all);
-        let first = ids(
-            &file(r#""quick":{"first":2},"#).expect("it is valid"),
-            Profile::Quick,
-        );
-        assert!(
-            first.len() == 2 && first.iter().all(|id| all.contains(id)),
-            "{first:?}"
-        );
-        let error = file(r#""quick":{"each":1},"#).expect_err("it would take others");
-        assert_eq!(error.key, "quick");
-    }
-
-    #[test]
     fn derived_values_and_quick_filters_must_fit_their_axis() {
         let file = |more: &str| {
             let text = format!(

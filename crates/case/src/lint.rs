@@ -2,6 +2,7 @@
 //!
 //! They need no judge, so `--cases` can afford them. `etalon check` adds the warnings that need one.
 
+use crate::changes::WITH;
 use crate::error::{At, CaseError};
 use crate::file::{CaseFile, METHOD, Profile};
 use crate::wire::SceneSource;
@@ -68,6 +69,9 @@ impl CaseFile {
             used.insert(METHOD.to_owned());
         }
         used.extend(wire.parameter.clone());
+        if !wire.changes.is_empty() {
+            used.insert(WITH.to_owned());
+        }
         let mut found = Vec::new();
         for (name, derived) in &wire.derived {
             if used.contains(name) {
@@ -89,6 +93,13 @@ impl CaseFile {
                 found.push(At::new(message).key(name).key("axes"));
             }
         }
+        let made: BTreeSet<&str> = self.changes_of_cases().flatten().collect();
+        let unmade = self.changes().filter(|name| !made.contains(name));
+        found.extend(unmade.map(|name| {
+            let message =
+                format!("no case makes this change: name it in the axis `{WITH}`, or remove it");
+            At::new(message).key(name).key("changes")
+        }));
         found
     }
 

@@ -12,8 +12,8 @@ mod tiles;
 pub(crate) use axis::AxisValue;
 pub(crate) use fetch::{FetchWire, InstancesWire};
 pub(crate) use file::{
-    Across, ExpectWire, FileWire, FullWire, QuickWire, RandomWire, RelationWire, SceneSource,
-    SequenceWire, StatesWire, VariantWire,
+    Across, ExpectWire, FileWire, QuickWire, RandomWire, RelationWire, SceneSource, SequenceWire,
+    StatesWire, VariantWire,
 };
 pub(crate) use scene::{
     AttachmentWire, ClearCommandWire, ClearMaskWire, ClearWire, DepthStencilResolveWire, DrawWire,

@@ -26,15 +26,16 @@ pub(crate) struct FileWire {
     pub(crate) spec: Vec<String>,
     /// The cases of the product that the quick profile takes; by default all.
     pub(crate) quick: Option<QuickWire>,
-    /// The cases of the product that the file has; by default all.
-    #[serde(default)]
-    pub(crate) full: FullWire,
     /// The axes; the file expands to their product.
     #[serde(default)]
     pub(crate) axes: BTreeMap<String, Axis>,
     /// Values that are derived from an axis and are not part of the id.
     #[serde(default)]
     pub(crate) derived: BTreeMap<String, DerivedWire>,
+    /// Changes of the scene by name, each as JSON pointers and values. The values of the axis `with` name those of a
+    /// case, joined by `+`.
+    #[serde(default)]
+    pub(crate) changes: BTreeMap<String, BTreeMap<String, Value>>,
     /// The scene.
     #[serde(default)]
     #[schemars(with = "SceneWire")]
@@ -261,17 +262,6 @@ pub(crate) enum QuickWire {
     Where(BTreeMap<String, String>),
     /// The cases that have all the values of one of these rows: for products that a few rows represent.
     Any(Vec<BTreeMap<String, String>>),
-}
-
-/// The cases that a file has.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum FullWire {
-    /// The whole product.
-    #[default]
-    Product,
-    /// Enough that every two values of every two axes occur together: for many axes, whose product is too large to draw.
-    Pairwise,
 }
 
 impl QuickWire {

@@ -31,6 +31,21 @@ function expanded(value, values) {
   return Object.fromEntries(Object.entries(value).map(([key, one]) => [key, expanded(one, values)]));
 }
 
+// Returns what a case is made from: its file's, with the case's values and the changes that its id names.
+function changed(template, id) {
+  const values = valuesOf(template, id);
+  const scene = expanded(template.scene, values);
+  const names = (id.match(/\/with=([^\/]*)/) || ["", ""])[1].split("+");
+  for (const name of names) {
+    for (const [pointer, value] of Object.entries(template.changes[name] || {})) {
+      const keys = pointer.split("/").slice(1);
+      const last = keys.pop();
+      keys.reduce((inside, key) => inside[key], scene)[last] = expanded(value, values);
+    }
+  }
+  return scene;
+}
+
 // Puts lists of numbers on one line and indents everything else.
 function readable(value) {
   return JSON.stringify(value, null, 2).replace(/\[[^\[\]{}"]*\]/g, list => list.replace(/\s+/g, " "));
@@ -59,7 +74,7 @@ function meant(id) {
     }
     section.append(make("pre", { class: "scene" }, held.scenes[scene].map(line => held.lines[line]).join("\n")));
     if (template) {
-      const json = { [template.key]: expanded(template.scene, valuesOf(template, id)) };
+      const json = { [template.key]: changed(template, id) };
       section.append(foldedText("JSON of " + template.key, readable(json)));
     }
     for (const name of held.used[used]) section.append(foldedText("shaders/" + name + ".wgsl", held.shaders[name]));
