@@ -2,13 +2,14 @@
 //!
 //! Drivers break where two facts meet, so the suite counts in how many scenes each pair of them does.
 
+use crate::excluded::ExcludedPair;
 use etalon_case::Case;
 use etalon_frame::{ChannelEncoding, PathValue, TextureFormat};
 use etalon_scene::{
     BlendFactor, BlendState, CullMode, Draw, EarlyTests, Fetch, FilterMode, FrontFace, Pass,
     PolygonMode, PrimitiveTopology, Scene, Shader, Viewport,
 };
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap, HashSet};
 use std::iter;
 
 /// A draw with what surrounds it.
@@ -68,6 +69,9 @@ enum StateOf {
 }
 use StateOf::{Both as OfBoth, Draw as OfDraw, Shader as OfShader};
 
+/// The state without which nothing of a draw shows.
+const RASTERIZER_DISCARD: &str = "rasterizer-discard";
+
 /// The states that are not the defaults.
 const STATES: [(&str, StateOf); 58] = [
     ("depth-test", OfDraw(|p| p.draw.depth.is_some())),
@@ -118,7 +122,7 @@ const STATES: [(&str, StateOf); 58] = [
     ),
     (
         "depth-range-part",
-        OfDraw(|p| p.draw.viewport.depth != [0.0, 1.0] && !p.has_reversed_range()),
+        OfDraw(|p| !matches!(p.draw.viewport.depth, [0.0, 1.0] | [1.0, 0.0])),
     ),
     ("depth-range-reversed", OfDraw(|p| p.has_reversed_range())),
     ("cull", OfDraw(|p| p.draw.cull != CullMode::None)),
@@ -130,9 +134,15 @@ const STATES: [(&str, StateOf); 58] = [
         "polygon-mode-line",
         OfDraw(|p| p.draw.polygon_mode == PolygonMode::Line),
     ),
-    ("rasterizer-discard", OfDraw(|p| p.draw.rasterizer_discard)),
+    (RASTERIZER_DISCARD, OfDraw(|p| p.draw.rasterizer_discard)),
     ("tessellation", OfDraw(|p| p.draw.tessellation.is_some())),
-    ("provoking-vertex", OfDraw(|p| p.draw.provoking.is_some())),
+    (
+        "provoking-vertex",
+        OfBoth(
+            |s| !s.passes_position_alone(),
+            |p| p.draw.provoking.is_some(),
+        ),
+    ),
     ("indices", OfDraw(|p| p.draw.mesh.indices.is_some())),
     (
         "first-or-base-vertex",
@@ -226,7 +236,10 @@ const STATES: [(&str, StateOf); 58] = [
     ),
     ("counters", OfDraw(|p| !p.draw.counters.is_empty())),
     ("pool", OfShader(Shader::uses_pool)),
-    ("several-targets", OfDraw(|p| p.pass.color.len() > 1)),
+    (
+        "several-targets",
+        OfBoth(|s| s.outputs() != 1, |p| p.pass.color.len() > 1),
+    ),
     ("no-color", OfDraw(|p| p.pass.color.is_empty())),
     (
         "resolve",
@@ -309,6 +322,7 @@ fn color_class(format: TextureFormat) -> &'static str {
         TextureFormat::Bgra8Unorm => "bgra",
         _ => match format.color_channels().first() {
             Some(ChannelEncoding::Unorm(8)) => "unorm8",
+            Some(ChannelEncoding::Unorm(1..8)) => "packed-16",
             Some(ChannelEncoding::Unorm(_)) => "packed",
             Some(ChannelEncoding::Ufloat(_)) => "packed-float",
             Some(ChannelEncoding::Snorm(_)) => "snorm",
@@ -424,12 +438,25 @@ pub fn draw_facts(case: &Case) -> Vec<Vec<String>> {
         .collect()
 }
 
+/// Two facts that the scene model can say together.
+#[derive(Clone, Copy, Debug)]
+pub struct FactPair<'a> {
+    /// The facts.
+    pub facts: [&'a DrawFact; 2],
+    /// The number of scenes that have a draw with both.
+    pub scenes: u64,
+    /// True if `cases/pairs.txt` says that they cannot meet.
+    pub is_excluded: bool,
+}
+
 /// In how many scenes two facts meet in a draw.
 #[derive(Clone, Debug)]
 pub struct FactPairs {
     facts: Facts,
     /// The number of scenes, by the numbers of both facts, the greater one first.
     scenes: Vec<Vec<u64>>,
+    /// The pairs that cannot meet, by their numbers, the greater one first.
+    excluded: HashSet<(usize, usize)>,
 }
 
 impl Default for FactPairs {
@@ -438,20 +465,25 @@ impl Default for FactPairs {
         let scenes = (0..facts.facts.len())
             .map(|number| vec![0; number])
             .collect();
-        Self { facts, scenes }
+        let mut pairs = Self {
+            facts,
+            scenes,
+            excluded: HashSet::new(),
+        };
+        let all = ExcludedPair::all();
+        let named = |[a, b]: [usize; 2]| {
+            let facts = [a, b].map(|n| &pairs.facts.facts[n]);
+            all.iter().any(|e| e.names(facts)).then_some((b, a))
+        };
+        pairs.excluded = pairs.numbers().filter_map(named).collect();
+        pairs
     }
 }
 
 impl FactPairs {
     /// Adds the pairs of a scene.
     pub fn add(&mut self, scene: &Scene) {
-        let mut met = BTreeSet::new();
-        for facts in self.facts.of(scene) {
-            for (place, greater) in facts.iter().enumerate() {
-                met.extend(facts[..place].iter().map(|lesser| (*greater, *lesser)));
-            }
-        }
-        for (greater, lesser) in met {
+        for (greater, lesser) in self.met_in(scene) {
             self.scenes[greater][lesser] += 1;
         }
     }
@@ -465,10 +497,61 @@ impl FactPairs {
     }
 
     /// Returns the pairs that the scene model can say, each with the number of scenes that have it.
-    pub fn pairs(&self) -> impl Iterator<Item = ([&DrawFact; 2], u64)> {
+    pub fn pairs(&self) -> impl Iterator<Item = FactPair<'_>> {
+        self.numbers().map(|[a, b]| self.pair(b, a))
+    }
+
+    /// Returns the number of scenes that have a draw with two facts, by their names.
+    pub fn scenes(&self, names: [&str; 2]) -> u64 {
+        let [a, b] = names.map(|name| self.facts.numbers.get(name).copied());
+        let (Some(a), Some(b)) = (a, b) else { return 0 };
+        let row = self.scenes.get(a.max(b));
+        row.and_then(|row| row.get(a.min(b))).copied().unwrap_or(0)
+    }
+
+    /// Returns the pairs of a scene that no scene had so far, though they can meet.
+    pub fn missing_in(&self, scene: &Scene) -> Vec<FactPair<'_>> {
+        let met = self.met_in(scene).into_iter();
+        met.map(|(greater, lesser)| self.pair(greater, lesser))
+            .filter(|pair| pair.scenes == 0 && !pair.is_excluded)
+            .collect()
+    }
+
+    /// Returns the facts of the draws of a scene.
+    pub fn facts_of(&self, scene: &Scene) -> BTreeSet<&str> {
+        let numbers = self.facts.of(scene).into_iter().flatten();
+        numbers.map(|n| self.facts.facts[n].name.as_str()).collect()
+    }
+
+    fn pair(&self, greater: usize, lesser: usize) -> FactPair<'_> {
+        FactPair {
+            facts: [lesser, greater].map(|n| &self.facts.facts[n]),
+            scenes: self.scenes[greater][lesser],
+            is_excluded: self.excluded.contains(&(greater, lesser)),
+        }
+    }
+
+    /// Returns the numbers of the pairs that the scene model can say, the lesser one first.
+    fn numbers(&self) -> impl Iterator<Item = [usize; 2]> {
         let all =
             (0..self.scenes.len()).flat_map(|a| (a + 1..self.scenes.len()).map(move |b| [a, b]));
-        let sayable = all.filter(|[a, b]| self.facts.can_meet(*a, *b));
-        sayable.map(|[a, b]| ([a, b].map(|n| &self.facts.facts[n]), self.scenes[b][a]))
+        all.filter(|[a, b]| self.facts.can_meet(*a, *b))
+    }
+
+    /// Returns the numbers of the pairs that a scene has, the greater one first.
+    fn met_in(&self, scene: &Scene) -> BTreeSet<(usize, usize)> {
+        let mut met = BTreeSet::new();
+        let discard = self.facts.numbers.get(RASTERIZER_DISCARD);
+        for facts in self.facts.of(scene) {
+            let is_discarded = discard.is_some_and(|discard| facts.contains(discard));
+            for (place, greater) in facts.iter().enumerate() {
+                let pairs = facts[..place].iter().map(|lesser| (*greater, *lesser));
+                // What would have been drawn shows nothing of two other facts.
+                met.extend(pairs.filter(|(a, b)| {
+                    !is_discarded || [a, b].into_iter().any(|n| Some(n) == discard)
+                }));
+            }
+        }
+        met
     }
 }

@@ -14,6 +14,7 @@
 mod choices;
 mod document;
 mod edit;
+mod excluded;
 mod facts;
 mod fuzz;
 mod pairs;
@@ -23,7 +24,7 @@ mod scenes;
 mod space;
 
 pub use document::{keys, leaves, states};
-pub use facts::{DrawFact, FactKind, FactPairs, draw_facts, fact_names};
+pub use facts::{DrawFact, FactKind, FactPair, FactPairs, draw_facts, fact_names};
 pub use fuzz::{Fuzzer, RandomScene};
 pub use reduce::{Candidate, MOST_DRAWS, Oracle, Reduction, ReductionLimits, reduce};
 pub use space::Space;

@@ -2,14 +2,10 @@
 
 use crate::processors::processors;
 use etalon_case::{CaseFile, Profile};
-use etalon_explore::{DrawFact, FactKind, FactPairs};
+use etalon_explore::{FactKind, FactPairs};
 use etalon_frame::threads::each;
-use etalon_glob::Glob;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-
-/// The pairs that cannot meet, by globs.
-const EXCLUDED: &str = include_str!("../../../../cases/pairs.txt");
 
 /// Returns the pairs of a profile's cases. Random scenes do not count: another seed has other pairs.
 pub(crate) fn count(files: &[CaseFile], profile: Profile) -> FactPairs {
@@ -31,29 +27,6 @@ pub(crate) fn count(files: &[CaseFile], profile: Profile) -> FactPairs {
     all
 }
 
-/// Globs of two facts that cannot meet.
-struct ExcludedPair([Glob; 2]);
-
-impl ExcludedPair {
-    /// Parses a line `FACT + FACT: reason`.
-    fn parse(line: &str) -> Option<Self> {
-        let (pair, _) = line.split_once(": ")?;
-        let (a, b) = pair.split_once(" + ")?;
-        Some(Self([Glob::new(a).ok()?, Glob::new(b).ok()?]))
-    }
-
-    fn names(&self, [a, b]: [&DrawFact; 2]) -> bool {
-        let matched =
-            |a: &DrawFact, b: &DrawFact| self.0[0].is_match(&a.name) && self.0[1].is_match(&b.name);
-        matched(a, b) || matched(b, a)
-    }
-}
-
-/// Returns the lines of the list of pairs that cannot meet.
-fn excluded() -> impl Iterator<Item = &'static str> {
-    EXCLUDED.lines().filter(|line| !line.starts_with('#'))
-}
-
 /// The pairs of two kinds of facts.
 #[derive(Default)]
 struct KindPairs {
@@ -68,16 +41,17 @@ pub(crate) struct ToldPairs(BTreeMap<[FactKind; 2], KindPairs>);
 
 impl ToldPairs {
     pub(crate) fn new(pairs: &FactPairs) -> Self {
-        let excluded: Vec<_> = excluded().filter_map(ExcludedPair::parse).collect();
         let mut kinds: BTreeMap<[FactKind; 2], KindPairs> = BTreeMap::new();
-        for (pair, scenes) in pairs.pairs() {
-            let of_kinds = kinds.entry(pair.map(|fact| fact.kind)).or_default();
-            if scenes > 0 {
+        for pair in pairs.pairs() {
+            let of_kinds = kinds.entry(pair.facts.map(|fact| fact.kind)).or_default();
+            if pair.scenes > 0 {
                 of_kinds.met += 1;
-            } else if excluded.iter().any(|e| e.names(pair)) {
+            } else if pair.is_excluded {
                 of_kinds.excluded += 1;
             } else {
-                of_kinds.missing.push(pair.map(|fact| fact.name.clone()));
+                of_kinds
+                    .missing
+                    .push(pair.facts.map(|fact| fact.name.clone()));
             }
         }
         Self(kinds)
@@ -136,16 +110,12 @@ mod tests {
     fn no_case_has_a_pair_that_cannot_meet() {
         let files: Vec<CaseFile> = Library::built_in().files().cloned().collect();
         let pairs = count(&files, Profile::Full);
-        for line in excluded() {
-            let excluded = ExcludedPair::parse(line).expect("a line is FACT + FACT: reason");
-            let named: Vec<_> = pairs
-                .pairs()
-                .filter(|(pair, _)| excluded.names(*pair))
-                .collect();
-            assert!(!named.is_empty(), "no pair is named by `{line}`");
-            for (pair, scenes) in named {
-                assert_eq!(scenes, 0, "{pair:?} is excluded by `{line}`");
-            }
+        for pair in pairs.pairs().filter(|pair| pair.is_excluded) {
+            assert_eq!(
+                pair.scenes, 0,
+                "{:?} is excluded by cases/pairs.txt",
+                pair.facts
+            );
         }
     }
 }
