@@ -1,6 +1,7 @@
 //! The report of a run: `index.html` and the summary for a terminal.
 
 mod beside;
+mod blind;
 mod dead;
 pub(crate) mod grid;
 mod index;

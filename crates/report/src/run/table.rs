@@ -2,8 +2,9 @@
 
 use crate::methods;
 use crate::numbers::count;
+use crate::run::blind::blind_spots;
 use crate::run::grid::{RunGrid, VerdictTally, rate};
-use crate::run::reasons::{total, undrawn};
+use crate::run::reasons::{ReasonRecords, total, undrawn};
 use crate::run::unexpected::unexpected_records;
 use crate::table::{Cell, Table, some};
 use crate::terminal::{self, TableOptions};
@@ -46,6 +47,7 @@ pub fn table(run: &Run, options: TableOptions) -> String {
     if let Some(found) = methods::Methods::of(run) {
         text.push_str(&methods::lines(&found));
     }
+    text.push_str(&hidden(run, options));
     text.push_str(&unexpected(run, options));
     let improvements = run.records.iter().filter(|r| r.improvement()).count();
     if improvements > 0 {
@@ -141,22 +143,46 @@ fn not_drawn(run: &Run, options: TableOptions) -> String {
         "\nNot drawn: {undrawn_records} of {}\n",
         count(run.records.len() as u64, "record")
     );
-    let width = undrawn_records.to_string().len();
-    for reason in reasons.iter().take(REASONS) {
-        let head = format!(
-            "  {:>width$}  {}: ",
-            reason.records(),
-            plain(&reason.sentence(), 160)
-        );
+    let named = reasons.iter().map(|reason| (reason, reason.sentence()));
+    text += &by_adapter(&named.collect::<Vec<_>>(), ["for", "other reason"], options);
+    text
+}
+
+/// Returns the kinds of cases that show no further bug of an adapter, because it draws each one wrong as expected.
+fn hidden(run: &Run, options: TableOptions) -> String {
+    let spots = blind_spots(run.all_records());
+    if spots.is_empty() {
+        return String::new();
+    }
+    let named = spots.iter().map(|spot| (spot, spot.text.clone()));
+    format!(
+        "\nHidden: {} of cases that an adapter draws wrong throughout, as expected, so that no other bug can show there\n{}",
+        count(spots.len() as u64, "kind"),
+        by_adapter(&named.collect::<Vec<_>>(), ["of", "other kind"], options)
+    )
+}
+
+/// Returns a line for each of the first reasons, with its number of records on each adapter, and one for the others.
+fn by_adapter(
+    named: &[(&ReasonRecords, String)],
+    [of, other]: [&str; 2],
+    options: TableOptions,
+) -> String {
+    let sum = |named: &[(&ReasonRecords, String)]| -> u64 {
+        named.iter().map(|(reason, _)| reason.records()).sum()
+    };
+    let width = sum(named).to_string().len();
+    let mut text = String::new();
+    for (reason, name) in named.iter().take(REASONS) {
+        let head = format!("  {:>width$}  {}: ", reason.records(), plain(name, 160));
         text.push_str(&terminal::listed(&head, &reason.each(), width + 6, options));
         text.push('\n');
     }
-    if reasons.len() > REASONS {
-        let others = &reasons[REASONS..];
-        let n = total(others);
+    if let Some(others) = named.get(REASONS..).filter(|others| !others.is_empty()) {
+        let n = sum(others);
         text += &format!(
-            "  {n:>width$}  for {}\n",
-            count(others.len() as u64, "other reason")
+            "  {n:>width$}  {of} {}\n",
+            count(others.len() as u64, other)
         );
     }
     text

@@ -2,6 +2,7 @@
 
 use crate::mark::mark;
 use crate::numbers::count;
+use crate::run::blind::blind_spots;
 use crate::run::dead::meaning;
 use crate::run::reasons::{ReasonRecords, known as known_reasons, total, undrawn};
 use crate::table::Table;
@@ -15,6 +16,7 @@ const ROWS: usize = 500;
 /// Returns the failures that were expected: a row per reason.
 pub(super) fn known(run: &Run) -> Markup {
     let reasons = known_reasons(run);
+    let hidden = blind_spots(run.all_records());
     html! {
         @if !reasons.is_empty() {
             section id="known" {
@@ -24,6 +26,13 @@ pub(super) fn known(run: &Run) -> Markup {
                     " in the expectations or the triage."
                 }
                 (table("Known failures by reason", &reasons))
+                @if !hidden.is_empty() {
+                    p {
+                        b { "Hidden: " } "an adapter draws every case of " (count(hidden.len() as u64, "kind"))
+                        " wrong as expected, so that no other bug can show there."
+                    }
+                    (table("Cases that an adapter draws wrong throughout", &hidden))
+                }
             }
         }
     }

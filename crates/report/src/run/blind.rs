@@ -1,0 +1,118 @@
+//! Where known bugs leave no case that could show another one.
+
+use crate::run::reasons::ReasonRecords;
+use crate::words::Tone;
+use etalon_frame::CaseId;
+use etalon_record::{Record, Verdict};
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+
+/// The least number of drawn cases: fewer are too few to speak of a kind.
+const LEAST: u64 = 4;
+
+/// The numbers of cases that an adapter drew, and of those that it drew wrong as expected.
+#[derive(Clone, Copy, Default)]
+struct Drawn {
+    all: u64,
+    known: u64,
+}
+
+impl Drawn {
+    fn is_blind(self) -> bool {
+        self.all >= LEAST && self.known == self.all
+    }
+}
+
+/// Returns the families of cases, and the values of their axes (`sequence/layers/layers=multiview`), of which an adapter
+/// draws each case wrong as expected, those with most cases first. A value is named only if its family is not.
+pub(crate) fn blind_spots<'r>(records: impl Iterator<Item = &'r Record>) -> Vec<ReasonRecords> {
+    let mut families: BTreeMap<(&str, &str), Drawn> = BTreeMap::new();
+    let mut values: BTreeMap<(&str, &str, (&str, &str)), Drawn> = BTreeMap::new();
+    for record in records {
+        let is_drawn = !matches!(
+            record.verdict,
+            Verdict::NotSupported | Verdict::Skipped | Verdict::Blocked
+        );
+        if !is_drawn || record.due_fail {
+            continue;
+        }
+        let known = u64::from(Tone::of(record) == Tone::Excused);
+        let case = CaseId::new(&record.case);
+        let (adapter, family) = (record.adapter.as_str(), case.file());
+        for value in case.axes() {
+            let drawn = values.entry((adapter, family, value)).or_default();
+            drawn.all += 1;
+            drawn.known += known;
+        }
+        let drawn = families.entry((adapter, family)).or_default();
+        drawn.all += 1;
+        drawn.known += known;
+    }
+    let of_families = families
+        .iter()
+        .filter(|(_, drawn)| drawn.is_blind())
+        .map(|((adapter, family), drawn)| (*adapter, (*family).to_owned(), drawn.all));
+    let is_new = |adapter, family| !families[&(adapter, family)].is_blind();
+    let of_values = values
+        .iter()
+        .filter(|((adapter, family, _), drawn)| drawn.is_blind() && is_new(*adapter, *family))
+        .map(|((adapter, family, (axis, value)), drawn)| {
+            (*adapter, format!("{family}/{axis}={value}"), drawn.all)
+        });
+    let mut spots: BTreeMap<String, Vec<(String, u64)>> = BTreeMap::new();
+    for (adapter, cases, drawn) in of_families.chain(of_values) {
+        let adapters = spots.entry(cases).or_default();
+        adapters.push((adapter.to_owned(), drawn));
+    }
+    let mut spots: Vec<ReasonRecords> = spots
+        .into_iter()
+        .map(|(text, adapters)| ReasonRecords {
+            verdict: Verdict::Fail,
+            text,
+            adapters,
+        })
+        .collect();
+    spots.sort_by_key(|spot| Reverse(spot.records()));
+    spots
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_record::Expected;
+
+    #[test]
+    fn cases_of_which_each_is_a_known_failure_are_named_by_the_value_that_they_share() {
+        let record = |case: &str, adapter: &str, verdict: Verdict| {
+            let known = verdict == Verdict::Fail;
+            let reason = "a bug".to_owned();
+            Record {
+                expected: known.then_some(Expected { reason }),
+                ..Record::new(case, adapter, verdict)
+            }
+        };
+        let mut records = Vec::new();
+        for number in 0..4 {
+            let case = |rest: &str| format!("a/b/n={number}/{rest}");
+            records.push(record(&case("layers=many"), "one", Verdict::Fail));
+            records.push(record(&case("layers=many"), "two", Verdict::Pass));
+            records.push(record(&case("layers=one"), "one", Verdict::Pass));
+            records.push(record(&case("layers=none"), "one", Verdict::NotSupported));
+            records.push(record(&format!("a/c/n={number}"), "two", Verdict::Fail));
+        }
+        let spots = |records: &[Record]| -> Vec<(String, Vec<String>)> {
+            let spots = blind_spots(records.iter());
+            spots.iter().map(|s| (s.text.clone(), s.each())).collect()
+        };
+        let expected = [
+            ("a/b/layers=many".to_owned(), vec!["one 4".to_owned()]),
+            ("a/c".to_owned(), vec!["two 4".to_owned()]),
+        ];
+        assert_eq!(spots(&records), expected);
+        // A failure that nobody expects can be seen.
+        records[0].expected = None;
+        assert_eq!(spots(&records), expected[1..]);
+        // Three cases are no kind.
+        assert_eq!(spots(&records[..15]), []);
+    }
+}
