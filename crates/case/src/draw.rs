@@ -29,7 +29,6 @@ pub(crate) struct DrawTarget<'a> {
 pub(crate) fn draw(wire: &DrawWire, target: &DrawTarget<'_>) -> Result<Draw, At> {
     let DrawTarget {
         size,
-        samples,
         depth_stencil,
         ..
     } = *target;
@@ -66,7 +65,7 @@ pub(crate) fn draw(wire: &DrawWire, target: &DrawTarget<'_>) -> Result<Draw, At>
         let message = "a conservative depth needs a shader that writes depth";
         return Err(At::new(message).key("early_tests"));
     }
-    check_multisample(&wire.multisample, samples).map_err(|e| e.key("multisample"))?;
+    check_multisample(&wire.multisample).map_err(|e| e.key("multisample"))?;
     let color_targets = color_targets(wire, target.color.len())?;
     check_shader(wire, &color_targets)?;
     check_advanced(wire, target).map_err(|e| e.key("advanced_blend"))?;
@@ -125,17 +124,7 @@ const FARTHEST: f32 = 4_294_967_296.0;
 const FARTHEST_UV: f32 = 64.0;
 
 /// Checks the state that decides which samples are drawn.
-fn check_multisample(state: &Multisample, samples: u32) -> Result<(), At> {
-    // With one sample, these two states change nothing in any API.
-    let rest = Multisample {
-        min_sample_shading: None,
-        sample_coverage: None,
-        ..*state
-    };
-    if samples == 1 && rest != Multisample::default() {
-        let message = "with a single sample, OpenGL ignores this state and Vulkan obeys it; use several samples";
-        return Err(At::new(message));
-    }
+fn check_multisample(state: &Multisample) -> Result<(), At> {
     let share = |v: f32| (0.0..=1.0).contains(&v);
     if !state.min_sample_shading.is_none_or(share) {
         let message = "a share of the samples must be between 0 and 1";
@@ -796,7 +785,7 @@ mod tests {
     }
 
     #[test]
-    fn shares_for_one_sample_are_allowed_and_invalid_ones_are_not() {
+    fn invalid_shares_are_refused() {
         let shading = |share| Multisample {
             min_sample_shading: Some(share),
             ..Multisample::default()
@@ -808,20 +797,12 @@ mod tests {
             }),
             ..Multisample::default()
         };
-        for samples in [1, 4] {
-            assert!(check_multisample(&shading(1.0), samples).is_ok());
-            assert!(check_multisample(&shading(1.5), samples).is_err());
-            assert!(check_multisample(&shading(f32::NAN), samples).is_err());
-            // OpenGL clamps the value.
-            assert!(check_multisample(&coverage(-1.0), samples).is_ok());
-            assert!(check_multisample(&coverage(f32::INFINITY), samples).is_err());
-        }
-        let masked = Multisample {
-            mask: 1,
-            ..coverage(0.5)
-        };
-        assert!(check_multisample(&masked, 4).is_ok());
-        assert!(check_multisample(&masked, 1).is_err());
+        assert!(check_multisample(&shading(1.0)).is_ok());
+        assert!(check_multisample(&shading(1.5)).is_err());
+        assert!(check_multisample(&shading(f32::NAN)).is_err());
+        // OpenGL clamps the value.
+        assert!(check_multisample(&coverage(-1.0)).is_ok());
+        assert!(check_multisample(&coverage(f32::INFINITY)).is_err());
     }
 
     /// Builds a scene whose draw has these keys and draws to these attachments.

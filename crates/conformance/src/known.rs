@@ -204,7 +204,7 @@ const ES_SOFTPIPE: Lacks = Lacks {
     ..ES
 };
 
-const WGPU_FEATURES: &str = "advanced-blend advanced-blend-coherent alpha-to-coverage-without-alpha alpha-to-one clear-commands \
+const WGPU_FEATURES: &str = "advanced-blend advanced-blend-coherent alpha-to-coverage-of-one-sample alpha-to-coverage-without-alpha alpha-to-one clear-commands \
     clip-distance-mask cull-distances fragment-shader-absent-with-color \
     sample-mask-output-with-alpha-to-coverage constant-alpha-blend-factor depth-bounds \
     depth-output-without-depth front-and-back-culling inherited-queries last-provoking-vertex \

@@ -11,6 +11,8 @@ state_enum! {
         AdvancedBlend = "advanced-blend",
         /// Advanced blending over what the same pass has already drawn, in order.
         AdvancedBlendCoherent = "advanced-blend-coherent",
+        /// Alpha to coverage with a single sample per texel.
+        AlphaToCoverageOfOneSample = "alpha-to-coverage-of-one-sample",
         /// Alpha to coverage if the first color attachment lacks alpha, stores integers or is absent.
         AlphaToCoverageWithoutAlpha = "alpha-to-coverage-without-alpha",
         /// Alpha counting as 1 after alpha to coverage.

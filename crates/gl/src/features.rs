@@ -18,6 +18,7 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         | Feature::ConstantAlphaBlendFactor
         | Feature::DepthOutputWithoutDepth
         | Feature::FrontAndBackCulling
+        | Feature::AlphaToCoverageOfOneSample
         | Feature::AlphaToCoverageWithoutAlpha
         | Feature::LastProvokingVertex
         | Feature::MaskedClears

@@ -139,6 +139,7 @@ pub fn innocents() -> &'static [Innocent] {
             own: vec![
                 under!(depth_range: DepthRange::Undefined | DepthRange::Either | DepthRange::ViewportIfWritten),
                 under!(mask_of_one: MaskOfOne::Acts | MaskOfOne::Either),
+                under!(covers_one_sample: true),
                 under!(signed_clamp: SignedClamp::Signed | SignedClamp::Either),
                 under!(constant_clamp: ConstantClamp::Never | ConstantClamp::Either),
                 under!(srgb_logic: SrgbLogic::PassesThrough | SrgbLogic::Either),

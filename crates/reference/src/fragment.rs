@@ -119,7 +119,7 @@ impl Walk<'_> {
             }
         };
         // The shader does not have to run for a masked sample.
-        let masked = !drawn || draw.multisample.mask & (1 << place.at.sample) == 0;
+        let masked = !drawn || self.is_masked(place);
         if draw.early_tests == EarlyTests::Forced {
             let shaded = Shaded {
                 front,
@@ -407,7 +407,7 @@ impl Walk<'_> {
             });
         }
         let state = place.draw.multisample;
-        let (sample, alpha) = (place.at.sample, output.color[3]);
+        let alpha = output.color[3];
         let masked = self.shader_mask_keeps(place, output);
         if let (Some(mask), false) = (&output.mask, masked.must()) {
             self.note_rejection(notes, place, Rejection::ShaderMask, !masked.can(), || {
@@ -417,7 +417,7 @@ impl Walk<'_> {
             });
         }
         let coverage = self.sample_passes(place, alpha);
-        if state.mask & (1 << sample) == 0 {
+        if self.is_masked(place) {
             // The rules decide whether forced early tests come before the mask.
             let forced = place.draw.early_tests == EarlyTests::Forced;
             let certain = !forced || self.rules.mask_acts_first.value();
@@ -681,13 +681,22 @@ impl Walk<'_> {
         place.draw.shader.has_fragment() || self.rules.goes_on_unshaded.value()
     }
 
+    /// Returns true if the draw's sample mask, alpha to coverage and alpha to one act.
+    pub(crate) fn coverage_acts(&self, place: &FragmentPlace<'_>) -> bool {
+        place.at.samples > 1 || self.rules.covers_one_sample.value()
+    }
+
+    /// Returns true if the draw's sample mask leaves the sample out.
+    fn is_masked(&self, place: &FragmentPlace<'_>) -> bool {
+        place.draw.multisample.mask & (1 << place.at.sample) == 0 && self.coverage_acts(place)
+    }
+
     /// Returns whether mask and alpha to coverage keep the sample.
     fn sample_passes(&self, place: &FragmentPlace<'_>, alpha: Range) -> Possible {
-        let state = place.draw.multisample;
-        if state.mask & (1 << place.at.sample) == 0 {
+        if self.is_masked(place) {
             return Possible::Never;
         }
-        if !place.draw.alpha_to_coverage() {
+        if !place.draw.alpha_to_coverage() || !self.coverage_acts(place) {
             return Possible::Always;
         }
         let alpha = alpha.hull();

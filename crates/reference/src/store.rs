@@ -155,7 +155,8 @@ impl Walk<'_> {
         let one_for_all = reading(Contested::OneForAll).unwrap_or(true);
         let pass = &self.scene.passes[place.pass];
         let mut second = output.second.unwrap_or([Range::exact(0.0); 4]);
-        if place.draw.alpha_to_one() && one_for_all {
+        let to_one = place.draw.alpha_to_one() && self.coverage_acts(place);
+        if to_one && one_for_all {
             second[3] = Range::exact(1.0);
         }
         let constant = self.blend_constant(place, world, &mut judging);
@@ -164,7 +165,7 @@ impl Walk<'_> {
                 continue;
             };
             let mut color = output.at_location(location);
-            if place.draw.alpha_to_one() && (location == 0 || one_for_all) {
+            if to_one && (location == 0 || one_for_all) {
                 color[3] = Range::exact(1.0);
             }
             let attachment = &self.scene.attachments[*index];

@@ -76,6 +76,9 @@ impl Scene {
             let held = pass.depth_stencil;
             let holds_depth = held.is_some_and(|i| self.attachments[i].format.has_depth());
             for draw in &pass.draws {
+                if draw.multisample.alpha_to_coverage && self.pass_samples(pass) == 1 {
+                    needed.insert(Requirement::Feature(Feature::AlphaToCoverageOfOneSample));
+                }
                 if draw.multisample.alpha_to_coverage && !self.has_alpha(pass) {
                     needed.insert(Requirement::Feature(Feature::AlphaToCoverageWithoutAlpha));
                 }

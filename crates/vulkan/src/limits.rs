@@ -137,6 +137,7 @@ fn has(device: &Device, feature: Feature) -> bool {
         | Feature::SampleMaskInput
         | Feature::SampleMaskOutput
         | Feature::SampleMaskOutputWithAlphaToCoverage
+        | Feature::AlphaToCoverageOfOneSample
         | Feature::AlphaToCoverageWithoutAlpha
         | Feature::ScissorOutside
         | Feature::SeparateStencilMasks

@@ -458,6 +458,7 @@ fn culling_shows_each_face_alone() {
         "cull/provoking/",
         "cull/tessellation/",
         "cull/clipping/guard-band-slanted/",
+        "cull/clipping/layers/",
         "cull/shared-edges/",
         "cull/lines-outside/",
     ];

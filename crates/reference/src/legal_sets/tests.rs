@@ -877,3 +877,29 @@ fn an_index_that_may_be_no_restart_opens_every_texel_of_the_scissor_rectangle() 
     assert!(is_open(&proven, 0));
     assert!(!is_open(&proven, 3));
 }
+
+#[test]
+fn states_of_coverage_act_on_one_sample_in_vulkan_and_are_skipped_in_opengl() {
+    let drawn = |api: Api, state: &str| {
+        let text = format!(
+            r#"{{"about":"t","spec":["t"],"scene":{{"attachments":{{"c":{{"format":"rgba8unorm","size":[2,2]}}}},
+               "passes":[{{"color":["c"],"draws":[{{"mesh":{{"kind":"full"}},"shader":"uniform_color",
+               "params":{{"color":[1,0,1,0]}},"early_tests":"forced","multisample":{{{state}}}}}]}}],
+               "read":["c"]}}}}"#
+        );
+        let limits = limits(api);
+        let set = legal_set(&case(&text).scene, &limits, &Rules::of(&limits));
+        let worlds = &set.groups[0].sample(1, 1, 0).worlds;
+        let codes = worlds.iter().map(|w| [0, 3].map(|c| w.channels[c].low));
+        codes.collect::<Vec<_>>()
+    };
+    let masked = r#""mask":4294967294"#;
+    let one = r#""alpha_to_one":true"#;
+    assert_eq!(drawn(Api::Vulkan, masked), [[0, 0]]);
+    assert_eq!(drawn(Api::WebGpu, masked), [[0, 0]]);
+    assert_eq!(drawn(Api::Vulkan, one), [[255, 255]]);
+    for api in [Api::OpenGl, Api::OpenGlEs] {
+        assert_eq!(drawn(api, masked), [[255, 0]], "{api:?}");
+        assert_eq!(drawn(api, one), [[255, 0]], "{api:?}");
+    }
+}

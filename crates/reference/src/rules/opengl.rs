@@ -439,6 +439,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 14.9.4 The Early Fragment Test Qualifier: a depth that the shader computes has no effect",
             ]),
         ),
+        covers_one_sample: permit(
+            false,
+            text.cite([
+                "OpenGL 3.3: 4.1.3 Multisample Fragment Operations: no change where SAMPLE_BUFFERS is not one",
+                "OpenGL 4.5: 14.9.3 Multisample Fragment Operations, 17.3.1 Alpha To Coverage: skipped where SAMPLE_BUFFERS is not one",
+                "OpenGL 4.6: 14.9.3 Multisample Fragment Operations, 17.3.1 Alpha To Coverage: skipped where SAMPLE_BUFFERS is not one",
+            ]),
+        ),
         mask_of_one: narrowed(
             MaskOfOne::Ignored,
             MaskOfOne::Either,

@@ -379,6 +379,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: 13.8.4 The Early Fragment Test Qualifier: a depth that the shader computes has no effect",
             ]),
         ),
+        covers_one_sample: permit(
+            false,
+            text.cite([
+                "OpenGL ES 3.0: 4.1.3 Multisample Fragment Operations: no change where SAMPLE_BUFFERS is not one",
+                "OpenGL ES 3.1: 15.1.1 Alpha To Coverage, 13.8.3 Multisample Fragment Operations: no change where SAMPLE_BUFFERS is not one",
+                "OpenGL ES 3.2: 15.1.1 Alpha To Coverage, 13.8.3 Multisample Fragment Operations: no change where SAMPLE_BUFFERS is not one",
+            ]),
+        ),
         mask_of_one: narrowed(
             MaskOfOne::Ignored,
             MaskOfOne::Either,

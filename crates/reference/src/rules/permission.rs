@@ -573,6 +573,9 @@ rules! {
     /// True if forced early tests ignore the depth and the stencil reference that the shader writes;
     /// otherwise they may use them.
     early_ignores_written: bool,
+    /// True if the draw's sample mask, alpha to coverage and alpha to one act with a single sample per texel;
+    /// otherwise they are skipped.
+    covers_one_sample: bool,
     /// The effect of a shader's sample mask with a single sample per texel.
     mask_of_one: MaskOfOne,
     /// True if fragments without a fragment shader pass unchanged; otherwise they may be lost or have any

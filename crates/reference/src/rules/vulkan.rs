@@ -304,6 +304,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "Vulkan: Fragment Operations: up to 1.3.216 shading is performed after sample counting with EarlyFragmentTests; later it should be, and may precede the tests",
             )
         },
+        covers_one_sample: permit(
+            true,
+            "Vulkan: Sample Mask Test, Multisample Coverage: for every fragment, whatever the number of samples",
+        ),
         mask_of_one: permit(
             MaskOfOne::Acts,
             "Vulkan: Multisample Coverage: the coverage mask is ANDed with SampleMask, whatever the number of samples",

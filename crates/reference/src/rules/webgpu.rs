@@ -231,6 +231,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             false,
             "WebGPU: has no forced early tests; Vulkan: shading may precede them",
         ),
+        covers_one_sample: permit(
+            true,
+            "WebGPU: 23.2.11 Sample Masking: the final mask is that of the rasterization ANDed with multisample.mask; alphaToCoverageEnabled needs several samples",
+        ),
         mask_of_one: permit(
             MaskOfOne::Acts,
             "WebGPU: 23.2.11 Sample Masking: the final mask is ANDed with the shader's, of which the lower count bits are considered",

@@ -178,6 +178,10 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             text.early_ignores_written.value,
             "Yardstick: as the API's text says",
         ),
+        covers_one_sample: permit(
+            text.covers_one_sample.value,
+            "Yardstick: as the API's text says",
+        ),
         mask_of_one: permit(text.mask_of_one.value, "Yardstick: as the API's text says"),
         goes_on_unshaded: permit(true, "Yardstick: without a shader, as it was rasterized"),
         input_mask: permit(text.input_mask.value, "Yardstick: as the API's text says"),

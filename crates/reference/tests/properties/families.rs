@@ -90,7 +90,12 @@ fn is_defined_by(api: Api, case: &Case) -> bool {
     case.scene.passes.iter().all(|pass| {
         let samples = case.scene.pass_samples(pass);
         pass.draws.iter().all(|draw| {
-            let masked = draw.shader.writes_mask() && samples == 1;
+            let state = &draw.multisample;
+            let covers = draw.shader.writes_mask()
+                || state.mask != u32::MAX
+                || state.alpha_to_coverage
+                || state.alpha_to_one;
+            let masked = covers && samples == 1;
             let ranged = draw.viewport.depth != [0.0, 1.0] && !draw.depth_clamp;
             let beyond = draw.shader.writes_depth() && ranged;
             (draw.shader.has_fragment() || api != Api::OpenGlEs) && !((masked || beyond) && opengl)
