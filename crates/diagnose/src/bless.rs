@@ -232,6 +232,7 @@ fn findings(new: &[(&Record, Entry)], run: &Run, today: &str) -> Vec<(String, Fi
                 device: device.clone(),
                 versions: version.clone(),
                 cases,
+                beside: BTreeMap::new(),
                 needs: Vec::new(),
                 verdict: Some(verdict),
                 grade: Grade::Unread,

@@ -122,9 +122,11 @@ impl Expectations {
     }
 
     fn push_finding(&mut self, text: &str, path: &Path) -> Result<(), RecordError> {
-        let known = Known::of_finding(Finding::parse(text, path)?, path);
-        let globs = globs_of(&known, text, &mut ParsedGlobs::default())?;
-        self.push(known, globs);
+        let mut parsed = ParsedGlobs::default();
+        for known in Known::of_finding(&Finding::parse(text, path)?, path) {
+            let globs = globs_of(&known, text, &mut parsed)?;
+            self.push(known, globs);
+        }
         Ok(())
     }
 

@@ -15,6 +15,7 @@ use schemars::JsonSchema;
 use serde::de::value::SeqAccessDeserializer;
 use serde::de::{SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 
@@ -37,6 +38,9 @@ pub struct Finding {
     pub versions: Option<String>,
     /// Globs over the ids of the cases that show the bug; `*` also matches `/`.
     pub cases: Vec<String>,
+    /// Globs over further cases in which the bug shows beside others, by the adapter that draws them wrong.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub beside: BTreeMap<String, Vec<String>>,
     /// Globs over facts of draws, such as `scissor` and `samples={2,4,8,16}`: without one draw that has them all, a
     /// failure is another bug.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

@@ -128,13 +128,29 @@ impl Known {
         }
     }
 
-    pub(crate) fn of_finding(finding: Finding, path: &Path) -> Self {
+    /// Returns what a finding says of its adapters, and of each one that draws further cases wrong.
+    pub(crate) fn of_finding(finding: &Finding, path: &Path) -> Vec<Self> {
+        let own = (finding.adapters.clone(), finding.cases.clone());
+        let beside = finding.beside.iter();
+        let beside = beside.map(|(adapter, cases)| (vec![adapter.clone()], cases.clone()));
+        std::iter::once(own)
+            .chain(beside)
+            .map(|named| Self::of_part(finding, named, path))
+            .collect()
+    }
+
+    /// Returns what a finding says of adapters and cases.
+    fn of_part(
+        finding: &Finding,
+        (adapters, cases): (Vec<String>, Vec<String>),
+        path: &Path,
+    ) -> Self {
         Self {
-            adapters: finding.adapters.clone(),
+            adapters,
             driver: finding.driver.clone(),
             device: finding.device.clone(),
             version: finding.versions.clone(),
-            cases: finding.cases.clone(),
+            cases,
             needs: finding.needs.clone(),
             verdict: finding.expected(),
             reason: finding.title.clone(),
@@ -144,7 +160,7 @@ impl Known {
             labels: finding.labels.clone(),
             path: path.into(),
             number: None,
-            source: KnownSource::Finding(Box::new(finding)),
+            source: KnownSource::Finding(Box::new(finding.clone())),
         }
     }
 
