@@ -140,6 +140,7 @@ pub fn innocents() -> &'static [Innocent] {
                 under!(depth_range: DepthRange::Undefined | DepthRange::Either | DepthRange::ViewportIfWritten),
                 under!(mask_of_one: MaskOfOne::Acts | MaskOfOne::Either),
                 under!(covers_one_sample: true),
+                under!(lines_cover_their_shape: false),
                 under!(signed_clamp: SignedClamp::Signed | SignedClamp::Either),
                 under!(constant_clamp: ConstantClamp::Never | ConstantClamp::Either),
                 under!(srgb_logic: SrgbLogic::PassesThrough | SrgbLogic::Either),

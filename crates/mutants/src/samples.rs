@@ -60,7 +60,10 @@ bugs! {
             masks(move |mask, _| mask & ((1 << bits) - 1));
     }
     "mask-of-one-ignored: The sample mask acts on several samples alone." =>
-        masks(|mask, n| if n == 1 { 1 } else { mask }), permitted vec![under!(covers_one_sample: false)];
+        passes(|scene, number, pass| {
+            let single = scene.pass_samples(&scene.passes[number]) == 1;
+            for draw in pass.draws.iter_mut().filter(|_| single) { draw.multisample.mask = u32::MAX; }
+        }), source "lavapipe", permitted vec![under!(covers_one_sample: false)];
     "mask-one-up: The mask's bits move to the next sample." => masks(|mask, _| mask << 1);
     "mask-one-down: The mask's bits move to the sample before." => masks(|mask, _| mask >> 1);
     "mask-inverted: The mask's bits mean their opposite." => masks(|mask, _| !mask);
@@ -98,11 +101,11 @@ bugs! {
     "alpha-to-coverage-ignored: Alpha removes no samples." => alpha_covers(|_, _, _| true),
         permitted vec![under!(alpha_to_coverage: AlphaToCoverage::Any), under!(colorless_alpha_to_coverage: AlphaToCoverage::Opaque | AlphaToCoverage::Any)];
     "alpha-to-coverage-inverted: Alpha 1 covers nothing." => alpha_covers(|a, s, n| s < share(1.0 - a, n)),
-        permitted vec![under!(alpha_to_coverage: AlphaToCoverage::Any), under!(colorless_alpha_to_coverage: AlphaToCoverage::Any)];
+        permitted vec![under!(alpha_to_coverage: AlphaToCoverage::Any), under!(colorless_alpha_to_coverage: AlphaToCoverage::Any), under!(covers_one_sample: true)];
     "alpha-to-coverage-one-less: Alpha covers one sample too few." => alpha_covers(|a, s, n| s + 1 < share(a, n));
     "alpha-to-coverage-one-more: Alpha covers one sample too many." => alpha_covers(|a, s, n| s < share(a, n) + 1);
     "alpha-to-coverage-never: Alpha to coverage draws nothing." => alpha_covers(|_, _, _| false),
-        permitted vec![under!(alpha_to_coverage: AlphaToCoverage::Any), under!(colorless_alpha_to_coverage: AlphaToCoverage::Any)];
+        permitted vec![under!(alpha_to_coverage: AlphaToCoverage::Any), under!(colorless_alpha_to_coverage: AlphaToCoverage::Any), under!(covers_one_sample: true)];
     source CONFUSION;
     "alpha-to-coverage-for-zero-alone: Only alpha 0 removes samples." =>
         alpha_covers(|a, _, _| a > 0.0), source "an alpha test for alpha to coverage", permitted vec![under!(alpha_to_coverage: _)];
