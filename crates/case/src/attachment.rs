@@ -1,6 +1,6 @@
 //! Attachments: clear values, texels, and look-up by name.
 
-use crate::codes::codes;
+use crate::codes::{beside, codes};
 use crate::error::At;
 use crate::wire::{AttachmentWire, ClearWire, SceneWire, TexelsWire};
 use etalon_frame::{ChannelEncoding, TextureFormat};
@@ -161,6 +161,14 @@ fn texels(
             .collect::<Result<Vec<_>, At>>()
         }),
         TexelsWire::Codes => return Ok(AttachmentContents::Texels(codes(format, size))),
+        TexelsWire::BesideCodes(wire) => {
+            if format != TextureFormat::Rgba32Float {
+                return Err(At::new("only rgba32float holds values beside codes").key("kind"));
+            }
+            let colors = beside(wire.of, &wire.by, size)?;
+            let codes = colors.concat().into_iter().map(f32::to_bits);
+            return Ok(AttachmentContents::Texels(codes.collect()));
+        }
     };
     let codes = rows.map_err(|e| e.key("values"))?.concat();
     debug_assert_eq!(codes.len(), width * height * channels);

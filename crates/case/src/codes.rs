@@ -2,10 +2,50 @@
 //!
 //! A table of these texels in a case file would be long, and a missing bit would be easy to overlook.
 
-use etalon_frame::{ChannelEncoding, TextureFormat};
+use crate::error::At;
+use etalon_frame::{ChannelEncoding, TextureFormat, srgb_to_linear};
 
 /// The step from one texel's code to the next, per channel: odd, so that every code occurs.
 const STEPS: [u32; 4] = [1, 3, 5, 7];
+
+/// Returns a colour for each texel, row by row: its channels have the values of codes of `of`, moved towards
+/// the next code by parts of the distance to it. The parts take turns from round to round and channel to
+/// channel.
+pub(crate) fn beside(
+    of: TextureFormat,
+    parts: &[f64],
+    [width, height]: [u32; 2],
+) -> Result<Vec<[f32; 4]>, At> {
+    let channels = of.color_channels();
+    let near = |part: &f64| part.abs() <= 0.5;
+    if parts.is_empty() || !parts.iter().all(near) {
+        return Err(At::new("the parts are numbers from -0.5 to 0.5").key("by"));
+    }
+    let bits = |encoding: &ChannelEncoding| match encoding {
+        ChannelEncoding::Unorm(bits) => Ok(*bits),
+        ChannelEncoding::Srgb8 => Ok(8),
+        _ => Err(At::new(format!("{of} has no codes between 0 and 1")).key("of")),
+    };
+    let bits: Vec<u8> = channels.iter().map(bits).collect::<Result<_, _>>()?;
+    let value = |channel: usize, texel: u32| {
+        let round = (texel >> bits[channel]) as usize;
+        let code = integer(bits[channel], channel as u32, texel);
+        let place = f64::from(code) + parts[(round + channel) % parts.len()];
+        let share = (place / f64::from((1_u32 << bits[channel]) - 1)).clamp(0.0, 1.0);
+        match channels[channel] {
+            ChannelEncoding::Srgb8 => srgb_to_linear(share) as f32,
+            _ => share as f32,
+        }
+    };
+    let color = |texel| {
+        let mut color = [0.0, 0.0, 0.0, 1.0];
+        for channel in 0..channels.len() {
+            color[channel] = value(channel, texel);
+        }
+        color
+    };
+    Ok((0..width.saturating_mul(height)).map(color).collect())
+}
 
 /// Returns the codes of an attachment, texel by texel, row by row. Integer channels go through all their
 /// codes, each at its own pace and from another start in each round. Float channels take normal numbers of
@@ -148,6 +188,28 @@ mod tests {
             let expected = encoding.mask() + 1 - u32::from(skipped);
             assert_eq!(different, expected, "{name}");
         });
+    }
+
+    #[test]
+    fn values_are_beside_every_code_on_both_sides() {
+        for format in [TextureFormat::Rgb10a2Unorm, TextureFormat::Rgba8UnormSrgb] {
+            let colors = beside(format, &[-0.02, 0.02], [64, 32]).expect("its codes have values");
+            for (channel, encoding) in format.color_channels().iter().enumerate() {
+                let sides = |color: &[f32; 4]| {
+                    let value = f64::from(color[channel]);
+                    let code = encoding.nearest_code(value);
+                    (code, encoding.value_of_order(i64::from(code)) < value)
+                };
+                let met: BTreeSet<_> = colors.iter().map(sides).collect();
+                // Nothing is below the first code and above the last.
+                let most = encoding.mask();
+                let all = (1..most).flat_map(|code| [(code, false), (code, true)]);
+                assert!(
+                    all.into_iter().all(|side| met.contains(&side)),
+                    "{format} {channel}"
+                );
+            }
+        }
     }
 
     #[test]

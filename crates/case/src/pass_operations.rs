@@ -1,5 +1,6 @@
 //! Load and store operations and clear commands of a pass: parses them and refuses impossible ones.
 
+use crate::codes::beside;
 use crate::draw::write_mask;
 use crate::error::At;
 use crate::wire::{ClearCommandWire, ClearMaskWire, PassWire};
@@ -74,7 +75,7 @@ fn is_default<V: PartialEq>(operations: &Operations<V>) -> bool {
 pub(crate) fn clears(wire: &PassWire, target: &PassTarget) -> Result<Vec<Clear>, At> {
     let mut clears: Vec<Clear> = Vec::new();
     for (i, listed) in wire.clears.iter().enumerate() {
-        let made = || -> Result<Clear, At> {
+        let made = || -> Result<Vec<Clear>, At> {
             if listed.before > target.draws {
                 let message = format!("the pass has {} draws", target.draws);
                 return Err(At::new(message).key("before"));
@@ -86,14 +87,34 @@ pub(crate) fn clears(wire: &PassWire, target: &PassTarget) -> Result<Vec<Clear>,
                 let message = "clears must be in the order of the draws that they precede";
                 return Err(At::new(message).key("before"));
             }
-            Ok(Clear {
-                before: listed.before,
-                target: clear_target(listed, wire.depth_stencil_read_only, target)?,
-                rect: rect(listed, target.size).map_err(|e| e.key("rect"))?,
-            })
+            let clear = |listed: &ClearCommandWire| -> Result<Clear, At> {
+                Ok(Clear {
+                    before: listed.before,
+                    target: clear_target(listed, wire.depth_stencil_read_only, target)?,
+                    rect: rect(listed, target.size).map_err(|e| e.key("rect"))?,
+                })
+            };
+            let Some(values) = &listed.values else {
+                return Ok(vec![clear(listed)?]);
+            };
+            if listed.value.is_some() || listed.rect.is_some() {
+                let message = "`values` gives each texel a value";
+                return Err(At::new(message).key("values"));
+            }
+            let colors = beside(values.of, &values.by, target.size);
+            let texels = colors.map_err(|e| e.key("values"))?.into_iter().zip(0..);
+            let texels = texels.map(|(color, texel): (_, u32)| {
+                let [x, y] = [texel % target.size[0], texel / target.size[0]];
+                clear(&ClearCommandWire {
+                    value: Some(color),
+                    rect: Some([x, y, 1, 1]),
+                    ..listed.clone()
+                })
+            });
+            texels.collect()
         };
-        let clear = made().map_err(|e| e.index(i))?;
-        clears.push(clear);
+        let made = made().map_err(|e| e.index(i))?;
+        clears.extend(made);
     }
     Ok(clears)
 }

@@ -4,15 +4,17 @@ mod orders;
 
 use crate::blend::{Encodings, Input, after, before};
 use crate::hooks::{
-    blending, clear_code, code, color_code, color_value, faithful_blend, missing_alpha,
+    blending, clear_code, code, color_code, color_value, faithful_blend, missing_alpha, resolve,
 };
 use crate::list::{CONFUSION, SMALL, STEPS, bugs, coarse, rounded};
 use crate::permission::under;
-use crate::plant::{Plant, nudge};
+use crate::plant::{Plant, nudge, scene};
+use etalon_cpu::steps::{Faithful, Steps};
 use etalon_frame::ChannelEncoding::{self, Float16, Float32, Snorm, Srgb8, Ufloat, Unorm};
 use etalon_pipeline::{Arithmetic, BlendInput, Plain};
 use etalon_reference::rules::{ConstantClamp, FactorClamp, SignedClamp};
-use etalon_scene::BlendFactor;
+use etalon_scene::{AttachmentContents, BlendFactor};
+use std::collections::BTreeSet;
 
 const CLAMPED: &str = "SwiftShader: negative float blends clamped";
 
@@ -82,6 +84,41 @@ fn signed(round: fn(f32) -> f32) -> Plant {
     })
 }
 
+/// Encodings with codes at which a table is wrong.
+const TABLES: [(&str, ChannelEncoding, &[u32]); 5] = [
+    ("srgb8", Srgb8, &[29, 53, 87, 118, 149, 183, 239]),
+    ("unorm10", Unorm(10), &[97, 203, 341, 466, 611, 743, 901]),
+    ("unorm6", Unorm(6), &[7, 22, 37, 55]),
+    ("unorm5", Unorm(5), &[5, 14, 23]),
+    ("unorm4", Unorm(4), &[2, 12]),
+];
+
+/// Returns the code that follows if a table is wrong at this one.
+fn tabulated(wrong: &[u32], code: u32) -> u32 {
+    code + u32::from(wrong.contains(&code))
+}
+
+/// Changes the uploaded codes of an encoding in attachments that shaders read.
+fn fetched(encoding: ChannelEncoding, bug: impl Fn(u32) -> u32 + Send + Sync + 'static) -> Plant {
+    scene(move |scene| {
+        let textures = scene
+            .passes
+            .iter()
+            .flat_map(|p| &p.draws)
+            .flat_map(|d| &d.textures);
+        let textures: BTreeSet<usize> = textures.copied().collect();
+        for texture in textures {
+            let attachment = &mut scene.attachments[texture];
+            let channels = attachment.format.color_channels();
+            if let AttachmentContents::Texels(codes) = &mut attachment.contents {
+                let of_encoding = codes.iter_mut().zip(channels.iter().cycle());
+                let of_encoding = of_encoding.filter(|(_, e)| **e == encoding);
+                of_encoding.for_each(|(code, _)| *code = bug(*code));
+            }
+        }
+    })
+}
+
 /// Returns the correct value of a code.
 pub(super) fn value(encoding: ChannelEncoding, code: u32) -> f32 {
     let [value] = Plain::<1>.decode(encoding, [code]);
@@ -130,6 +167,23 @@ bugs! {
                 store(encoding, move |v| nudge(encoding, code(encoding, v), steps)), source SMALL;
         }
     }
+    source "a table of codes that is off in a few entries";
+    for (name, encoding, wrong) in TABLES {
+        "{name}-stored-by-wrong-table: Values near a few codes of {encoding} are stored one code too high." =>
+            store(encoding, move |v| tabulated(wrong, code(encoding, v)));
+        "{name}-destination-read-by-wrong-table: Destinations of a few codes of {encoding} are read two codes too high." =>
+            read(encoding, move |c| value(encoding, c + 2 * u32::from(wrong.contains(&c))));
+        "{name}-cleared-by-wrong-table: Clears to a few codes of {encoding} are one code too high." =>
+            clear_code(move |e, v| if e == encoding { tabulated(wrong, code(e, v)) } else { code(e, v) });
+        "{name}-fetched-by-wrong-table: Shaders read a few codes of {encoding} as the next." =>
+            fetched(encoding, move |c| tabulated(wrong, c));
+        "{name}-resolved-by-wrong-table: A few codes of {encoding} are resolved to the next." =>
+            resolve(move |e, codes| {
+                let code = Faithful.resolve(e, codes);
+                if e == encoding { tabulated(wrong, code) } else { code }
+            });
+    }
+    source CONFUSION;
     "srgb-stored-linear: An sRGB format stores linear values as they are." =>
         store(Srgb8, |v| code(Unorm(8), v)), source NONLINEAR;
     "srgb-stored-by-gamma: An sRGB format stores by a power of 1/2.2." =>

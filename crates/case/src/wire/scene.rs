@@ -124,6 +124,18 @@ pub(crate) enum TexelsWire {
     },
     /// Codes computed from the format, which distinguish rows, columns, channels and bits.
     Codes,
+    /// Values beside the codes of another format, for a float format.
+    BesideCodes(BesideCodesWire),
+}
+
+/// Values beside the codes of a format.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BesideCodesWire {
+    /// The format whose codes they are beside.
+    pub(crate) of: TextureFormat,
+    /// Parts of the distance to the next code, which take turns.
+    pub(crate) by: Vec<f64>,
 }
 
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -178,6 +190,8 @@ pub(crate) struct ClearCommandWire {
     pub(crate) color: Option<usize>,
     /// Red, green, blue and alpha of a colour.
     pub(crate) value: Option<[f32; 4]>,
+    /// Instead of `value`: one clear for each texel, to its own value.
+    pub(crate) values: Option<BesideCodesWire>,
     /// A depth.
     pub(crate) depth: Option<f32>,
     /// A stencil value.
