@@ -42,6 +42,14 @@ bugs! {
             let mask = t.iter().fold(0, |mask, t| mask | t.write_mask);
             t.iter_mut().for_each(|t| t.write_mask = mask);
         });
+    "fifth-lost: Nothing is drawn to the fifth attachment and those after it." =>
+        targets(|t| t.iter_mut().skip(4).for_each(|t| t.write_mask = 0));
+    "eighth-lost: Nothing is drawn to the eighth attachment." =>
+        targets(|t| t.iter_mut().skip(7).for_each(|t| t.write_mask = 0));
+    "fifth-from-the-first: The fifth and those after it take the states of the first four." =>
+        targets(|t| (4..t.len()).for_each(|i| t[i] = t[i - 4]));
+    "write-masks-of-four: The write masks of four attachments are kept; the others repeat them." =>
+        targets(|t| (4..t.len()).for_each(|i| t[i].write_mask = t[i - 4].write_mask));
     "alpha-equation-from-the-first: All have the first's equation for alpha." =>
         targets(|t| {
             if let Some(first) = t[0].blend {

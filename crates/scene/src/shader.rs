@@ -537,6 +537,8 @@ shaders! {
     TexelColor = "texel_color" { textures: 1, position_only: true },
     /// The texel of texture 0 under the fragment, written to all colour locations 0 to 3.
     TexelColorAll = "texel_color_all" { textures: 1, outputs: 4, position_only: true },
+    /// The texel of texture 0 under the fragment, written to all colour locations 0 to 7.
+    TexelColorEight = "texel_color_eight" { textures: 1, outputs: 8, position_only: true },
     /// The texel of texture 0 under the fragment; discards if its alpha is below `params.color`'s.
     TexelDiscard = "texel_discard" { params: true, textures: 1, discards: true, position_only: true },
     /// The texel of texture 0 under the fragment as source, the texel of texture 1 as second source.

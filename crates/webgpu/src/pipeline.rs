@@ -246,6 +246,7 @@ fn attributes(shader: Shader) -> &'static [VertexAttribute] {
         | Shader::SteppedFragCoord
         | Shader::TexelColor
         | Shader::TexelColorAll
+        | Shader::TexelColorEight
         | Shader::TexelDiscard
         | Shader::TexelDualSource
         | Shader::UintColor

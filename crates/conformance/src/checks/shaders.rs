@@ -8,7 +8,8 @@ use serde_json::{Value, json};
 /// Draws with as many attachments as a shader has outputs, and with fewer.
 pub(crate) fn every_shader_draws(s: &CheckedBackend) -> CheckEnd {
     for shader in Shader::ALL {
-        for targets in 1..=shader.outputs() {
+        let most = s.limits().max_color_attachments as usize;
+        for targets in 1..=shader.outputs().min(most) {
             let _ = s.show(with_shader(*shader, targets));
         }
     }
@@ -22,7 +23,7 @@ fn with_shader(shader: Shader, targets: usize) -> Value {
     } else {
         "rgba8unorm"
     };
-    let names = &["a", "b", "c", "d"][..targets];
+    let names = &["a", "b", "c", "d", "e", "f", "g", "h"][..targets];
     let textures = &["s", "t"][..shader.textures()];
     let texture = if shader.writes_mask() || shader.writes_reference() {
         json!({ "format": "rgba32float", "size": [4, 4], "texels":

@@ -250,9 +250,10 @@ impl DrawKernels {
             Shader::UniformColor | Shader::UintColor => Shading::Uniform,
             Shader::VertexOnly => Shading::Nothing,
             Shader::SampledColor | Shader::SampledDiscard => texture(scene, draw, pass)?,
-            Shader::TexelColor | Shader::TexelColorAll | Shader::TexelDualSource => {
-                texels(scene, draw, size)?
-            }
+            Shader::TexelColor
+            | Shader::TexelColorAll
+            | Shader::TexelColorEight
+            | Shader::TexelDualSource => texels(scene, draw, size)?,
             _ => return Err("a shader"),
         };
         use PrimitiveTopology::{TriangleFan, TriangleList, TriangleStrip};

@@ -66,6 +66,7 @@ mod stepped_perspective_sample;
 mod stochastic;
 mod texel_color;
 mod texel_color_all;
+mod texel_color_eight;
 mod texel_discard;
 mod texel_dual_source;
 mod uint_color;
@@ -153,6 +154,7 @@ pub fn fragment<A: Arithmetic>(
         Shader::Stochastic => stochastic::fragment(a, input),
         Shader::TexelColor => texel_color::fragment::<A>(input),
         Shader::TexelColorAll => texel_color_all::fragment::<A>(input),
+        Shader::TexelColorEight => texel_color_eight::fragment::<A>(input),
         Shader::TexelDiscard => texel_discard::fragment(a, input),
         Shader::TexelDualSource => texel_dual_source::fragment::<A>(input),
         Shader::UintColor => uint_color::fragment(a, input),
