@@ -29,6 +29,8 @@ bugs! {
     "samples-lost: No sample counts." => counts(precise, |_| 0);
     "samples-as-any: A precise count reports only whether any sample passed." => counts(precise, |n| n.min(1));
     "samples-in-8-bits: Counts run over at 128." => counts(precise, |n| n % 128);
+    "samples-in-16-bits: Counts run over at 65,536." => counts(precise, |n| n % 65_536), area "size";
+    "samples-below-2-20: Counts stay below 2^20." => counts(precise, |n| n.min((1 << 20) - 1)), area "size";
     "any-always: Some sample always passes." => counts(any, |_| 1);
     "any-never: No sample ever passes." => counts(any, |_| 0);
     "any-inverted: A query for any samples reports none." => counts(any, |n| 1 - n.min(1));

@@ -126,6 +126,14 @@ bugs! {
         "begins-in-{bits}-bits: The beginnings of rectangles are kept in {bits} bits." =>
             scissors(move |[x, y, w, h], _| Some([x & most, y & most, w, h])), area "size";
     }
+    "far-edges-even: The far edges of rectangles beyond 1,000 texels are rounded down to even numbers." =>
+        scissors(|[x, y, w, h], _| {
+            let kept = |start: u32, length: u32| match start.saturating_add(length) {
+                end if end > 1000 => (end & !1).saturating_sub(start),
+                _ => length,
+            };
+            Some([x, y, kept(x, w), kept(y, h)])
+        }), area "size";
     source CONFUSION;
     "kept-where-none-is-set: Without a rectangle, the last one stays." =>
         scene(|scene| {

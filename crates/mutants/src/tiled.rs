@@ -6,7 +6,7 @@ use crate::hooks::{code, covered, fetch};
 use crate::list::bugs;
 use crate::memory::{Area, texel_rows};
 use crate::plant::{Plant, all_draws, calls, draws, memory, moved, scene, sized};
-use PrimitiveTopology::{LineList, LineStrip, PointList};
+use PrimitiveTopology::{LineList, LineStrip, PointList, TriangleFan};
 use etalon_cpu::CpuSurface;
 use etalon_cpu::steps::Moment;
 use etalon_frame::{Aspect, ChannelEncoding};
@@ -195,6 +195,16 @@ bugs! {
             "{kind}-past-{n}-lost: Of {kind}, primitives past {n} are lost." =>
                 long(*n, strikes, |indices| indices.truncate(*n));
         }
+    }
+    for n in [256, 1024, 3000] {
+        "fan-split-at-{n}: The triangles of a fan past {n} begin at vertex {n} instead of the first." =>
+            long(n, |draw| draw.topology == TriangleFan, move |primitives| {
+                for primitive in primitives.iter_mut().skip(n) {
+                    if let PrimitiveVertices::Triangle(corners) = primitive {
+                        corners.iter_mut().filter(|c| **c == 0).for_each(|c| *c = n);
+                    }
+                }
+            });
     }
     for aspect in ASPECTS {
         let (name, word) = (aspect.name(), word(aspect));

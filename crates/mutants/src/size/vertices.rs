@@ -149,6 +149,12 @@ bugs! {
         changed_call(|call, _| call.instances = (call.instances - 1).max(1));
     "instances-of-256: Instances from 256 on are lost." =>
         changed_call(|call, _| call.instances = call.instances.min(256));
+    "instances-16-bits: The number of instances is kept in 16 bits." =>
+        changed_call(|call, _| call.instances %= 65_536);
+    "instances-from-65535-lost: Instances from 65,535 on are lost." =>
+        changed_call(|call, _| call.instances = call.instances.min(65_535));
+    "first-instance-16-bits: The first instance is kept in 16 bits." =>
+        changed_call(|call, _| call.first_instance %= 65_536);
     "one-color-of-instances: All instances have the colour of the first." =>
         changed_call(|call, _| {
             if let Some(first) = call.colors.get(call.first_instance as usize).copied() { call.colors.fill(first); }

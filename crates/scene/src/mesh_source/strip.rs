@@ -9,6 +9,7 @@ use etalon_frame::state_enum;
 use glam::DVec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::iter;
 
 state_enum! {
     /// The primitives of a strip.
@@ -16,6 +17,9 @@ state_enum! {
         /// Counter-clockwise triangles, each over one texel, whose centre is at least 0.22 texels inside.
         /// Four triangles without area join two pairs of rows.
         Triangles = "triangles",
+        /// Counter-clockwise triangles of a fan, each over one texel of the first row. Their common corner is far
+        /// above.
+        Fan = "fan",
         /// Lines, each along 8 texels of a row; between two of them, a line of one texel down or up. If there
         /// is more than one column, the number of rows must be odd.
         Lines = "lines",
@@ -34,6 +38,7 @@ impl Builder {
         let [width, height] = self.size;
         let [columns, rows] = match kind {
             StripOf::Triangles => [width, height / 2 * 2],
+            StripOf::Fan => [width, 1],
             StripOf::Lines => [width / 8, height],
         };
         let capacity = u64::from(columns) * u64::from(rows);
@@ -45,6 +50,7 @@ impl Builder {
         }
         let points = match kind {
             StripOf::Triangles => triangles(width, count),
+            StripOf::Fan => fan(width, count),
             StripOf::Lines => lines(rows, count),
         };
         for point in points {
@@ -76,6 +82,14 @@ fn triangles(width: u32, count: u32) -> Vec<DVec2> {
         }
     }
     points
+}
+
+/// The corners of a fan: the common one, then the ends of texels along the first row. The sides move by an
+/// eighth of a texel at most from the row's bottom to its middle.
+fn fan(width: u32, count: u32) -> Vec<DVec2> {
+    let apex = DVec2::new(f64::from(width / 2), f64::from(width) * -2.0);
+    let ends = (0..=count).map(|x| DVec2::new(f64::from(x), 1.0));
+    iter::once(apex).chain(ends).collect()
 }
 
 /// Columns, alternately downwards and upwards; within a column, rows run alternately to the right and to the
