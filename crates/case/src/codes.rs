@@ -39,8 +39,8 @@ pub(crate) fn beside(
     };
     let color = |texel| {
         let mut color = [0.0, 0.0, 0.0, 1.0];
-        for channel in 0..channels.len() {
-            color[channel] = value(channel, texel);
+        for (channel, stored) in color.iter_mut().enumerate().take(channels.len()) {
+            *stored = value(channel, texel);
         }
         color
     };

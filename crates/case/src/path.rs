@@ -73,7 +73,8 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
             PathDraws::Direct
             | PathDraws::Indirect
             | PathDraws::IndirectCount
-            | PathDraws::IndirectBeside,
+            | PathDraws::IndirectBeside
+            | PathDraws::AfterEmpty,
         )
         | PathValue::State(_) => (draws().next().is_some(), "there is no draw"),
         PathValue::Draws(PathDraws::RestartUnindexed) => (
@@ -104,7 +105,7 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
                 "every draw already has such a call, or cannot have one",
             )
         }
-        PathValue::Target(PathTarget::MipLevel) => (
+        PathValue::Target(PathTarget::MipLevel | PathTarget::LevelOfLayer) => (
             any(&|_, a| a.samples == 1),
             "no attachment has a single sample",
         ),
@@ -169,6 +170,10 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
         PathValue::Area(PathArea::Part) => (
             scene.counters.is_empty() && any(&|_, a| a.size[0] > 1),
             "a draw in two parts counts twice, or nothing has two columns",
+        ),
+        PathValue::Area(PathArea::Quarters) => (
+            scene.counters.is_empty() && any(&|_, a| a.size[0] > 1 && a.size[1] > 1),
+            "a draw in several parts counts several times, or nothing has two columns and rows",
         ),
         PathValue::Views(PathViews::Srgb) => (
             any(&|_, a| {

@@ -16,8 +16,7 @@ pub(crate) use file::{
     StatesWire, VariantWire,
 };
 pub(crate) use scene::{
-    AttachmentWire, ClearCommandWire, ClearMaskWire, ClearWire,
-    DepthStencilResolveWire, DrawWire, PassWire, SceneWire, StencilFaceWire, StencilWire,
-    TexelsWire,
+    AttachmentWire, ClearCommandWire, ClearMaskWire, ClearWire, DepthStencilResolveWire, DrawWire,
+    PassWire, SceneWire, StencilFaceWire, StencilWire, TexelsWire,
 };
 pub(crate) use tiles::{TileBy, TilesWire};

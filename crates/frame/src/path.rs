@@ -104,6 +104,8 @@ path_values! {
         DynamicProvoking = "dynamic-provoking",
         /// Between the draws, including the origin of the tessellated domain.
         DynamicOrigin = "dynamic-origin",
+        /// In the pipeline of every second draw, and between the draws for the others.
+        Turns = "turns",
     }
     /// The part of a texture that serves as an attachment.
     Target(PathTarget) = "target" {
@@ -117,6 +119,8 @@ path_values! {
         Slice3d = "slice-3d",
         /// A face above 0 of a cube.
         CubeFace = "cube-face",
+        /// A level above 0 of a layer above 0.
+        LevelOfLayer = "level-of-layer",
         /// A renderbuffer, which is not a texture.
         Renderbuffer = "renderbuffer",
     }
@@ -128,6 +132,8 @@ path_values! {
         Several = "several",
         /// A secondary command buffer for the draws of each pass.
         Secondary = "secondary",
+        /// A secondary command buffer for each draw.
+        SecondaryEach = "secondary-each",
     }
     /// The kind of draw calls.
     Draws(PathDraws) = "draws" {
@@ -148,6 +154,8 @@ path_values! {
         IndirectCount = "indirect-count",
         /// With arguments from a buffer, while a buffer for draw counts is bound that no call reads.
         IndirectBeside = "indirect-beside",
+        /// The scene's own calls, each after the same call without vertices and without instances.
+        AfterEmpty = "after-empty",
         /// Lists as strips that the greatest index restarts.
         Restart = "restart",
         /// Strips and fans without indices while primitive restart is on; restart affects only indexed draws.
@@ -182,6 +190,8 @@ path_values! {
         Full = "full",
         /// Half the attachments: every pass is recorded once for each half.
         Part = "part",
+        /// Up to four areas whose borders are at an odd column and row.
+        Quarters = "quarters",
     }
     /// The calls that clear within passes.
     Clears(PathClears) = "clears" {

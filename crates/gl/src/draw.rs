@@ -99,6 +99,8 @@ pub(crate) struct DrawCall {
     pub(crate) restarts_unindexed: bool,
     /// The arguments of an indirect draw.
     pub(crate) arguments: Option<Arguments>,
+    /// True if calls without vertices and without instances precede the draw.
+    pub(crate) after_empty: bool,
     /// True if the commands are flushed after the draw.
     pub(crate) flushed: bool,
 }
@@ -127,8 +129,9 @@ pub(crate) fn draw_all(
         }
     }
     let mut closed = false;
-    // The state that is currently set, if a draw set it.
+    // The state that is currently set, if a draw set it, and whether clears and resolves changed some of it.
     let mut set: Option<&DrawState> = None;
+    let mut touched = false;
     for pass in passes {
         if std::mem::take(&mut closed) {
             state::reset(context);
@@ -142,31 +145,39 @@ pub(crate) fn draw_all(
         pass.queries.begun.iter().for_each(|q| q.begin(context));
         for clear in &pass.loads {
             clear.apply(context);
-            set = None;
+            touched = true;
         }
         let mut clears = pass.clears.iter().peekable();
         for (index, draw) in pass.draws.iter().enumerate() {
             while let Some((_, clear)) = clears.next_if(|(before, _)| *before <= index) {
                 clear.apply(context);
-                set = None;
+                touched = true;
             }
             let is_set = pass.keeps_state && set == Some(&draw.state);
+            if is_set && touched {
+                draw.state.restore(context);
+            }
             draw_one(context, inputs, draw, is_set);
-            set = Some(&draw.state);
+            (set, touched) = (Some(&draw.state), false);
         }
         for (_, clear) in clears {
             clear.apply(context);
-            set = None;
+            touched = true;
         }
         for ResolveBlit { from, to, between } in &pass.resolves {
             if let (Some(from), Some(to)) = (attachments.get(*from), attachments.get(*to)) {
                 // Blits are subject to the scissor test.
-                state::reset(context);
+                if pass.keeps_state && between.is_none() {
+                    state::set(gl, glow::SCISSOR_TEST, false);
+                    touched = true;
+                } else {
+                    state::reset(context);
+                    closed = true;
+                }
                 match between {
                     None => resolve(context, &from.surface, &to.surface),
                     Some(between) => move_resolved(context, from, between, to),
                 }
-                closed = true;
             }
         }
         if !pass.discards.is_empty() {
@@ -232,6 +243,9 @@ fn draw_one(context: &Context, inputs: &DrawBuffers, draw: &DrawCall, is_set: bo
         draw.state.begin_advanced(context);
         if draw.restarts_unindexed {
             state::set_restart_unindexed(context, draw.fetched.second_vertex());
+        }
+        if draw.after_empty {
+            draw.fetched.draw_empty(context, draw.mode);
         }
         draw.fetched.draw(context, draw.mode, place);
         if let Some(again) = draw.again {

@@ -64,10 +64,13 @@ pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeS
             | PathState::DynamicAlphaToOne
             | PathState::DynamicDepthClip
             | PathState::DynamicProvoking
-            | PathState::DynamicOrigin,
+            | PathState::DynamicOrigin
+            | PathState::Turns,
         )
-        | PathValue::Commands(PathCommands::One | PathCommands::Secondary)
-        | PathValue::Area(PathArea::Full | PathArea::Part)
+        | PathValue::Commands(
+            PathCommands::One | PathCommands::Secondary | PathCommands::SecondaryEach,
+        )
+        | PathValue::Area(PathArea::Full | PathArea::Part | PathArea::Quarters)
         | PathValue::Clears(PathClears::Each)
         | PathValue::Results(PathResults::Once)
         | PathValue::Clip(PathClip::Constant)
@@ -92,7 +95,7 @@ pub(crate) fn target(scene: &Scene, index: usize, support: Option<&Support>) -> 
     let can = attachment.samples == 1
         && match scene.path.target {
             PathTarget::Plain | PathTarget::MipLevel => true,
-            PathTarget::ArrayLayer => !sampled,
+            PathTarget::ArrayLayer | PathTarget::LevelOfLayer => !sampled,
             PathTarget::Slice3d => !sampled && attachment.format.is_color(),
             // No shader fetches texels of a cube map.
             PathTarget::CubeFace => {

@@ -394,6 +394,7 @@ impl<'a> GlScene<'a> {
             restarts_unindexed: self.path.draws == PathDraws::RestartUnindexed
                 && draw.is_unindexed_strip(),
             arguments,
+            after_empty: self.path.draws == PathDraws::AfterEmpty,
             flushed: self.path.commands == PathCommands::Several,
         };
         unused.number += 1;

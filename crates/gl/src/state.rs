@@ -134,6 +134,43 @@ impl DrawState {
         self.apply_targets(context);
     }
 
+    /// Sets what clears and resolves change: the scissor test, masks and rasterizer discard.
+    pub(crate) fn restore(&self, context: &Context) {
+        let gl = &context.gl;
+        if self.viewports != PathViewport::One {
+            self.apply(context);
+            return;
+        }
+        set(gl, glow::RASTERIZER_DISCARD, self.rasterizer_discard);
+        set(gl, glow::SCISSOR_TEST, self.scissor.is_some());
+        // SAFETY: the context is current; the entry points are part of version 3, and targets differ only if
+        // the context supports it.
+        unsafe {
+            if let Some([x, y, w, h]) = self.scissor {
+                gl.scissor(x, y, w, h);
+            }
+            if let [target] = self.targets.as_slice() {
+                let [r, g, b, a] = mask(target);
+                gl.color_mask(r, g, b, a);
+            } else {
+                for (i, target) in (0..).zip(&self.targets) {
+                    let [r, g, b, a] = mask(target);
+                    gl.color_mask_draw_buffer(i, r, g, b, a);
+                }
+            }
+            gl.depth_mask(self.depth.is_some_and(|d| d.write) && !self.read_only);
+            for (face, stencil) in [
+                (glow::FRONT, self.stencil.map(|s| s.front)),
+                (glow::BACK, self.stencil.map(|s| s.back)),
+            ] {
+                let bits = stencil
+                    .filter(|_| !self.read_only)
+                    .map_or(0, |s| s.write_mask);
+                gl.stencil_mask_separate(face, u32::from(bits));
+            }
+        }
+    }
+
     fn apply_rasterization(&self, context: &Context) {
         let gl = &context.gl;
         set(gl, glow::CULL_FACE, self.cull.is_some());

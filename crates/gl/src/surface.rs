@@ -391,6 +391,13 @@ impl TextureShape {
                 level: 1,
                 ..plain
             },
+            PathTarget::LevelOfLayer => Self {
+                binding: glow::TEXTURE_2D_ARRAY,
+                size: size.map(|side| 2 * side + 1),
+                level: 1,
+                layers: 3,
+                layer: 2,
+            },
             PathTarget::ArrayLayer => Self {
                 binding: glow::TEXTURE_2D_ARRAY,
                 layers: 3,
@@ -421,7 +428,9 @@ fn check_size(
 ) -> Result<(), BackendError> {
     let name = match path {
         PathTarget::Plain | PathTarget::Renderbuffer => return Ok(()),
-        PathTarget::MipLevel | PathTarget::ArrayLayer => glow::MAX_TEXTURE_SIZE,
+        PathTarget::MipLevel | PathTarget::ArrayLayer | PathTarget::LevelOfLayer => {
+            glow::MAX_TEXTURE_SIZE
+        }
         PathTarget::Slice3d => glow::MAX_3D_TEXTURE_SIZE,
         PathTarget::CubeFace => glow::MAX_CUBE_MAP_TEXTURE_SIZE,
     };

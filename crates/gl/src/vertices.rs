@@ -90,6 +90,7 @@ impl Arguments {
 }
 
 /// A draw with its own pointers.
+#[derive(Clone, Copy)]
 pub(crate) struct Own {
     /// The offset of the vertices in bytes.
     vertices: i32,
@@ -258,6 +259,46 @@ impl Fetched {
                     call.draw(context, mode, arguments);
                     gl.vertex_attrib_divisor(COLOR, 0);
                     set_pointers(context, 0);
+                }
+            }
+        }
+    }
+}
+
+impl Fetched {
+    /// Draws without vertices, and without instances.
+    ///
+    /// # Safety
+    /// As for [`Self::draw`].
+    pub(crate) unsafe fn draw_empty(&self, context: &Context, mode: u32) {
+        let gl = &context.gl;
+        // SAFETY: as for this function; nothing is fetched.
+        unsafe {
+            match *self {
+                Self::Shared {
+                    count,
+                    indices: Some(offset),
+                    ..
+                } => {
+                    gl.draw_elements(mode, 0, glow::UNSIGNED_INT, offset);
+                    gl.draw_elements_instanced(mode, count, glow::UNSIGNED_INT, offset, 0);
+                }
+                Self::Shared { first, count, .. } => {
+                    gl.draw_arrays(mode, first, 0);
+                    gl.draw_arrays_instanced(mode, first, count, 0);
+                }
+                Self::Own(call) => {
+                    let (count, instances) = (call.count, call.instances);
+                    for (count, instances) in [(0, instances), (count, 0)] {
+                        let colors = call.colors.or(Some(0));
+                        let call = Own {
+                            count,
+                            instances,
+                            colors,
+                            ..call
+                        };
+                        Self::Own(call).draw(context, mode, None);
+                    }
                 }
             }
         }

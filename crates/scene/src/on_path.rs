@@ -303,6 +303,7 @@ fn call_by(draw: &mut Draw, draws: PathDraws) {
         | PathDraws::Indirect
         | PathDraws::IndirectCount
         | PathDraws::IndirectBeside
+        | PathDraws::AfterEmpty
         | PathDraws::RestartUnindexed => {}
         PathDraws::Indexed16 => index(draw, IndexFormat::Uint16),
         PathDraws::Indexed32 => index(draw, IndexFormat::Uint32),

@@ -51,7 +51,8 @@ impl Scene {
         }
         if self.queries().iter().any(|query| query.over_passes) {
             needed.insert(Requirement::Feature(Feature::QueriesOverPasses));
-            if self.path.commands == PathCommands::Secondary {
+            let secondary = [PathCommands::Secondary, PathCommands::SecondaryEach];
+            if secondary.contains(&self.path.commands) {
                 needed.insert(Requirement::Feature(Feature::InheritedQueries));
             }
         }

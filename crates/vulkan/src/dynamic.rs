@@ -187,11 +187,6 @@ impl Dynamic {
         other
     }
 
-    /// Returns a text that is unique to the state.
-    pub(crate) fn text(&self) -> String {
-        format!("{self:?}")
-    }
-
     /// Returns the rasterization state for a pipeline.
     pub(crate) fn rasterization(&self) -> vk::PipelineRasterizationStateCreateInfo<'static> {
         let (bias, biased) = self.bias();
@@ -243,68 +238,162 @@ impl Dynamic {
         self.blend_constant
     }
 
-    /// Records all of [`Setting::states`].
+    /// Returns a text that is unique to the state.
+    pub(crate) fn text(&self) -> String {
+        format!("{self:?}")
+    }
+
+    /// Records those of [`Setting::states`] that differ from the state `before`, or all without it.
     ///
     /// # Safety
-    /// `commands` is being recorded, and the device has the features that the draw needs.
-    pub(crate) unsafe fn set(&self, device: &Device, commands: vk::CommandBuffer) {
+    /// `commands` is being recorded, and the device has the features that the draw needs. Everything of
+    /// `before` is still set.
+    pub(crate) unsafe fn set(
+        &self,
+        device: &Device,
+        commands: vk::CommandBuffer,
+        before: Option<&Self>,
+    ) {
         let api = &device.raw;
         let (viewports, scissors, count) = self.viewports();
+        let bounds = |v: &vk::Viewport| [v.x, v.y, v.width, v.height, v.min_depth, v.max_depth];
+        let same_viewports = before.is_some_and(|b| bounds(&b.viewport) == bounds(&self.viewport));
+        let same_scissors = before.is_some_and(|b| b.scissor == self.scissor);
         // SAFETY: upheld by the caller; no call here takes a pointer that outlives it.
         unsafe {
             match (self.setting.viewport, self.setting.fixed) {
                 (PathViewport::WithCount, _) => {
-                    api.cmd_set_viewport_with_count(commands, &viewports[..count]);
-                    api.cmd_set_scissor_with_count(commands, &scissors[..count]);
+                    if !same_viewports {
+                        api.cmd_set_viewport_with_count(commands, &viewports[..count]);
+                    }
+                    if !same_scissors {
+                        api.cmd_set_scissor_with_count(commands, &scissors[..count]);
+                    }
                 }
                 (_, true) => {}
                 (_, false) => {
-                    api.cmd_set_viewport(commands, 0, &viewports[..count]);
-                    api.cmd_set_scissor(commands, 0, &scissors[..count]);
+                    if !same_viewports {
+                        api.cmd_set_viewport(commands, 0, &viewports[..count]);
+                    }
+                    if !same_scissors {
+                        api.cmd_set_scissor(commands, 0, &scissors[..count]);
+                    }
                 }
             }
         }
         if self.setting.fixed {
             return;
         }
-        let (bias, biased) = self.bias();
-        let [low, high] = self.depth_bounds.unwrap_or(IDLE_BOUNDS);
-        let depth = self.depth.unwrap_or(DepthState::REJECTING);
         // SAFETY: as above.
         unsafe {
-            api.cmd_set_primitive_topology(
-                commands,
-                state::topology(self.topology, self.tessellation),
-            );
-            api.cmd_set_primitive_restart_enable(commands, self.restart);
-            api.cmd_set_cull_mode(commands, state::cull(self.cull));
-            api.cmd_set_front_face(commands, state::front_face(self.front_face));
-            api.cmd_set_rasterizer_discard_enable(commands, self.rasterizer_discard);
-            api.cmd_set_depth_bias_enable(commands, biased);
-            api.cmd_set_depth_bias(commands, bias.constant as f32, bias.clamp, bias.slope);
-            api.cmd_set_depth_bounds_test_enable(commands, self.depth_bounds.is_some());
-            api.cmd_set_depth_bounds(commands, low, high);
-            api.cmd_set_depth_test_enable(commands, self.depth.is_some());
-            api.cmd_set_depth_write_enable(commands, depth.write);
-            api.cmd_set_depth_compare_op(commands, state::compare(depth.compare));
-            api.cmd_set_blend_constants(commands, &self.blend_constant);
-            api.cmd_set_stencil_test_enable(commands, self.stencil.is_some());
-            let stencil = self.stencil();
-            for (face, side) in [
-                (vk::StencilFaceFlags::FRONT, &stencil.front),
-                (vk::StencilFaceFlags::BACK, &stencil.back),
-            ] {
-                api.cmd_set_stencil_op(
-                    commands,
-                    face,
-                    state::stencil(side.fail_op),
-                    state::stencil(side.pass_op),
-                    state::stencil(side.depth_fail_op),
-                    state::compare(side.compare),
-                );
-                api.cmd_set_stencil_compare_mask(commands, face, side.read_mask.into());
-                api.cmd_set_stencil_write_mask(commands, face, side.write_mask.into());
-                api.cmd_set_stencil_reference(commands, face, side.reference.into());
+            self.set_rasterization(device, commands, before);
+            self.set_tests(device, commands, before);
+        }
+    }
+
+    /// Returns a state's value if it differs from that of `before`.
+    fn changed<T: PartialEq>(&self, before: Option<&Self>, of: impl Fn(&Self) -> T) -> Option<T> {
+        let value = of(self);
+        before.is_none_or(|b| of(b) != value).then_some(value)
+    }
+
+    /// # Safety
+    /// As for [`Self::set`].
+    unsafe fn set_rasterization(
+        &self,
+        device: &Device,
+        commands: vk::CommandBuffer,
+        before: Option<&Self>,
+    ) {
+        let api = &device.raw;
+        // SAFETY: upheld by the caller.
+        unsafe {
+            if let Some(t) = self.changed(before, |d| state::topology(d.topology, d.tessellation)) {
+                api.cmd_set_primitive_topology(commands, t);
+            }
+            if let Some(restart) = self.changed(before, |d| d.restart) {
+                api.cmd_set_primitive_restart_enable(commands, restart);
+            }
+            if let Some(cull) = self.changed(before, |d| d.cull) {
+                api.cmd_set_cull_mode(commands, state::cull(cull));
+            }
+            if let Some(front) = self.changed(before, |d| d.front_face) {
+                api.cmd_set_front_face(commands, state::front_face(front));
+            }
+            if let Some(discard) = self.changed(before, |d| d.rasterizer_discard) {
+                api.cmd_set_rasterizer_discard_enable(commands, discard);
+            }
+            if let Some(biased) = self.changed(before, |d| d.bias().1) {
+                api.cmd_set_depth_bias_enable(commands, biased);
+            }
+            if let Some(bias) = self.changed(before, |d| d.bias().0) {
+                api.cmd_set_depth_bias(commands, bias.constant as f32, bias.clamp, bias.slope);
+            }
+            if let Some(constant) = self.changed(before, |d| d.blend_constant) {
+                api.cmd_set_blend_constants(commands, &constant);
+            }
+        }
+    }
+
+    /// # Safety
+    /// As for [`Self::set`].
+    unsafe fn set_tests(
+        &self,
+        device: &Device,
+        commands: vk::CommandBuffer,
+        before: Option<&Self>,
+    ) {
+        let api = &device.raw;
+        let depth = |d: &Self| d.depth.unwrap_or(DepthState::REJECTING);
+        // SAFETY: upheld by the caller.
+        unsafe {
+            if let Some(enabled) = self.changed(before, |d| d.depth_bounds.is_some()) {
+                api.cmd_set_depth_bounds_test_enable(commands, enabled);
+            }
+            let bounds = self.changed(before, |d| d.depth_bounds.unwrap_or(IDLE_BOUNDS));
+            if let Some([low, high]) = bounds {
+                api.cmd_set_depth_bounds(commands, low, high);
+            }
+            if let Some(enabled) = self.changed(before, |d| d.depth.is_some()) {
+                api.cmd_set_depth_test_enable(commands, enabled);
+            }
+            if let Some(write) = self.changed(before, |d| depth(d).write) {
+                api.cmd_set_depth_write_enable(commands, write);
+            }
+            if let Some(compare) = self.changed(before, |d| depth(d).compare) {
+                api.cmd_set_depth_compare_op(commands, state::compare(compare));
+            }
+            if let Some(enabled) = self.changed(before, |d| d.stencil.is_some()) {
+                api.cmd_set_stencil_test_enable(commands, enabled);
+            }
+            for face in [vk::StencilFaceFlags::FRONT, vk::StencilFaceFlags::BACK] {
+                let side = |d: &Self| match face {
+                    vk::StencilFaceFlags::FRONT => d.stencil().front,
+                    _ => d.stencil().back,
+                };
+                let operations = |d: &Self| {
+                    let side = side(d);
+                    (side.fail_op, side.pass_op, side.depth_fail_op, side.compare)
+                };
+                if let Some((fail, pass, depth_fail, compare)) = self.changed(before, operations) {
+                    api.cmd_set_stencil_op(
+                        commands,
+                        face,
+                        state::stencil(fail),
+                        state::stencil(pass),
+                        state::stencil(depth_fail),
+                        state::compare(compare),
+                    );
+                }
+                if let Some(mask) = self.changed(before, |d| side(d).read_mask) {
+                    api.cmd_set_stencil_compare_mask(commands, face, mask.into());
+                }
+                if let Some(mask) = self.changed(before, |d| side(d).write_mask) {
+                    api.cmd_set_stencil_write_mask(commands, face, mask.into());
+                }
+                if let Some(reference) = self.changed(before, |d| side(d).reference) {
+                    api.cmd_set_stencil_reference(commands, face, reference.into());
+                }
             }
         }
     }

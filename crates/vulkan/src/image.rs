@@ -80,6 +80,13 @@ impl ImageKey {
                 shape.levels = 2;
                 shape.place.level = 1;
             }
+            PathTarget::LevelOfLayer => {
+                shape.extent.width = 2 * width + 1;
+                shape.extent.height = 2 * height + 1;
+                shape.levels = 2;
+                shape.layers = 3;
+                (shape.place.level, shape.place.layer) = (1, 2);
+            }
             PathTarget::ArrayLayer => {
                 shape.layers = 3;
                 shape.place.layer = 2;

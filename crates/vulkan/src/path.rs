@@ -73,7 +73,7 @@ pub(crate) fn target(scene: &Scene, index: usize, attachment: &Attachment) -> Pa
         read || draws.any(|d| d.textures.contains(&index))
     };
     let can = match scene.path.target {
-        PathTarget::MipLevel => single,
+        PathTarget::MipLevel | PathTarget::LevelOfLayer => single,
         PathTarget::CubeFace => single && attachment.size[0] == attachment.size[1],
         PathTarget::Slice3d => single && attachment.format.is_color() && !read_by_shader(),
         PathTarget::Plain | PathTarget::ArrayLayer | PathTarget::Renderbuffer => true,
@@ -220,14 +220,26 @@ fn is_fetched_exactly(format: TextureFormat, native: Native) -> bool {
 
 /// Returns the render areas of a pass. The pass is recorded once for each.
 pub(crate) fn areas(path: &Path, [width, height]: [u32; 2]) -> Vec<vk::Rect2D> {
-    let columns = |left: u32, width: u32| vk::Rect2D {
+    let rect = |[x, y]: [u32; 2], [width, height]: [u32; 2]| vk::Rect2D {
         offset: vk::Offset2D {
-            x: left.cast_signed(),
-            y: 0,
+            x: x.cast_signed(),
+            y: y.cast_signed(),
         },
         extent: vk::Extent2D { width, height },
     };
+    let columns = |left: u32, width: u32| rect([left, 0], [width, height]);
+    // The first odd number from a third on, and its rest.
+    let cut = |length: u32| match (length / 3) | 1 {
+        first if first < length => vec![(0, first), (first, length - first)],
+        _ => vec![(0, length)],
+    };
     match path.area {
+        PathArea::Quarters => {
+            let rows = cut(height).into_iter();
+            let each =
+                rows.flat_map(|(y, h)| cut(width).into_iter().map(move |(x, w)| [x, y, w, h]));
+            each.map(|[x, y, w, h]| rect([x, y], [w, h])).collect()
+        }
         PathArea::Part if width > 1 => {
             // Avoids the middle, where tile boundaries often are.
             let left = (width * 2 / 5).max(1);

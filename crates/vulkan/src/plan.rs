@@ -118,6 +118,8 @@ pub(crate) struct DrawPlan {
     pub(crate) again: Option<Rc<Pipeline>>,
     /// True if the state is first set to other values.
     pub(crate) overwritten: bool,
+    /// True if calls without vertices and without instances precede the draw.
+    pub(crate) after_empty: bool,
     /// True if the state is set before the pipeline is bound.
     pub(crate) before_pipeline: bool,
     /// The values of the dynamic states beyond Vulkan 1.3's, if the path asks for them.
@@ -293,6 +295,7 @@ impl DrawPlan {
             other: None,
             again: None,
             overwritten: false,
+            after_empty: false,
             before_pipeline: false,
             beyond: None,
             single: None,

@@ -69,6 +69,8 @@ struct Planted {
     tests_depth: bool,
     /// The sample mask that was set last, and its sample count.
     mask: Option<(vk::SampleCountFlags, vk::SampleMask)>,
+    /// The cull mode that was set last.
+    cull: Option<vk::CullModeFlags>,
     /// The formats of images.
     formats: HashMap<vk::Image, vk::Format>,
 }
@@ -107,6 +109,7 @@ pub(crate) fn plant(mut device: Device, fault: Option<Fault>) -> Device {
         depth: false,
         tests_depth: false,
         mask: None,
+        cull: None,
         formats: HashMap::new(),
     }));
     if let Some(extended) = &mut device.extended {
@@ -202,6 +205,13 @@ functions! {
             }
         });
     }
+    before v10 cmd_execute_commands(
+        commands: vk::CommandBuffer, count: u32, buffers: *const vk::CommandBuffer
+    ) |planted| {
+        if planted.calls.has(CallFault::SecondarySecond) {
+            count = count.min(1);
+        }
+    }
     instead v12 cmd_draw_indirect_count(
         commands: vk::CommandBuffer, buffer: vk::Buffer, offset: vk::DeviceSize, count_buffer: vk::Buffer,
         count_offset: vk::DeviceSize, most: u32, stride: u32
@@ -274,6 +284,14 @@ functions! {
         let undefined = mem::take(&mut planted.undefined);
         planted.cleared = true;
         let calls = &planted.calls;
+        if calls.has(CallFault::ClearForgets) {
+            // SAFETY: the caller's commands are being recorded.
+            unsafe {
+                (planted.driver.v10.cmd_set_blend_constants)(commands, &[0.0; 4]);
+                let faces = vk::StencilFaceFlags::FRONT_AND_BACK;
+                (planted.driver.v10.cmd_set_stencil_reference)(commands, faces, 0);
+            }
+        }
         if calls.has(CallFault::ClearFirstLayer) {
             areas.iter_mut().for_each(|area| area.layer_count = 1);
         }
@@ -360,6 +378,10 @@ functions! {
         let info = &mut infos[0];
         planted.in_pass = true;
         planted.calls.begin_pass();
+        if planted.calls.has(CallFault::AreaEven) {
+            let offset = &mut info.render_area.offset;
+            (offset.x, offset.y) = (offset.x & !1, offset.y & !1);
+        }
         planted.calls.area = area(info.render_area);
         // SAFETY: upheld by the caller: the pointers are null or valid, and `color_attachment_count` is the
         // number of colours.
@@ -405,6 +427,10 @@ functions! {
     }
     before v13 cmd_set_cull_mode(commands: vk::CommandBuffer, mode: vk::CullModeFlags) |planted| {
         mode = planted.calls.kept(CallFault::CullKept, 0, mode);
+        let same = planted.cull.replace(mode) == Some(mode);
+        if same && planted.calls.has(CallFault::DynamicSkipped) {
+            return;
+        }
         // The value that the backend gives a pipeline whose culling is dynamic.
         if planted.calls.has(CallFault::StaticForDynamic) {
             mode = vk::CullModeFlags::NONE;
@@ -468,6 +494,9 @@ functions! {
         // Every image has a first level and layer.
         let range = &mut infos[0].subresource_range;
         if planted.calls.has(CallFault::LayerDropped) {
+            range.base_array_layer = 0;
+        }
+        if planted.calls.has(CallFault::LayerOfLevelDropped) && range.base_mip_level > 0 {
             range.base_array_layer = 0;
         }
         if planted.calls.has(CallFault::LevelDropped) {

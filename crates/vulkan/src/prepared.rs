@@ -30,10 +30,11 @@ use crate::targets::Targets;
 use ash::vk;
 use etalon_backend::{BackendError, FrameTime, Phase, Prepared};
 use etalon_frame::{
-    Feature, Frame, PathCommands, PathEnd, PathLayers, PathPass, PathState, PathValue, Requirement,
+    Feature, Frame, PathCommands, PathDraws, PathEnd, PathLayers, PathPass, PathState, PathValue,
+    Requirement,
 };
-use etalon_scene::{AttachmentContents, Draw, Enclosing, Pass, Pool, Scene};
-use std::cell::RefCell;
+use etalon_scene::{AttachmentContents, Draw, Enclosing, Pass, Path, Pool, Scene};
+use std::cell::Cell;
 use std::time::Instant;
 
 /// A scene with all objects needed to draw it.
@@ -294,7 +295,7 @@ impl<'a> VulkanScene<'a> {
                 }
                 let drawing = SceneDrawing {
                     device,
-                    state: scene.path.state,
+                    path: scene.path,
                     setting,
                     targets: &targets,
                     object: planned.object.as_ref(),
@@ -347,7 +348,7 @@ impl<'a> VulkanScene<'a> {
 /// Data that the draws of a pass share within one of its areas.
 struct SceneDrawing<'a> {
     device: &'a Device,
-    state: PathState,
+    path: Path,
     setting: Setting,
     targets: &'a Targets,
     object: Option<&'a RenderPass>,
@@ -368,7 +369,9 @@ impl SceneDrawing<'_> {
         place: &DrawInputs,
         set: vk::DescriptorSet,
     ) -> Result<DrawPlan, BackendError> {
-        let (device, setting, targets) = (self.device, self.setting, self.targets);
+        let (device, mut setting, targets) = (self.device, self.setting, self.targets);
+        let state = self.path.state;
+        setting.fixed |= state == PathState::Turns && index % 2 == 1;
         let (area, whole) = self.area;
         let dynamic = Dynamic::new(draw, area, whole, place.restarts, setting)?;
         let [again, layer] = match targets.layers {
@@ -390,16 +393,17 @@ impl SceneDrawing<'_> {
         let pipeline_draw = pipeline_draw.as_ref().unwrap_or(draw);
         let pipeline = get(pipeline_draw, layer)?;
         let again = again.map(|_| get(pipeline_draw, again)).transpose()?;
-        let single = SingleState::of(self.state).is_some();
-        let before_pipeline = self.state == PathState::BeforePipeline;
-        let other = if single || before_pipeline || self.state == PathState::OtherPipeline {
+        let single = SingleState::of(state).is_some();
+        let before_pipeline = state == PathState::BeforePipeline;
+        let other = if single || before_pipeline || state == PathState::OtherPipeline {
             Some(get(&path::other(draw), layer)?)
         } else {
             None
         };
         let enclosing = Enclosing::draw(self.queries, (self.pass, index));
         let mut drawn = DrawPlan::new(place, dynamic, pipeline, set, enclosing)?;
-        drawn.overwritten = self.state == PathState::Overwritten;
+        drawn.overwritten = state == PathState::Overwritten;
+        drawn.after_empty = self.path.draws == PathDraws::AfterEmpty;
         drawn.before_pipeline = before_pipeline;
         (drawn.other, drawn.again, drawn.beyond) = (other, again, values);
         let state = setting.beyond.single;
@@ -449,7 +453,7 @@ impl Prepared for VulkanScene<'_> {
         record::initial_contents(device, commands, &self.plan, input.raw);
         slot.timestamp(device, 0);
         let kind = self.kind;
-        let current_state = self.keeps_state.then(RefCell::default);
+        let current_state = self.keeps_state.then(Cell::default);
         let over_passes = self.plan.passes.iter().any(|pass| !pass.queries.is_empty());
         let mut recorder = CommandRecorder {
             slot,

@@ -4,6 +4,7 @@ use crate::attached::DepthStencilPlan;
 use crate::blits;
 use crate::clear::Ends;
 use crate::device::{Device, MOST_COUNTED};
+use crate::dynamic::Dynamic;
 use crate::error::{Check, internal};
 use crate::image::ImagePlace;
 use crate::image_state::{
@@ -22,7 +23,8 @@ use crate::storage;
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::{PathCommands, PathEnd};
-use std::cell::RefCell;
+use std::cell::Cell;
+use std::ops::Range;
 
 impl Role {
     /// Returns the state of an attachment in this role.
@@ -289,12 +291,20 @@ fn before_advanced(device: &Device, commands: vk::CommandBuffer) {
     unsafe { device.raw.cmd_pipeline_barrier2(commands, &info) };
 }
 
+/// The state that a command buffer has.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct CurrentState {
+    pipeline: vk::Pipeline,
+    dynamic: Option<Dynamic>,
+}
+
 /// The command buffers of a submission.
 pub(crate) struct CommandRecorder<'a> {
     pub(crate) slot: &'a mut Slot,
     pub(crate) kind: PathCommands,
-    /// The dynamic state that the command buffer has, as text; `None` if every draw sets all state.
-    pub(crate) current_state: Option<RefCell<String>>,
+    /// The state that the command buffer has; `None` if every pass binds pipelines and every draw sets all
+    /// state.
+    pub(crate) current_state: Option<Cell<CurrentState>>,
     /// True if queries enclose passes.
     pub(crate) over_passes: bool,
 }
@@ -305,11 +315,13 @@ impl CommandRecorder<'_> {
         match self.kind {
             PathCommands::Several => {
                 if let Some(current_state) = &self.current_state {
-                    current_state.borrow_mut().clear();
+                    current_state.take();
                 }
                 self.slot.next_primary(device)
             }
-            PathCommands::One | PathCommands::Secondary => Ok(self.slot.commands()),
+            PathCommands::One | PathCommands::Secondary | PathCommands::SecondaryEach => {
+                Ok(self.slot.commands())
+            }
         }
     }
 
@@ -318,12 +330,20 @@ impl CommandRecorder<'_> {
         &mut self,
         device: &Device,
         pass: &PassPlan,
-        record: impl Fn(vk::CommandBuffer, Option<&RefCell<String>>),
+        record: impl Fn(vk::CommandBuffer, Range<usize>, Option<&Cell<CurrentState>>),
     ) -> Result<(), BackendError> {
-        if self.kind != PathCommands::Secondary {
-            record(self.slot.commands(), self.current_state.as_ref());
+        let all = 0..pass.draws.len();
+        if !self.is_secondary() {
+            record(self.slot.commands(), all, self.current_state.as_ref());
             return Ok(());
         }
+        // A query ends in the command buffer in which it begins.
+        let spans = |d: &DrawPlan| d.queries.begun.len() != d.queries.ended.len();
+        let parts = if self.kind == PathCommands::SecondaryEach && !pass.draws.iter().any(spans) {
+            each(all)
+        } else {
+            vec![all]
+        };
         let mut rendering = vk::CommandBufferInheritanceRenderingInfo::default()
             .view_mask(pass.targets.views())
             .color_attachment_formats(&pass.targets.color)
@@ -341,27 +361,38 @@ impl CommandRecorder<'_> {
                 .framebuffer(object.framebuffer),
             None => inheritance.push_next(&mut rendering),
         };
-        let commands = self.slot.secondary(device, &inheritance)?;
-        // A secondary command buffer begins without state.
-        record(commands, None);
-        // SAFETY: `commands` is being recorded; the secondary commands are complete and executed once.
+        let mut secondaries = Vec::with_capacity(parts.len());
+        for part in parts {
+            let commands = self.slot.secondary(device, &inheritance)?;
+            // A secondary command buffer begins without state.
+            record(commands, part, None);
+            // SAFETY: the secondary commands are complete.
+            unsafe { device.raw.end_command_buffer(commands) }.check("command memory")?;
+            secondaries.push(commands);
+        }
+        // SAFETY: the primary commands are being recorded; each secondary is executed once.
         unsafe {
             device
                 .raw
-                .end_command_buffer(commands)
-                .check("command memory")?;
-            device
-                .raw
-                .cmd_execute_commands(self.slot.commands(), &[commands]);
+                .cmd_execute_commands(self.slot.commands(), &secondaries);
         }
         Ok(())
     }
 
+    /// Returns true if secondary command buffers record the commands inside passes.
+    fn is_secondary(&self) -> bool {
+        match self.kind {
+            PathCommands::Secondary | PathCommands::SecondaryEach => true,
+            PathCommands::One | PathCommands::Several => false,
+        }
+    }
+
     /// Returns which command buffers record the commands inside a pass.
     fn contents(&self) -> vk::SubpassContents {
-        match self.kind {
-            PathCommands::Secondary => vk::SubpassContents::SECONDARY_COMMAND_BUFFERS,
-            PathCommands::One | PathCommands::Several => vk::SubpassContents::INLINE,
+        if self.is_secondary() {
+            vk::SubpassContents::SECONDARY_COMMAND_BUFFERS
+        } else {
+            vk::SubpassContents::INLINE
         }
     }
 }
@@ -402,9 +433,9 @@ fn pass(
             None => begin_rendering(device, recorder, pass),
         }
     }
-    recorder.within(device, pass, |commands, current_state| {
+    recorder.within(device, pass, |commands, part, current_state| {
         // SAFETY: `commands` is being recorded, inside the pass.
-        unsafe { draws(device, commands, pass, input, current_state) };
+        unsafe { draws(device, commands, pass, part, input, current_state) };
     })?;
     // SAFETY: `commands` is being recorded, inside the pass.
     unsafe {
@@ -497,7 +528,7 @@ unsafe fn begin_rendering(device: &Device, recorder: &CommandRecorder<'_>, pass:
         .layer_count(pass.targets.layer_count())
         .view_mask(pass.targets.views())
         .color_attachments(&color);
-    if recorder.kind == PathCommands::Secondary {
+    if recorder.is_secondary() {
         info = info.flags(vk::RenderingFlags::CONTENTS_SECONDARY_COMMAND_BUFFERS);
     }
     if let Some(depth) = &depth {
@@ -514,7 +545,15 @@ unsafe fn begin_rendering(device: &Device, recorder: &CommandRecorder<'_>, pass:
     }
 }
 
-/// Records the draws and clears of a pass.
+/// Returns the ranges of one number each, or an empty range.
+fn each(range: Range<usize>) -> Vec<Range<usize>> {
+    if range.is_empty() {
+        return vec![range];
+    }
+    range.map(|i| i..i + 1).collect()
+}
+
+/// Records a part of a pass's draws and the clears before them. The last part has the clears at the end.
 ///
 /// # Safety
 /// `commands` is being recorded, inside the pass.
@@ -522,8 +561,9 @@ unsafe fn draws(
     device: &Device,
     commands: vk::CommandBuffer,
     pass: &PassPlan,
+    part: Range<usize>,
     input: vk::Buffer,
-    current_state: Option<&RefCell<String>>,
+    current_state: Option<&Cell<CurrentState>>,
 ) {
     let api = &device.raw;
     // SAFETY: upheld by the caller; pipelines live as long as the scene.
@@ -531,9 +571,14 @@ unsafe fn draws(
         let bind = |pipeline: &Pipeline| {
             api.cmd_bind_pipeline(commands, vk::PipelineBindPoint::GRAPHICS, pipeline.raw);
         };
-        let mut bound: Option<&Pipeline> = None;
-        let mut clears = pass.clears.iter().peekable();
-        for (index, draw) in pass.draws.iter().enumerate() {
+        let mut current = current_state.map(Cell::take).unwrap_or_default();
+        let mut bound = current.pipeline;
+        let (first, end) = (part.start, part.end);
+        let clears = pass.clears.iter();
+        let mut clears = clears
+            .skip_while(|(before, _)| first > 0 && *before < first)
+            .peekable();
+        for (index, draw) in pass.draws.iter().enumerate().take(end).skip(first) {
             while let Some((_, clear)) = clears.next_if(|(before, _)| *before <= index) {
                 clear.record(device, commands);
             }
@@ -545,31 +590,27 @@ unsafe fn draws(
             // - the pipeline, the state, another pipeline, then the pipeline again, with `other`.
             if let Some(single) = draw.single {
                 single.set(device, commands);
-                bound = None;
+                bound = vk::Pipeline::null();
             }
-            if !draw.before_pipeline && bound.is_none_or(|b| b.raw != pipeline.raw) {
+            if !draw.before_pipeline && bound != pipeline.raw {
                 bind(pipeline);
-                bound = Some(pipeline);
+                bound = pipeline.raw;
             }
             if let Some(other) = draw.other.as_ref().filter(|_| draw.before_pipeline) {
                 bind(other);
             }
             if draw.overwritten {
-                draw.dynamic.opposite().set(device, commands);
+                draw.dynamic.opposite().set(device, commands, None);
             }
-            let text = current_state.map(|_| draw.dynamic.text());
-            if current_state.is_none_or(|current| Some(&*current.borrow()) != text.as_ref()) {
-                draw.dynamic.set(device, commands);
-            }
-            if let (Some(current), Some(text)) = (current_state, text) {
-                *current.borrow_mut() = text;
-            }
+            let before = current.dynamic.filter(|_| current_state.is_some());
+            draw.dynamic.set(device, commands, before.as_ref());
+            current.dynamic = Some(draw.dynamic);
             if let Some(values) = &draw.beyond {
                 values.record(device, commands);
             }
             if draw.before_pipeline {
                 bind(pipeline);
-                bound = Some(pipeline);
+                bound = pipeline.raw;
             } else if let Some(other) = &draw.other {
                 bind(other);
                 bind(pipeline);
@@ -577,12 +618,16 @@ unsafe fn draws(
             self::draw(device, commands, draw, input);
             if let Some(again) = &draw.again {
                 bind(again);
-                bound = Some(again);
+                bound = again.raw;
                 self::draw(device, commands, draw, input);
             }
         }
-        for (_, clear) in clears {
+        for (_, clear) in clears.filter(|_| end == pass.draws.len()) {
             clear.record(device, commands);
+        }
+        if let Some(current_state) = current_state {
+            current.pipeline = bound;
+            current_state.set(current);
         }
     }
 }
@@ -611,7 +656,14 @@ unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, in
         if let Some(colors) = draw.colors {
             api.cmd_bind_vertex_buffers(commands, INSTANCE_BINDING, &[input], &[colors]);
         }
-        if let Some((offset, kind)) = draw.indices {
+        let mut call = draw.call;
+        if let Some((mut offset, kind)) = draw.indices {
+            if draw.arguments.is_none() {
+                // An odd first index is partly in the offset, which then is no multiple of 4 for short indices.
+                let odd = call.first % 2;
+                call.first -= odd;
+                offset += u64::from(odd) * if kind == vk::IndexType::UINT16 { 2 } else { 4 };
+            }
             api.cmd_bind_index_buffer(commands, input, offset, kind);
         }
         let CallNumbers {
@@ -620,7 +672,22 @@ unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, in
             base_vertex,
             instances,
             first_instance,
-        } = draw.call;
+        } = call;
+        if draw.after_empty {
+            for (count, instances) in [(0, instances), (count, 0)] {
+                match draw.indices {
+                    Some(_) => api.cmd_draw_indexed(
+                        commands,
+                        count,
+                        instances,
+                        first,
+                        base_vertex,
+                        first_instance,
+                    ),
+                    None => api.cmd_draw(commands, count, instances, first, first_instance),
+                }
+            }
+        }
         match (draw.indices, draw.arguments) {
             (
                 indices,

@@ -44,7 +44,8 @@ impl SingleState {
             | PathState::DynamicLogic
             | PathState::Overwritten
             | PathState::OtherPipeline
-            | PathState::Kept => None,
+            | PathState::Kept
+            | PathState::Turns => None,
         }
     }
 

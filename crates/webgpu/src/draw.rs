@@ -153,8 +153,12 @@ impl PreparedDraw {
         // WebGPU restarts only strips.
         let call = draw.call().without_list_restarts(draw.topology);
         commands.extend(geometry.inputs(lowering, &call));
+        if scene.path.draws == PathDraws::AfterEmpty {
+            commands.extend(drawn(&call, 0, call.instances));
+            commands.extend(drawn(&call, call.count, 0));
+        }
         if scene.path.draws != PathDraws::Indirect {
-            commands.extend(drawn(&call));
+            commands.extend(drawn(&call, call.count, call.instances));
         } else if call.first_instance > 0 && !lowering.device.indirect_first_instance {
             let value = PathValue::Draws(PathDraws::Indirect);
             return Err(Requirement::Path(value));
@@ -234,9 +238,9 @@ impl PreparedDraw {
 }
 
 /// Returns the command that draws, unless there is nothing to draw.
-fn drawn(call: &Call<'_>) -> Option<DrawCommand> {
-    let vertices = call.first..call.first + call.count;
-    let instances = call.first_instance..call.first_instance + call.instances;
+fn drawn(call: &Call<'_>, count: u32, instances: u32) -> Option<DrawCommand> {
+    let vertices = call.first..call.first + count;
+    let instances = call.first_instance..call.first_instance + instances;
     match &call.indices {
         None => Some(DrawCommand::Draw {
             vertices,

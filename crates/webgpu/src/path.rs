@@ -23,7 +23,7 @@ pub(crate) fn paths(
         PathValue::Start(PathStart::LoadOperation | PathStart::Draw) => true,
         PathValue::Target(target) => target != PathTarget::Renderbuffer,
         // A secondary command buffer is a render bundle.
-        PathValue::Commands(_) => true,
+        PathValue::Commands(commands) => commands != PathCommands::SecondaryEach,
         PathValue::Draws(PathDraws::BaseVertex) => features.contains(&Feature::BaseVertex),
         PathValue::Draws(PathDraws::Indirect) => indirect,
         PathValue::Draws(PathDraws::IndirectCount | PathDraws::IndirectBeside) => false,
@@ -50,7 +50,8 @@ pub(crate) fn paths(
             | PathState::DynamicAlphaToOne
             | PathState::DynamicDepthClip
             | PathState::DynamicProvoking
-            | PathState::DynamicOrigin,
+            | PathState::DynamicOrigin
+            | PathState::Turns,
         )
         | PathValue::Start(PathStart::Transfer | PathStart::ClearCommand)
         | PathValue::Pass(_)
@@ -86,7 +87,7 @@ pub(crate) fn target(scene: &Scene, index: usize, abilities: Abilities) -> PathT
     let can = attachment.samples == 1
         && match scene.path.target {
             PathTarget::Plain | PathTarget::MipLevel => true,
-            PathTarget::ArrayLayer => layered(),
+            PathTarget::ArrayLayer | PathTarget::LevelOfLayer => layered(),
             PathTarget::CubeFace => attachment.size[0] == attachment.size[1] && layered(),
             PathTarget::Slice3d => attachment.format.is_color() && !read_by_shader() && !resolved(),
             PathTarget::Renderbuffer => false,
@@ -126,6 +127,13 @@ impl AttachmentTexture {
                 size: [2 * width + 1, 2 * height + 1, 1],
                 levels: 2,
                 level: 1,
+                ..plain
+            },
+            PathTarget::LevelOfLayer => Self {
+                size: [2 * width + 1, 2 * height + 1, 3],
+                levels: 2,
+                level: 1,
+                layer: 2,
                 ..plain
             },
             PathTarget::ArrayLayer => Self {
@@ -223,9 +231,10 @@ pub(crate) fn commands(scene: &Scene) -> Vec<std::ops::Range<usize>> {
     let passes = scene.passes.len();
     match scene.path.commands {
         PathCommands::Several if passes > 0 => (0..passes).map(|n| n..n + 1).collect(),
-        PathCommands::One | PathCommands::Several | PathCommands::Secondary => {
-            std::iter::once(0..passes).collect()
-        }
+        PathCommands::One
+        | PathCommands::Several
+        | PathCommands::Secondary
+        | PathCommands::SecondaryEach => std::iter::once(0..passes).collect(),
     }
 }
 

@@ -198,6 +198,18 @@ faults! {
     ClearFirstOfCall = "clear-first-of-call" in "paths/clears/clears=together/*";
     /// A clear of some draw buffers clears all of them.
     ClearAllBuffers = "clear-all-buffers" in "paths/clears/clears=together/*" of OpenGl;
+    /// A draw of no instances draws one.
+    EmptyAsOne = "empty-as-one" in "size/places/place=after-empty/*" of Vulkan;
+    /// Of several secondary command buffers, only the first is executed.
+    SecondarySecond = "secondary-second" in "sequence/kept/way=secondary-each/*" of Vulkan;
+    /// Render areas begin at even columns and rows.
+    AreaEven = "area-even" in "size/places/place=quarters-loaded/*" of Vulkan;
+    /// A clear command forgets the blend constant and the stencil reference.
+    ClearForgets = "clear-forgets" in "sequence/kept/way=kept/with=clear" of Vulkan;
+    /// A cull mode that was the last dynamic one is not set again, although a pipeline has set another.
+    DynamicSkipped = "dynamic-skipped" in "sequence/shared/tests/*/state=turns/*" of Vulkan;
+    /// A view of a level above 0 has layer 0.
+    LayerOfLevelDropped = "layer-of-level-dropped" in "size/places/place=level-of-layer/*" of Vulkan;
     /// The first clear after a call that leaves contents undefined is skipped.
     ClearUndefinedSkipped = "clear-undefined-skipped" in "paths/clears/clears=undefined/*";
     /// A call that leaves a part of an attachment undefined changes all of it.

@@ -142,6 +142,7 @@ impl FaultyCalls {
             Some(CallFault::IndexOffset) => numbers.first = 0,
             Some(CallFault::BaseVertex) => numbers.base_vertex = 0,
             Some(CallFault::FirstInstance) => numbers.first_instance = 0,
+            Some(CallFault::EmptyAsOne) => numbers.instances = numbers.instances.max(1),
             Some(CallFault::SecondInstance) => numbers.instances = numbers.instances.min(1),
             _ => {}
         }
