@@ -171,8 +171,8 @@ bugs! {
     for (name, encoding, wrong) in TABLES {
         "{name}-stored-by-wrong-table: Values near a few codes of {encoding} are stored one code too high." =>
             store(encoding, move |v| tabulated(wrong, code(encoding, v)));
-        "{name}-destination-read-by-wrong-table: Destinations of a few codes of {encoding} are read two codes too high." =>
-            read(encoding, move |c| value(encoding, c + 2 * u32::from(wrong.contains(&c))));
+        "{name}-destination-read-by-wrong-table: Destinations of a few codes of {encoding} are read three codes too high." =>
+            read(encoding, move |c| value(encoding, c + 3 * u32::from(wrong.contains(&c))));
         "{name}-cleared-by-wrong-table: Clears to a few codes of {encoding} are one code too high." =>
             clear_code(move |e, v| if e == encoding { tabulated(wrong, code(e, v)) } else { code(e, v) });
         "{name}-fetched-by-wrong-table: Shaders read a few codes of {encoding} as the next." =>
