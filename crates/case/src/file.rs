@@ -1,12 +1,11 @@
 //! Case files, and the cases that the product of their axes gives.
 
-use crate::changes;
 use crate::each::unroll;
 use crate::error::{At, CaseError};
 use crate::json::parse_json;
 use crate::pairwise::{self, Cover};
 use crate::values::{is_word, typed};
-use crate::wire::{AxisValue, FileWire, QuickWire, SceneSource};
+use crate::wire::{self, AxisValue, FileWire, QuickWire, SceneSource};
 use etalon_frame::without_mark;
 use etalon_methods::Model;
 use serde_json::{Value, json};
@@ -129,7 +128,7 @@ impl CaseFile {
                 ));
             }
         }
-        changes::check(&wire).map_err(fail)?;
+        wire::changes::check(&wire).map_err(fail)?;
         let unknown = |chosen: &BTreeMap<String, String>| -> Option<At> {
             chosen.iter().find_map(|(axis, name)| {
                 let values = wire.axes.get(axis).map_or(&[][..], |axis| axis);

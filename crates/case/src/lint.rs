@@ -2,10 +2,10 @@
 //!
 //! They need no judge, so `--cases` can afford them. `etalon check` adds the warnings that need one.
 
-use crate::changes::WITH;
 use crate::error::{At, CaseError};
 use crate::file::{CaseFile, METHOD, Profile};
 use crate::wire::SceneSource;
+use crate::wire::changes::WITH;
 use etalon_scene::Shader;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};

@@ -4,6 +4,7 @@
 //! spelling.
 
 mod axis;
+pub(crate) mod changes;
 mod fetch;
 mod file;
 mod scene;

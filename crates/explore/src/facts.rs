@@ -472,7 +472,7 @@ impl Default for FactPairs {
         };
         let all = ExcludedPair::all();
         let named = |[a, b]: [usize; 2]| {
-            let facts = [a, b].map(|n| &pairs.facts.facts[n]);
+            let facts = [a, b].map(|n| pairs.facts.facts[n].name.as_str());
             all.iter().any(|e| e.names(facts)).then_some((b, a))
         };
         pairs.excluded = pairs.numbers().filter_map(named).collect();

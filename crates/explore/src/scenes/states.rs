@@ -110,9 +110,6 @@ impl Maker<'_> {
             let operations: Vec<&'static str> =
                 LogicOperation::ALL.iter().map(|o| o.name()).collect();
             draw["logic"] = json!(self.choices.word("logic", &operations));
-            if can_blend && self.choices.flag("blends", 2) {
-                draw["blend"] = self.blend(second);
-            }
             draw["write_mask"] = json!(self.mask());
             return;
         }
