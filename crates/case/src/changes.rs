@@ -1,4 +1,4 @@
-//! Named changes of a file's scene, of which each case makes several.
+//! Named changes of a file's scene. A case makes several of them.
 
 use crate::error::At;
 use crate::file::{CaseFile, CaseRef};

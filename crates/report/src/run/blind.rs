@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 /// The least number of drawn cases: fewer are too few to speak of a kind.
 const LEAST: u64 = 4;
 
-/// The numbers of cases that an adapter drew, and of those that it drew wrong as expected.
+/// The number of cases that an adapter drew, and the number that it drew wrong as expected.
 #[derive(Clone, Copy, Default)]
 struct Drawn {
     all: u64,
@@ -23,8 +23,8 @@ impl Drawn {
     }
 }
 
-/// Returns the families of cases, and the values of their axes (`sequence/layers/layers=multiview`), of which an adapter
-/// draws each case wrong as expected, those with most cases first. A value is named only if its family is not.
+/// Returns the families of cases, and the values of their axes (`sequence/layers/layers=multiview`), in which an adapter
+/// draws each case wrong as expected, the ones with most cases first. A value is named only if its family is not.
 pub(crate) fn blind_spots<'r>(records: impl Iterator<Item = &'r Record>) -> Vec<ReasonRecords> {
     let mut families: BTreeMap<(&str, &str), Drawn> = BTreeMap::new();
     let mut values: BTreeMap<(&str, &str, (&str, &str)), Drawn> = BTreeMap::new();
@@ -109,7 +109,7 @@ mod tests {
             ("a/c".to_owned(), vec!["two 4".to_owned()]),
         ];
         assert_eq!(spots(&records), expected);
-        // A failure that nobody expects can be seen.
+        // An unexpected failure can be seen.
         records[0].expected = None;
         assert_eq!(spots(&records), expected[1..]);
         // Three cases are no kind.

@@ -37,7 +37,7 @@ function changed(template, id) {
   const scene = expanded(template.scene, values);
   const names = (id.match(/\/with=([^\/]*)/) || ["", ""])[1].split("+");
   for (const name of names) {
-    for (const [pointer, value] of Object.entries(template.changes[name] || {})) {
+    for (const [pointer, value] of Object.entries(template.changes?.[name] || {})) {
       const keys = pointer.split("/").slice(1);
       const last = keys.pop();
       keys.reduce((inside, key) => inside[key], scene)[last] = expanded(value, values);
