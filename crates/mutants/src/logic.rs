@@ -34,8 +34,6 @@ bugs! {
         draws(|draw| draw.targets.iter_mut().for_each(|t| t.write_mask = 0xf)), when |draw| draw.logic.is_some();
     "off-for-partial-masks: Logic operations are off where not all channels are written." =>
         set(LOGIC, None), when |draw| draw.targets.iter().any(|t| t.write_mask != 0xf);
-    "off-while-blending: Logic operations are off where blending is on." =>
-        set(LOGIC, None), when |draw| draw.targets.iter().any(|t| t.blend.is_some());
     source "logic operations where there are none";
     "applied-to-srgb: Logic operations work on the bits of sRGB formats." =>
         logic(|obeys, encoding, operation, s, d| match encoding {
@@ -78,4 +76,7 @@ bugs! {
             let ones = code(encoding, 1.0);
             right(obeys, encoding, operation, if s == 0 { 0 } else { ones }, d)
         });
+    class "logic", "combined";
+    "off-while-blending: Logic operations are off where blending is on." =>
+        set(LOGIC, None), source "blending wins", when |draw| draw.targets.iter().any(|t| t.blend.is_some());
 }

@@ -59,11 +59,6 @@ bugs! {
         "mask-in-{bits}-bits: The mask's bits beyond the {last} are lost." =>
             masks(move |mask, _| mask & ((1 << bits) - 1));
     }
-    "mask-of-one-ignored: The sample mask acts on several samples alone." =>
-        passes(|scene, number, pass| {
-            let single = scene.pass_samples(&scene.passes[number]) == 1;
-            for draw in pass.draws.iter_mut().filter(|_| single) { draw.multisample.mask = u32::MAX; }
-        }), source "lavapipe", permitted vec![under!(covers_one_sample: false)];
     "mask-one-up: The mask's bits move to the next sample." => masks(|mask, _| mask << 1);
     "mask-one-down: The mask's bits move to the sample before." => masks(|mask, _| mask >> 1);
     "mask-inverted: The mask's bits mean their opposite." => masks(|mask, _| !mask);

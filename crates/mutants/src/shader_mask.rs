@@ -6,7 +6,7 @@ use crate::fields::{
 use crate::hooks::mask_keeps;
 use crate::list::{CONFUSION, bugs};
 use crate::permission::under;
-use crate::plant::{draws, set};
+use crate::plant::{draws, passes, set};
 use etalon_reference::rules::MaskOfOne;
 use etalon_scene::{CompareFunction, DepthBias, Draw, EarlyTests};
 
@@ -49,6 +49,11 @@ bugs! {
     "ignored-for-one-sample: The mask does nothing where a texel has one sample." =>
         mask_keeps(|mask, sample, samples| samples == 1 || bit(mask, sample)),
         source "Gallium: the mask is lowered away without several samples, as OpenGL wants and Vulkan does not", permitted vec![under!(mask_of_one: MaskOfOne::Ignored | MaskOfOne::Either)];
+    "of-the-draw-ignored-for-one-sample: The draw's own mask does nothing where a texel has one sample." =>
+        passes(|scene, number, pass| {
+            let single = scene.pass_samples(&scene.passes[number]) == 1;
+            for draw in pass.draws.iter_mut().filter(|_| single) { draw.multisample.mask = u32::MAX; }
+        }), source "lavapipe", permitted vec![under!(covers_one_sample: false)];
     let no_fragment_shader = |draw: &Draw| !draw.shader.has_fragment();
     class "shaderless", "early-z";
     source COLORLESS_SKIPPED;

@@ -248,6 +248,8 @@ fn is_about_samples(id: &CStr) -> bool {
     let id = id.to_bytes();
     [
         &b"-colorAttachmentCount-06188"[..],
+        b"-pDepthAttachment-06189",
+        b"-pStencilAttachment-06190",
         b"-rasterizationSamples-04740",
         b"-multisampledRenderToSingleSampled-06853",
     ]
