@@ -19,6 +19,7 @@ fn every_mutant_is_named_explained_and_sourced() {
         "size",
         "sequence",
         "paths",
+        "combined",
     ];
     let mut names = HashSet::new();
     assert!(mutants().len() >= 1000, "{}", mutants().len());
