@@ -110,12 +110,10 @@ mod tests {
     fn no_case_has_a_pair_that_cannot_meet() {
         let files: Vec<CaseFile> = Library::built_in().files().cloned().collect();
         let pairs = count(&files, Profile::Full);
-        for pair in pairs.pairs().filter(|pair| pair.is_excluded) {
-            assert_eq!(
-                pair.scenes, 0,
-                "{:?} is excluded by cases/pairs.txt",
-                pair.facts
-            );
-        }
+        let met = pairs
+            .pairs()
+            .filter(|pair| pair.is_excluded && pair.scenes > 0);
+        let met: Vec<_> = met.map(|pair| pair.facts.map(|f| &f.name)).collect();
+        assert!(met.is_empty(), "cases/pairs.txt excludes {met:?}");
     }
 }
