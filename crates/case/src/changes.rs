@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 impl CaseFile {
     /// Returns the names of the file's changes, in alphabetical order.
-    pub fn changes(&self) -> impl Iterator<Item = &str> {
+    pub(crate) fn changes(&self) -> impl Iterator<Item = &str> {
         self.wire.changes.keys().map(String::as_str)
     }
 
@@ -19,7 +19,7 @@ impl CaseFile {
     }
 
     /// Returns the names of changes of each case, in the order of the axis.
-    pub fn changes_of_cases(&self) -> impl Iterator<Item = Vec<&str>> {
+    pub(crate) fn changes_of_cases(&self) -> impl Iterator<Item = Vec<&str>> {
         let is_changed = !self.wire.changes.is_empty();
         let axis = self.wire.axes.get(WITH).filter(|_| is_changed);
         axis.into_iter()

@@ -2,18 +2,19 @@
 //!
 //! ```text
 //! etalon adapters --format json >adapters.json
-//! cargo run --release -p etalon-explore --example fill_pairs -- cases/combined/states.json adapters.json ADAPTER...
+//! cargo run --release -p etalon-explore --example fill_pairs -- cases/combined/states.json adapters.json ADAPTER... cpu
 //! ```
 //!
-//! Pairs are counted for each of the adapters alone, among the built-in cases that it offers to draw. For a pair that
-//! has no such case, changes are joined that bring about its facts, then those that add most other pairs. Each change
-//! must show: without it, the rasterizer draws another frame. Cases that the file has stay as they are, since ids do
-//! not change. Printed are the new names of cases, and the pairs that no joined changes show, with a reason.
+//! The last adapter is the rasterizer, which draws everything. Pairs are counted for each of the others alone, among
+//! the built-in cases that it offers to draw. For a pair that has no such case, changes are joined that bring about its
+//! facts, then those that add most other pairs. Each change must show: without it, the rasterizer draws another frame.
+//! Cases that the file has stay as they are, since ids do not change. Printed are the new names of cases, and the pairs
+//! that no joined changes show, with a reason.
 
 use etalon_backend::Backend;
 use etalon_case::{CaseFile, Library, Profile, build, parse_json};
 use etalon_cpu::CpuBackend;
-use etalon_explore::{FactKind, FactPairs};
+use etalon_explore::FactPairs;
 use etalon_frame::{Frame, Limits};
 use etalon_scene::Scene;
 use serde_json::Value;
@@ -149,15 +150,15 @@ impl Joiner<'_> {
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [file, adapters, names @ ..] = &arguments[..] else {
-        return Err("usage: fill_pairs FILE ADAPTERS.json ADAPTER...".into());
+        return Err("usage: fill_pairs FILE ADAPTERS.json ADAPTER... cpu".into());
     };
     let text = std::fs::read_to_string(file)?;
     let document: Value = parse_json(&text)?;
     let adapters: Value = serde_json::from_str(&std::fs::read_to_string(adapters)?)?;
     let mut drawers = Vec::new();
     for name in names {
-        let listed = adapters.as_array().into_iter().flatten();
-        let adapter = { listed }.find(|a| a["name"] == name.as_str());
+        let mut listed = adapters.as_array().into_iter().flatten();
+        let adapter = listed.find(|a| a["name"] == name.as_str());
         let adapter = adapter.ok_or_else(|| format!("{name} is not listed"))?;
         drawers.push(Drawer {
             limits: serde_json::from_value(adapter["limits"].clone())?,
@@ -231,10 +232,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             .pairs()
             .filter(|pair| pair.scenes == 0 && !pair.is_excluded)
             .map(|pair| {
-                (
-                    order(pair.facts.map(|f| f.kind)),
-                    pair.facts.map(|f| f.name.clone()),
-                )
+                // States are the first kind.
+                let order = pair.facts.iter().map(|f| f.kind as usize).sum();
+                (order, pair.facts.map(|f| f.name.clone()))
             })
             .collect();
         missing.sort_by_key(|(order, _)| *order);
@@ -251,11 +251,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         for number in 0..count {
             match filler.fill(&pair, number, &drawers, &any)? {
                 Ok(joined) => {
-                    let scene = filler.joiner.scene(&joined)?;
-                    any.add(&scene);
-                    for drawer in drawers.iter_mut().filter(|d| d.draws(&scene)) {
-                        drawer.pairs.add(&scene);
-                    }
+                    take(&filler.joiner.scene(&joined)?, &mut drawers, &mut any);
                     println!("{} {order}", CaseFile::name_of_changes(&joined));
                     reasons.clear();
                     break;
@@ -273,11 +269,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 continue;
             }
             if let Ok(joined) = filler.fill(&pair, number, &drawers, &any)? {
-                let scene = filler.joiner.scene(&joined)?;
-                any.add(&scene);
-                for drawer in drawers.iter_mut().filter(|d| d.draws(&scene)) {
-                    drawer.pairs.add(&scene);
-                }
+                take(&filler.joiner.scene(&joined)?, &mut drawers, &mut any);
                 println!("{} {}", CaseFile::name_of_changes(&joined), names[number]);
             }
         }
@@ -285,19 +277,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Returns the place of a pair of kinds: states first.
-fn order(kinds: [FactKind; 2]) -> usize {
-    let all = [
-        FactKind::State,
-        FactKind::Samples,
-        FactKind::Format,
-        FactKind::Topology,
-        FactKind::Path,
-    ];
-    kinds
-        .iter()
-        .filter_map(|kind| all.iter().position(|k| k == kind))
-        .sum()
+/// Adds the scene of a new case to the pairs of all that draw it.
+fn take(scene: &Scene, drawers: &mut [Drawer], any: &mut FactPairs) {
+    any.add(scene);
+    for drawer in drawers.iter_mut().filter(|d| d.draws(scene)) {
+        drawer.pairs.add(scene);
+    }
 }
 
 /// Joins changes for pairs.

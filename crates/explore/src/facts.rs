@@ -11,6 +11,7 @@ use etalon_scene::{
 };
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::iter;
+use std::sync::OnceLock;
 
 /// A draw with what surrounds it.
 #[derive(Clone, Copy)]
@@ -455,8 +456,6 @@ pub struct FactPairs {
     facts: Facts,
     /// The number of scenes, by the numbers of both facts, the greater one first.
     scenes: Vec<Vec<u64>>,
-    /// The pairs that cannot meet, by their numbers, the greater one first.
-    excluded: HashSet<(usize, usize)>,
 }
 
 impl Default for FactPairs {
@@ -465,18 +464,7 @@ impl Default for FactPairs {
         let scenes = (0..facts.facts.len())
             .map(|number| vec![0; number])
             .collect();
-        let mut pairs = Self {
-            facts,
-            scenes,
-            excluded: HashSet::new(),
-        };
-        let all = ExcludedPair::all();
-        let named = |[a, b]: [usize; 2]| {
-            let facts = [a, b].map(|n| pairs.facts.facts[n].name.as_str());
-            all.iter().any(|e| e.names(facts)).then_some((b, a))
-        };
-        pairs.excluded = pairs.numbers().filter_map(named).collect();
-        pairs
+        Self { facts, scenes }
     }
 }
 
@@ -527,8 +515,23 @@ impl FactPairs {
         FactPair {
             facts: [lesser, greater].map(|n| &self.facts.facts[n]),
             scenes: self.scenes[greater][lesser],
-            is_excluded: self.excluded.contains(&(greater, lesser)),
+            is_excluded: self.excluded().contains(&(greater, lesser)),
         }
+    }
+
+    /// Returns the numbers of the pairs that cannot meet, the greater one first. They are the same in a whole process,
+    /// and a count of many files asks for them once.
+    fn excluded(&self) -> &'static HashSet<(usize, usize)> {
+        static EXCLUDED: OnceLock<HashSet<(usize, usize)>> = OnceLock::new();
+        EXCLUDED.get_or_init(|| {
+            let all = ExcludedPair::all();
+            let is_named = |[a, b]: &[usize; 2]| {
+                let facts = [*a, *b].map(|n| self.facts.facts[n].name.as_str());
+                all.iter().any(|e| e.names(facts))
+            };
+            let named = self.numbers().filter(is_named);
+            named.map(|[a, b]| (b, a)).collect()
+        })
     }
 
     /// Returns the numbers of the pairs that the scene model can say, the lesser one first.
