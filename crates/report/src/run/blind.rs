@@ -26,43 +26,27 @@ impl Drawn {
 /// Returns the families of cases, and the values of their axes (`sequence/layers/layers=multiview`), in which an adapter
 /// draws each case wrong as expected, the ones with most cases first. A value is named only if its family is not.
 pub(crate) fn blind_spots<'r>(records: impl Iterator<Item = &'r Record>) -> Vec<ReasonRecords> {
-    let mut families: BTreeMap<(&str, &str), Drawn> = BTreeMap::new();
-    let mut values: BTreeMap<(&str, &str, (&str, &str)), Drawn> = BTreeMap::new();
-    for record in records {
-        let is_drawn = !matches!(
-            record.verdict,
-            Verdict::NotSupported | Verdict::Skipped | Verdict::Blocked
-        );
-        if !is_drawn || record.due_fail {
-            continue;
-        }
+    // By adapter, family, and a value of an axis; without a value, the whole family.
+    let mut kinds: BTreeMap<_, Drawn> = BTreeMap::new();
+    for record in records.filter(|record| record.is_drawn() && !record.due_fail) {
         let known = u64::from(Tone::of(record) == Tone::Excused);
         let case = CaseId::new(&record.case);
-        let (adapter, family) = (record.adapter.as_str(), case.file());
-        for value in case.axes() {
-            let drawn = values.entry((adapter, family, value)).or_default();
+        for value in std::iter::once(None).chain(case.axes().map(Some)) {
+            let kind = (record.adapter.as_str(), case.file(), value);
+            let drawn = kinds.entry(kind).or_default();
             drawn.all += 1;
             drawn.known += known;
         }
-        let drawn = families.entry((adapter, family)).or_default();
-        drawn.all += 1;
-        drawn.known += known;
     }
-    let of_families = families
-        .iter()
-        .filter(|(_, drawn)| drawn.is_blind())
-        .map(|((adapter, family), drawn)| (*adapter, (*family).to_owned(), drawn.all));
-    let is_new = |adapter, family| !families[&(adapter, family)].is_blind();
-    let of_values = values
-        .iter()
-        .filter(|((adapter, family, _), drawn)| drawn.is_blind() && is_new(*adapter, *family))
-        .map(|((adapter, family, (axis, value)), drawn)| {
-            (*adapter, format!("{family}/{axis}={value}"), drawn.all)
-        });
     let mut spots: BTreeMap<String, Vec<(String, u64)>> = BTreeMap::new();
-    for (adapter, cases, drawn) in of_families.chain(of_values) {
+    for ((adapter, family, value), drawn) in kinds.iter().filter(|(_, drawn)| drawn.is_blind()) {
+        let cases = match value {
+            None => (*family).to_owned(),
+            Some(_) if kinds[&(*adapter, *family, None)].is_blind() => continue,
+            Some((axis, value)) => format!("{family}/{axis}={value}"),
+        };
         let adapters = spots.entry(cases).or_default();
-        adapters.push((adapter.to_owned(), drawn));
+        adapters.push(((*adapter).to_owned(), drawn.all));
     }
     let mut spots: Vec<ReasonRecords> = spots
         .into_iter()
