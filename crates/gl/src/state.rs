@@ -149,15 +149,7 @@ impl DrawState {
             if let Some([x, y, w, h]) = self.scissor {
                 gl.scissor(x, y, w, h);
             }
-            if let [target] = self.targets.as_slice() {
-                let [r, g, b, a] = mask(target);
-                gl.color_mask(r, g, b, a);
-            } else {
-                for (i, target) in (0..).zip(&self.targets) {
-                    let [r, g, b, a] = mask(target);
-                    gl.color_mask_draw_buffer(i, r, g, b, a);
-                }
-            }
+            self.set_color_masks(gl);
             gl.depth_mask(self.depth.is_some_and(|d| d.write) && !self.read_only);
             for (face, stencil) in [
                 (glow::FRONT, self.stencil.map(|s| s.front)),
@@ -386,6 +378,25 @@ impl DrawState {
         }
     }
 
+    /// Sets the written channels of each target.
+    ///
+    /// # Safety
+    /// The context is current; targets differ only if it supports that.
+    unsafe fn set_color_masks(&self, gl: &glow::Context) {
+        // SAFETY: upheld by the caller.
+        unsafe {
+            if let [target] = self.targets.as_slice() {
+                let [r, g, b, a] = mask(target);
+                gl.color_mask(r, g, b, a);
+                return;
+            }
+            for (i, target) in (0..).zip(&self.targets) {
+                let [r, g, b, a] = mask(target);
+                gl.color_mask_draw_buffer(i, r, g, b, a);
+            }
+        }
+    }
+
     fn apply_targets(&self, context: &Context) {
         let gl = &context.gl;
         if let Some(set_logic) = context.entry_points.logic_op {
@@ -400,9 +411,8 @@ impl DrawState {
         unsafe {
             let [r, g, b, a] = self.blend_constant;
             gl.blend_color(r, g, b, a);
+            self.set_color_masks(gl);
             if let [target] = self.targets.as_slice() {
-                let [r, g, b, a] = mask(target);
-                gl.color_mask(r, g, b, a);
                 set(gl, glow::BLEND, target.blends());
                 match target.blend {
                     _ if self.advanced().is_some() => {}
@@ -420,8 +430,6 @@ impl DrawState {
             // This also applies to draw buffers beyond the targets, which the loop does not reach.
             gl.blend_func(glow::ZERO, glow::ONE);
             for (i, target) in (0..).zip(&self.targets) {
-                let [r, g, b, a] = mask(target);
-                gl.color_mask_draw_buffer(i, r, g, b, a);
                 match target.blend {
                     Some(blend) => {
                         gl.enable_draw_buffer(glow::BLEND, i);

@@ -187,6 +187,11 @@ impl Dynamic {
         other
     }
 
+    /// Returns a text that is unique to the state.
+    pub(crate) fn text(&self) -> String {
+        format!("{self:?}")
+    }
+
     /// Returns the rasterization state for a pipeline.
     pub(crate) fn rasterization(&self) -> vk::PipelineRasterizationStateCreateInfo<'static> {
         let (bias, biased) = self.bias();
@@ -236,11 +241,6 @@ impl Dynamic {
     /// Returns the blend constant for a pipeline.
     pub(crate) fn blend_constants(&self) -> [f32; 4] {
         self.blend_constant
-    }
-
-    /// Returns a text that is unique to the state.
-    pub(crate) fn text(&self) -> String {
-        format!("{self:?}")
     }
 
     /// Records those of [`Setting::states`] that differ from the state `before`, or all without it.

@@ -673,20 +673,20 @@ unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, in
             instances,
             first_instance,
         } = call;
+        let direct = |count, instances| match draw.indices {
+            Some(_) => api.cmd_draw_indexed(
+                commands,
+                count,
+                instances,
+                first,
+                base_vertex,
+                first_instance,
+            ),
+            None => api.cmd_draw(commands, count, instances, first, first_instance),
+        };
         if draw.after_empty {
-            for (count, instances) in [(0, instances), (count, 0)] {
-                match draw.indices {
-                    Some(_) => api.cmd_draw_indexed(
-                        commands,
-                        count,
-                        instances,
-                        first,
-                        base_vertex,
-                        first_instance,
-                    ),
-                    None => api.cmd_draw(commands, count, instances, first, first_instance),
-                }
-            }
+            direct(0, instances);
+            direct(count, 0);
         }
         match (draw.indices, draw.arguments) {
             (
@@ -720,17 +720,7 @@ unsafe fn draw(device: &Device, commands: vk::CommandBuffer, draw: &DrawPlan, in
                     ARGUMENTS_BYTES as u32,
                 );
             }
-            (Some(_), None) => {
-                api.cmd_draw_indexed(
-                    commands,
-                    count,
-                    instances,
-                    first,
-                    base_vertex,
-                    first_instance,
-                );
-            }
-            (None, None) => api.cmd_draw(commands, count, instances, first, first_instance),
+            (_, None) => direct(count, instances),
         }
         for query in &draw.queries.ended {
             query.end(device, commands);
