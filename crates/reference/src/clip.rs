@@ -41,16 +41,16 @@ impl Clip {
         primitive.inside_rect(self.rect)
     }
 
-    /// Returns whether a sample that a primitive may cover is inside.
+    /// Returns whether a sample that a primitive may cover is inside, from the box in which it lies.
     pub(crate) fn holds(
         &self,
         primitive: &SnappedPrimitive,
-        point: Point,
+        sample: SnapBox,
         rules: &Rules,
         units: i64,
     ) -> Possible {
         let clips = match primitive.shape {
-            Shape::Triangle(_) if self.inside.contains(point) => return Possible::Always,
+            Shape::Triangle(_) if self.inside.holds(sample) => return Possible::Always,
             Shape::Triangle(_) => true,
             Shape::Point {
                 is_inside: true, ..
@@ -76,8 +76,8 @@ impl Clip {
         };
         let reach = slack + wide;
         let discarded = clips && primitive.beyond_rect(self.rect, slack);
-        let can = !discarded && (!clips || within(self.rect, reach).contains(point));
-        let must = !discarded && within(self.rect, -reach).contains(point);
+        let can = !discarded && (!clips || within(self.rect, reach).meets(sample));
+        let must = !discarded && within(self.rect, -reach).holds(sample);
         Possible::of(can, must)
     }
 }

@@ -1,7 +1,7 @@
 //! Depth over a primitive, which legal snapping leaves partly open.
 
 use crate::interval::{Interval, Lanes};
-use crate::snap::{SnapBox, SubTexels, area, texel_of};
+use crate::snap::{SnapBox, SubTexels, area};
 use etalon_pipeline::{DepthPlane, Point};
 use smallvec::SmallVec;
 
@@ -124,13 +124,7 @@ impl Depth {
 
     /// Returns the hull over the texel that contains a point, inside the primitive or not.
     pub(crate) fn over_texel(&self, point: Point, units: i64) -> Interval {
-        let corner = |v: i64| texel_of(v, units) * units;
-        let (x, y) = (corner(point.x), corner(point.y));
-        let corners = [(0, 0), (units, 0), (0, units), (units, units)];
-        self.hull_of(corners.map(|(dx, dy)| Point {
-            x: x + dx,
-            y: y + dy,
-        }))
+        self.hull_of(SnapBox::texel_of(point, units).corners())
     }
 
     pub(crate) fn at(&self, point: Point) -> Interval {

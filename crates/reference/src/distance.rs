@@ -80,13 +80,9 @@ impl ClipDistance {
 
     /// Like [`ClipDistance::keeps`], for any point in the texel that contains this one.
     pub(crate) fn keeps_in_texel(&self, at: Point, units: i64) -> Possible {
-        let corner = |v: i64, step: i64| v.div_euclid(units) * units + step;
-        let corners = [(0, 0), (units, 0), (0, units), (units, units)].map(|(dx, dy)| {
-            self.keeps(Point {
-                x: corner(at.x, dx),
-                y: corner(at.y, dy),
-            })
-        });
+        let corners = SnapBox::texel_of(at, units)
+            .corners()
+            .map(|c| self.keeps(c));
         let can = corners.iter().any(|c| c.can());
         Possible::of(can, corners.iter().all(|c| c.must()))
     }

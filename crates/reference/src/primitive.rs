@@ -445,11 +445,14 @@ impl SnappedPrimitive {
     }
 
     /// Returns whether a covered sample is between the near and far planes.
-    pub(crate) fn inside_depth(&self, at: Point) -> Possible {
+    pub(crate) fn inside_depth(&self, at: Point, spread: Option<i64>) -> Possible {
         let Some(depth) = &self.clip_depth else {
             return Possible::Always;
         };
-        let depth = depth.at(at);
+        let depth = match spread {
+            None => depth.at(at),
+            Some(units) => depth.over_texel(at, units),
+        };
         Possible::of(
             depth.high >= 0.0 && depth.low <= 1.0,
             depth.low >= 0.0 && depth.high <= 1.0,
@@ -460,10 +463,10 @@ impl SnappedPrimitive {
 impl SnappedPrimitive {
     /// Returns whether the clip distances keep a covered sample: at a point, or anywhere in its texel if
     /// `spread` gives the units per texel.
-    pub(crate) fn inside_distances(&self, at: Point, spread: impl Fn() -> Option<i64>) -> Possible {
+    pub(crate) fn inside_distances(&self, at: Point, spread: Option<i64>) -> Possible {
         let mut inside = Possible::Always;
         for distance in &self.distances {
-            inside = inside.and(match spread() {
+            inside = inside.and(match spread {
                 None => distance.keeps(at),
                 Some(units) => distance.keeps_in_texel(at, units),
             });

@@ -41,6 +41,25 @@ impl PackedBox {
 }
 
 impl SnapBox {
+    pub(crate) fn exact(point: Point) -> Self {
+        Self {
+            low: point,
+            high: point,
+        }
+    }
+
+    /// Returns the texel that contains a point.
+    pub(crate) fn texel_of(point: Point, units: i64) -> Self {
+        let [x, y] = [point.x, point.y].map(|v| texel_of(v, units) * units);
+        Self {
+            low: Point { x, y },
+            high: Point {
+                x: x + units,
+                y: y + units,
+            },
+        }
+    }
+
     pub(crate) fn corners(self) -> [Point; 4] {
         let point = |x, y| Point { x, y };
         [
@@ -65,6 +84,22 @@ impl SnapBox {
     pub(crate) fn contains(self, point: Point) -> bool {
         let (low, high) = (self.low, self.high);
         low.x <= point.x && point.x <= high.x && low.y <= point.y && point.y <= high.y
+    }
+
+    /// Returns true if all of another box is inside.
+    #[inline]
+    pub(crate) fn holds(self, other: Self) -> bool {
+        self.contains(other.low) && self.contains(other.high)
+    }
+
+    /// Returns true if the boxes have a point in common.
+    #[inline]
+    pub(crate) fn meets(self, other: Self) -> bool {
+        let (low, high) = (self.low, self.high);
+        low.x <= other.high.x
+            && other.low.x <= high.x
+            && low.y <= other.high.y
+            && other.low.y <= high.y
     }
 
     pub(crate) fn hull(self, other: Self) -> Self {

@@ -2,7 +2,7 @@
 
 use crate::depth::Depth;
 use crate::interval::{Interval, Lanes};
-use crate::snap::{SnapBox, texel_of};
+use crate::snap::SnapBox;
 use etalon_pipeline::{DepthPlane, Point};
 
 /// The roundings of a quotient of two interpolated values: each value, and the quotient. The specifications
@@ -62,15 +62,7 @@ impl Varying {
         match self {
             Self::Linear(depth) => depth.over_texel(point, units),
             Self::Perspective(value) => {
-                let corner = |v: i64| texel_of(v, units) * units;
-                let [x, y] = [corner(point.x), corner(point.y)];
-                let (low, high) = (
-                    Point { x, y },
-                    Point {
-                        x: x + units,
-                        y: y + units,
-                    },
-                );
+                let SnapBox { low, high } = SnapBox::texel_of(point, units);
                 value.within([low, high])
             }
         }

@@ -12,7 +12,7 @@ use crate::rules::{Copies, Rules};
 use crate::sample::{self, Sample};
 use crate::setups::setups;
 use crate::sides::sides;
-use crate::snap::units_per_texel;
+use crate::snap::{SnapBox, units_per_texel};
 use crate::states::StatePictures;
 use crate::texels::Texels;
 use crate::undefined::Undefined;
@@ -369,8 +369,14 @@ impl<'a> Walk<'a> {
         {
             return Err(Rejection::Coverage);
         }
+        let is_at_point = self.rules.covers_at_positions.value();
+        let samples = || self.scene.pass_samples(&self.scene.passes[p]);
+        let spread = (!is_at_point).then(samples).and_then(|n| self.anywhere(n));
         let clip = self.setups[p].clip(d);
-        let in_viewport = clip.holds(primitive, point, self.rules, self.units);
+        let sample = spread.map_or(SnapBox::exact(point), |units| {
+            SnapBox::texel_of(point, units)
+        });
+        let in_viewport = clip.holds(primitive, sample, self.rules, self.units);
         if !in_viewport.can() {
             let reached = primitive.times(point, self.units).1 > 0;
             return Err(if reached {
@@ -384,7 +390,7 @@ impl<'a> Walk<'a> {
         let in_depth = if draw.depth_clamp {
             Possible::Always
         } else {
-            match primitive.inside_depth(point) {
+            match primitive.inside_depth(point, spread) {
                 Possible::Never if passes => Possible::Maybe,
                 inside => inside,
             }
@@ -392,10 +398,7 @@ impl<'a> Walk<'a> {
         if !in_depth.can() {
             return Err(Rejection::NearFar);
         }
-        let in_distances = primitive.inside_distances(point, || {
-            let samples = self.scene.pass_samples(&self.scene.passes[p]);
-            self.anywhere(samples)
-        });
+        let in_distances = primitive.inside_distances(point, spread);
         if !in_distances.can() {
             return Err(Rejection::ClipDistance);
         }

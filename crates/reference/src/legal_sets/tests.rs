@@ -903,3 +903,28 @@ fn states_of_coverage_act_on_one_sample_in_vulkan_and_are_skipped_in_opengl() {
         assert_eq!(drawn(api, one), [[255, 0]], "{api:?}");
     }
 }
+
+#[test]
+fn a_plane_that_clips_leaves_samples_open_whose_positions_are_open() {
+    // The sides of the viewport and the near plane cut through texels 14 and 5, beside most positions.
+    let cut = |api: Api, mesh: &str, viewport: &str, x: u32| {
+        let scene = case(&format!(
+            r#"{{"about":"t","spec":["t"],"scene":{{
+               "attachments":{{"c":{{"format":"rgba8unorm","size":[16,16],"samples":4}}}},
+               "passes":[{{"color":["c"],"draws":[{{"mesh":{mesh},"shader":"uniform_color",
+                 "params":{{"color":[1,1,1,1]}},"viewport":{{"rect":{viewport},"depth":[0,1]}}}}]}}],"read":["c"]}}}}"#
+        ))
+        .scene;
+        let limits = limits(api);
+        let set = legal_set(&scene, &limits, &Rules::of(&limits).bound_by(Grade::Proven));
+        let sample = |i| set.groups[0].sample(x, 5, i).count(0);
+        [0, 1, 2, 3].map(sample)
+    };
+    let full = r#"{"kind":"full"}"#;
+    let near = r#"{"kind":"vertices","positions":[[-1,-1,-0.6],[3,-1,1.4],[-1,3,-0.6]]}"#;
+    for api in [Api::OpenGl, Api::OpenGlEs] {
+        assert_eq!(cut(api, full, "[2.25,1,12,12]", 14), [2; 4], "{api}");
+        assert_eq!(cut(api, near, "[0.25,0,16,16]", 9), [2; 4], "{api}");
+    }
+    assert_eq!(cut(Api::Vulkan, full, "[2.25,1,12,12]", 14), [1; 4]);
+}
