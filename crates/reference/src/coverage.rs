@@ -4,7 +4,7 @@ use crate::line_shape::shape_holds;
 use crate::notes::Notes;
 use crate::primitive::{CoverTimes, EdgeSide, Shape, Triangle, inside_of, is_outside};
 use crate::rules::SharedEdge;
-use crate::snap::SubTexels;
+use crate::snap::{SnapBox, SubTexels};
 use crate::walk::{Forced, FragmentPlace, Walk};
 use crate::world::{Decision, World, Worlds};
 use etalon_frame::{Coverage, Effect, Rejection, Step};
@@ -69,7 +69,8 @@ impl Walk<'_> {
 
     /// Returns how often a point, a line or an outline can cover a sample under the rules for lines.
     pub(crate) fn times(&self, place: &FragmentPlace<'_>) -> CoverTimes {
-        let (least, most) = place.primitive.times(place.point, self.units);
+        let sample = SnapBox::of_sample(place.point, self.anywhere(place.at.samples));
+        let (least, most) = place.primitive.times(place.point, sample, self.units);
         let is_line = matches!(place.primitive.shape, Shape::Line(_) | Shape::Outline(_));
         let forced = Forced {
             at: place.at,

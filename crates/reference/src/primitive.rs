@@ -336,11 +336,11 @@ impl Shape {
 }
 
 impl SnappedPrimitive {
-    /// Returns how often a point, a line or an outline covers a sample. Triangles are walked edge by edge
-    /// instead.
-    pub(crate) fn times(&self, at: Point, units: i64) -> CoverTimes {
+    /// Returns how often a point, a line or an outline covers a sample, from the box in which the sample lies. Triangles
+    /// are walked edge by edge instead.
+    pub(crate) fn times(&self, at: Point, sample: SnapBox, units: i64) -> CoverTimes {
         match &self.shape {
-            Shape::Point { center, .. } => point_times(*center, at, units),
+            Shape::Point { center, .. } => point_times(*center, sample, units),
             Shape::Line(ends) => line_times(*ends, at, units),
             Shape::Outline(triangle) => {
                 let each = triangle.edges().map(|edge| match edge {
@@ -485,15 +485,15 @@ fn seen(value: &Varying, at: Point, units: i64, samples: u32) -> Interval {
     }
 }
 
-fn point_times(center: SnapBox, at: Point, units: i64) -> CoverTimes {
+fn point_times(center: SnapBox, sample: SnapBox, units: i64) -> CoverTimes {
     let half = units / 2;
-    let axis = |low: i64, high: i64, position: i64| {
-        let must = high - half < position && position < low + half;
-        let can = low - half <= position && position <= high + half;
+    let axis = |[low, high]: [i64; 2], [first, last]: [i64; 2]| {
+        let must = high - half < first && last < low + half;
+        let can = low - half <= last && first <= high + half;
         (can, must)
     };
-    let x = axis(center.low.x, center.high.x, at.x);
-    let y = axis(center.low.y, center.high.y, at.y);
+    let x = axis([center.low.x, center.high.x], [sample.low.x, sample.high.x]);
+    let y = axis([center.low.y, center.high.y], [sample.low.y, sample.high.y]);
     (u32::from(x.1 && y.1), u32::from(x.0 && y.0))
 }
 

@@ -41,11 +41,13 @@ impl PackedBox {
 }
 
 impl SnapBox {
-    pub(crate) fn exact(point: Point) -> Self {
-        Self {
+    /// Returns the box in which a sample lies: its point, or its texel if `spread` gives the units per texel.
+    pub(crate) fn of_sample(point: Point, spread: Option<i64>) -> Self {
+        let exact = Self {
             low: point,
             high: point,
-        }
+        };
+        spread.map_or(exact, |units| Self::texel_of(point, units))
     }
 
     /// Returns the texel that contains a point.

@@ -373,12 +373,10 @@ impl<'a> Walk<'a> {
         let samples = || self.scene.pass_samples(&self.scene.passes[p]);
         let spread = (!is_at_point).then(samples).and_then(|n| self.anywhere(n));
         let clip = self.setups[p].clip(d);
-        let sample = spread.map_or(SnapBox::exact(point), |units| {
-            SnapBox::texel_of(point, units)
-        });
+        let sample = SnapBox::of_sample(point, spread);
         let in_viewport = clip.holds(primitive, sample, self.rules, self.units);
         if !in_viewport.can() {
-            let reached = primitive.times(point, self.units).1 > 0;
+            let reached = primitive.times(point, sample, self.units).1 > 0;
             return Err(if reached {
                 Rejection::Viewport
             } else {
