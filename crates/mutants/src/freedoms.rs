@@ -355,7 +355,7 @@ bugs! {
         }), area "scissor",
         source "devices that report 0 viewportSubPixelBits",
         reports |limits| limits.viewport_bits = Some(0),
-        permitted vec![under!(viewport_step: step if step >= 1.0)];
+        permitted vec![under!(viewport_step: step if step >= 1.0), under!(lines_cover_their_shape: false)];
 
     class "freedom", "cull";
     source "GPUs of 4, 6 and 8 bits of sub-pixel precision";
