@@ -69,6 +69,10 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         | Feature::IndependentResolveNone
         | Feature::StencilResolveMax
         | Feature::StencilResolveMin => false,
+        Feature::OwnPassReads
+        | Feature::OwnPassReadsInOrder
+        | Feature::OwnPassDepthReads
+        | Feature::OwnPassStencilReads => false,
         // ES has no `glPolygonMode`.
         Feature::PolygonModeLine => !caps.es,
         Feature::PreciseOcclusion => caps.samples_passed,

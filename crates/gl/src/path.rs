@@ -76,7 +76,8 @@ pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeS
         | PathValue::Clip(PathClip::Constant)
         | PathValue::Layers(PathLayers::One | PathLayers::Multiview)
         | PathValue::Resolves(PathResolves::Attached)
-        | PathValue::Views(PathViews::Same) => false,
+        | PathValue::Views(PathViews::Same)
+        | PathValue::Reads(_) => false,
     };
     PathValue::all().into_iter().filter(has).collect()
 }

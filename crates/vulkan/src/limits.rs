@@ -108,6 +108,10 @@ fn has(device: &Device, feature: Feature) -> bool {
         Feature::PolygonModeLine => features.fill_mode_non_solid,
         Feature::PreciseOcclusion => features.occlusion_query_precise,
         // Only OpenGL has these features.
+        Feature::OwnPassReads
+        | Feature::OwnPassReadsInOrder
+        | Feature::OwnPassDepthReads
+        | Feature::OwnPassStencilReads => vk::FALSE,
         Feature::ClipDistanceMask | Feature::MaskedClears | Feature::SampleCoverage => vk::FALSE,
         Feature::MinSampleShading | Feature::SampleInterpolation | Feature::SampleShading => {
             features.sample_rate_shading

@@ -39,6 +39,7 @@ pub(crate) fn offered(device: &Device) -> BTreeSet<PathValue> {
         | PathValue::Clip(PathClip::Toggled)
         | PathValue::Draws(PathDraws::IndirectBeside)
         | PathValue::End(PathEnd::ReadBuffer) => false,
+        PathValue::Reads(_) => false,
         _ => true,
     };
     PathValue::all().into_iter().filter(has).collect()
