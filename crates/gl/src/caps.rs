@@ -1,5 +1,6 @@
 //! The capabilities of a context, from its version and extensions.
 
+use crate::own_pass;
 use glow::HasContext;
 use naga::back::glsl;
 
@@ -47,6 +48,10 @@ pub(crate) struct Caps {
     pub(crate) stencil_texturing: bool,
     /// Fragment shaders write the stencil reference ([`STENCIL_EXPORT`]).
     pub(crate) stencil_export: bool,
+    /// Shaders read what the framebuffer holds, in the order of primitives ([`own_pass::FETCH`]).
+    pub(crate) fetches_in_order: bool,
+    /// Shaders read the depth and stencil that the framebuffer holds.
+    pub(crate) fetches_depth_stencil: bool,
     /// Stencil-only textures exist.
     pub(crate) stencil_textures: bool,
     /// Shaders can force early fragment tests.
@@ -144,6 +149,8 @@ impl Caps {
             fixed_restart: since((4, 3), ALWAYS) || has("GL_ARB_ES3_compatibility"),
             stencil_texturing: since((4, 3), (3, 1)) || has("GL_ARB_stencil_texturing"),
             stencil_export: !es && has(STENCIL_EXPORT),
+            fetches_in_order: has(own_pass::FETCH),
+            fetches_depth_stencil: has(own_pass::FETCH_DEPTH_STENCIL),
             stencil_textures: since((4, 4), (3, 2))
                 || has("GL_ARB_texture_stencil8")
                 || has("GL_OES_texture_stencil8"),
