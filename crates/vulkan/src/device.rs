@@ -497,7 +497,8 @@ impl Device {
         let logic_enable = dynamic_logic && all_extended && has_dynamic_logic_enable(api, physical);
         let advanced_blend = advanced_blend(api, physical);
         let stencil_export = has_extension(api, physical, ash::ext::shader_stencil_export::NAME);
-        let own_pass = OwnPassWays::of(api, physical);
+        let mut own_pass = OwnPassWays::of(api, physical);
+        own_pass.local_read &= instance.knows_local_reads();
         let mut own_features = own_pass.features();
         let extensions: Vec<_> = [
             (stencil_export, ash::ext::shader_stencil_export::NAME),

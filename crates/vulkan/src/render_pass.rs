@@ -179,9 +179,8 @@ impl RenderPass {
             Some(way) => own_pass::dependency(way, to - 1, to),
             None => between_subpasses(),
         });
-        let within = targets
-            .reads
-            .map(|way| own_pass::dependency(way, last_number, last_number));
+        let within = (0..=last_number)
+            .filter_map(|number| Some(own_pass::dependency(targets.reads?, number, number)));
         let dependencies: Vec<_> = between.chain(within).collect();
         let info = vk::RenderPassCreateInfo2::default()
             .attachments(&attachments.descriptions)
