@@ -1,8 +1,7 @@
 //! Entry points that glow lacks.
 
-use crate::caps::ADVANCED_BLEND;
+use crate::caps::{ADVANCED_BLEND, FETCH_BY_BARRIERS};
 use crate::egl::{EglContext, function_at};
-use crate::own_pass::FETCH_BY_BARRIERS;
 use std::collections::HashSet;
 use std::ffi::{c_char, c_void};
 

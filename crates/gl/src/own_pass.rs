@@ -1,17 +1,11 @@
 //! Draws that read attachments of their own pass: through textures and texture barriers, or by framebuffer
 //! fetch.
 
+use crate::caps::{FETCH, FETCH_BY_BARRIERS, FETCH_DEPTH_STENCIL};
 use crate::context::Context;
 use etalon_backend::BackendError;
 use etalon_frame::{Aspect, Feature, PathReads, PathValue, Requirement};
 use etalon_scene::{Draw, Pass, Scene};
-
-/// Framebuffer fetch in the order of primitives.
-pub(crate) const FETCH: &str = "GL_EXT_shader_framebuffer_fetch";
-/// Framebuffer fetch with barriers.
-pub(crate) const FETCH_BY_BARRIERS: &str = "GL_EXT_shader_framebuffer_fetch_non_coherent";
-/// Framebuffer fetch of depth and stencil.
-pub(crate) const FETCH_DEPTH_STENCIL: &str = "GL_ARM_shader_framebuffer_fetch_depth_stencil";
 
 /// The way in which draws read attachments of their pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
