@@ -160,11 +160,7 @@ fn bound_version(device: u32) -> ApiVersion {
 }
 
 /// Returns true if a device has an extension.
-pub(crate) fn has_extension(
-    api: &ash::Instance,
-    physical: vk::PhysicalDevice,
-    name: &CStr,
-) -> bool {
+fn has_extension(api: &ash::Instance, physical: vk::PhysicalDevice, name: &CStr) -> bool {
     // SAFETY: `physical` is of this instance.
     let extensions = unsafe { api.enumerate_device_extension_properties(physical) };
     let properties = extensions.iter().flatten();
@@ -497,7 +493,8 @@ impl Device {
         let logic_enable = dynamic_logic && all_extended && has_dynamic_logic_enable(api, physical);
         let advanced_blend = advanced_blend(api, physical);
         let stencil_export = has_extension(api, physical, ash::ext::shader_stencil_export::NAME);
-        let mut own_pass = OwnPassWays::of(api, physical);
+        let has = |name: &CStr| has_extension(api, physical, name);
+        let mut own_pass = OwnPassWays::of(api, physical, has);
         own_pass.local_read &= instance.knows_local_reads();
         let mut own_features = own_pass.features();
         let extensions: Vec<_> = [

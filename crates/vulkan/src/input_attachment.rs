@@ -95,7 +95,9 @@ mod tests {
             let count = |code: u32| found.iter().filter(|line| line[0] & 0xffff == code).count();
             assert_eq!(count(IMAGE_FETCH), 0, "{}", shader.name());
             assert!(count(IMAGE_READ) >= shader.textures(), "{}", shader.name());
-            let numbered = |line: &&&[u32]| line.ends_with(&[INPUT_ATTACHMENT_INDEX, 3]);
+            let numbered = |line: &&&[u32]| {
+                line[0] & 0xffff == DECORATE && line.ends_with(&[INPUT_ATTACHMENT_INDEX, 3])
+            };
             assert_eq!(
                 found.iter().filter(numbered).count(),
                 1,

@@ -1,6 +1,5 @@
 //! Draws that read attachments of their own pass: what a device offers, and the way in which a pass does it.
 
-use crate::device::has_extension;
 use crate::error::internal;
 use crate::image_state::ImageState;
 use crate::input_attachment::Input;
@@ -9,6 +8,7 @@ use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::{Aspect, Feature, PathCommands, PathPass, PathReads, PathValue, Requirement};
 use etalon_scene::{Draw, Pass, Scene};
+use std::ffi::CStr;
 
 /// The optional ways of a device.
 #[derive(Clone, Copy, Debug, Default)]
@@ -22,12 +22,16 @@ pub(crate) struct OwnPassWays {
 }
 
 impl OwnPassWays {
-    pub(crate) fn of(api: &ash::Instance, physical: vk::PhysicalDevice) -> Self {
+    /// Returns the ways of a device; `has` returns true for the extensions that it has.
+    pub(crate) fn of(
+        api: &ash::Instance,
+        physical: vk::PhysicalDevice,
+        has: impl Fn(&CStr) -> bool,
+    ) -> Self {
         let mut local = vk::PhysicalDeviceDynamicRenderingLocalReadFeaturesKHR::default();
         let mut feedback = vk::PhysicalDeviceAttachmentFeedbackLoopLayoutFeaturesEXT::default();
         let mut ordered =
             vk::PhysicalDeviceRasterizationOrderAttachmentAccessFeaturesEXT::default();
-        let has = |name| has_extension(api, physical, name);
         let mut chain = vk::PhysicalDeviceFeatures2::default();
         if has(ash::khr::dynamic_rendering_local_read::NAME) {
             chain = chain.push_next(&mut local);
@@ -84,7 +88,7 @@ pub(crate) struct OwnPassFeatures {
 
 impl OwnPassFeatures {
     /// Returns the extensions, each with whether the device is created with it.
-    pub(crate) fn extensions(&self) -> [(bool, &'static std::ffi::CStr); 3] {
+    pub(crate) fn extensions(&self) -> [(bool, &'static CStr); 3] {
         let OwnPassWays {
             local_read,
             feedback_loop,
