@@ -5,7 +5,6 @@ use crate::depth_stencil::{DepthBias, DepthState, StencilState};
 use crate::early_tests::EarlyTests;
 use crate::fetch::Fetch;
 use crate::mesh::{PrimitiveVertices, SharedMesh};
-use crate::pass::Pass;
 use crate::rasterization::{
     CullMode, FrontFace, Multisample, PolygonMode, PrimitiveTopology, ProvokingVertex, Viewport,
 };
@@ -91,11 +90,6 @@ impl Draw {
     /// on which they do nothing (Vulkan, Logical Operations; OpenGL 4.6, 17.3.6 and 17.3.9).
     pub fn blend_of(&self, target: &ColorTarget) -> Option<BlendState> {
         target.blend.filter(|_| self.logic.is_none())
-    }
-
-    /// Returns true if the draw reads an attachment of its own pass.
-    pub fn reads_own(&self, pass: &Pass) -> bool {
-        self.textures.iter().any(|index| pass.attaches(*index))
     }
 
     /// Returns the aspect that the shader reads of an attachment of this format.

@@ -284,6 +284,13 @@ impl Pass {
     }
 }
 
+impl Draw {
+    /// Returns true if the draw reads an attachment of its own pass.
+    pub fn reads_own(&self, pass: &Pass) -> bool {
+        self.textures.iter().any(|index| pass.attaches(*index))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
