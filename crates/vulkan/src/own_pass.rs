@@ -3,7 +3,6 @@
 use crate::error::internal;
 use crate::image_state::ImageState;
 use crate::input_attachment::Input;
-use crate::targets::Targets;
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::{Aspect, Feature, PathCommands, PathPass, PathReads, PathValue, Requirement};
@@ -239,9 +238,9 @@ pub(crate) fn depth_stencil_flags(
 }
 
 /// Returns the flags of pipelines.
-pub(crate) fn pipeline_flags(targets: &Targets) -> vk::PipelineCreateFlags {
+pub(crate) fn pipeline_flags(way: Option<PathReads>) -> vk::PipelineCreateFlags {
     use vk::PipelineCreateFlags as Flags;
-    match targets.reads {
+    match way {
         Some(PathReads::FeedbackLoop) => {
             Flags::COLOR_ATTACHMENT_FEEDBACK_LOOP_EXT
                 | Flags::DEPTH_STENCIL_ATTACHMENT_FEEDBACK_LOOP_EXT

@@ -438,7 +438,7 @@ fn create(
         .depth_stencil_state(&depth_stencil)
         .color_blend_state(&blend)
         .dynamic_state(&dynamic)
-        .flags(own_pass::pipeline_flags(&key.targets))
+        .flags(own_pass::pipeline_flags(key.targets.reads))
         .layout(layout);
     if key.tessellation.is_some() {
         info = info.tessellation_state(&patches);
