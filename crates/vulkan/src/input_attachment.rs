@@ -18,6 +18,9 @@ pub(crate) enum Input {
     Unnumbered,
 }
 
+/// The input attachments that textures 0 and 1 become, if they are attachments of the pass.
+pub(crate) type Inputs = [Option<Input>; 2];
+
 /// The capability InputAttachment.
 const INPUT_ATTACHMENT: u32 = 40;
 /// The decoration InputAttachmentIndex.
@@ -28,7 +31,7 @@ const SUBPASS_DATA: u32 = 6;
 const SAMPLE: u32 = 0x40;
 
 /// Returns the module with textures 0 and 1 turned into input attachments, if they are given.
-pub(crate) fn as_inputs(words: &[u32], inputs: [Option<Input>; 2]) -> Vec<u32> {
+pub(crate) fn as_inputs(words: &[u32], inputs: Inputs) -> Vec<u32> {
     let (header, instructions) = instructions(words);
     let is = |line: &[u32], code: u32| line[0] & 0xffff == code;
     let find = |code: u32, tail: &[u32]| {

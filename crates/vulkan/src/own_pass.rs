@@ -2,7 +2,7 @@
 
 use crate::error::internal;
 use crate::image_state::ImageState;
-use crate::input_attachment::Input;
+use crate::input_attachment::{Input, Inputs};
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::{Aspect, Feature, PathCommands, PathPass, PathReads, PathValue, Requirement};
@@ -353,7 +353,7 @@ pub(crate) fn inputs(
     way: Option<PathReads>,
     pass: &Pass,
     draw: &Draw,
-) -> Result<[Option<Input>; 2], BackendError> {
+) -> Result<Inputs, BackendError> {
     let mut inputs = [None; 2];
     let way = way.filter(|way| *way != PathReads::FeedbackLoop && draw.reads_own(pass));
     let Some(way) = way else {

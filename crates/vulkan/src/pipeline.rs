@@ -3,7 +3,7 @@
 use crate::device::Device;
 use crate::dynamic::{Dynamic, Setting};
 use crate::error::{Check, internal};
-use crate::input_attachment::Input;
+use crate::input_attachment::Inputs;
 use crate::own_pass;
 use crate::render_pass::{Compatible, RenderPass};
 use crate::shader::Modules;
@@ -47,7 +47,7 @@ struct StaticState {
     color: Vec<ColorTarget>,
     pass: Option<Compatible>,
     subpass: u32,
-    inputs: [Option<Input>; 2],
+    inputs: Inputs,
     layer: Option<u32>,
     setting: Setting,
     /// The rest of the state as text, unless it is dynamic.
@@ -147,7 +147,7 @@ pub(crate) struct Way<'a> {
     /// The subpass of the render pass object.
     pub(crate) subpass: u32,
     /// The input attachments that the draw's textures are.
-    pub(crate) inputs: [Option<Input>; 2],
+    pub(crate) inputs: Inputs,
     /// The layer that the vertex shader writes, if it writes one.
     pub(crate) layer: Option<u32>,
     pub(crate) setting: Setting,

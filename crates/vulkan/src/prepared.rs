@@ -10,7 +10,7 @@ use crate::extended::{self, DynamicValues};
 use crate::format;
 use crate::gpu::{Gpu, Pools};
 use crate::image::{DRAWN_LAYERS, DeviceImage};
-use crate::input_attachment::Input;
+use crate::input_attachment;
 use crate::inputs::{DrawInputs, Inputs};
 use crate::own_pass;
 use crate::path;
@@ -372,7 +372,7 @@ impl SceneDrawing<'_> {
         pipelines: &mut Pipelines,
         index: usize,
         draw: &Draw,
-        (place, set, inputs): (&DrawInputs, vk::DescriptorSet, [Option<Input>; 2]),
+        (place, set, inputs): (&DrawInputs, vk::DescriptorSet, input_attachment::Inputs),
     ) -> Result<DrawPlan, BackendError> {
         let (device, mut setting, targets) = (self.device, self.setting, self.targets);
         let state = self.path.state;

@@ -3,7 +3,7 @@
 use crate::cull_distance;
 use crate::device::Device;
 use crate::error::Check;
-use crate::input_attachment::{self, Input};
+use crate::input_attachment::{self, Inputs};
 use crate::mask_array;
 use crate::stencil_export;
 use crate::viewport::{self, Chosen};
@@ -29,10 +29,13 @@ pub(crate) struct Module {
     pub(crate) attributes: Vec<u32>,
 }
 
+/// The properties that a module depends on.
+type ModuleKey = (Shader, EarlyTests, Inputs, Chosen);
+
 /// The modules by shader, early-test mode, input attachments, and chosen viewport and layer. There are few, so all are kept.
 #[derive(Debug, Default)]
 pub(crate) struct Modules {
-    modules: HashMap<(Shader, EarlyTests, [Option<Input>; 2], Chosen), Module>,
+    modules: HashMap<ModuleKey, Module>,
 }
 
 /// Translates a WGSL file.
@@ -85,7 +88,7 @@ impl Modules {
         device: &Device,
         shader: Shader,
         tests: EarlyTests,
-        inputs: [Option<Input>; 2],
+        inputs: Inputs,
         chosen: Chosen,
     ) -> Result<Module, BackendError> {
         let key = (shader, tests, inputs, chosen);
