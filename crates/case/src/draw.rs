@@ -4,10 +4,10 @@ use crate::attachment::{MAX_SIZE, check_integer_value, find};
 use crate::error::At;
 use crate::fetch::fetch;
 use crate::wire::{DrawWire, StencilFaceWire, StencilWire};
-use etalon_frame::{CounterKind, TextureFormat};
+use etalon_frame::{Aspect, CounterKind, TextureFormat};
 use etalon_scene::{
     Attachment, AttachmentContents, ColorTarget, Counter, Draw, EarlyTests, MAX_VERTICES, Mesh,
-    Multisample, Params, PolygonMode, Pool, PrimitiveTopology, RESTART, Shader, StencilFace,
+    Multisample, Params, Pass, PolygonMode, Pool, PrimitiveTopology, RESTART, Shader, StencilFace,
     StencilOperation, StencilState, Viewport,
 };
 
@@ -18,6 +18,8 @@ pub(crate) struct DrawTarget<'a> {
     /// Indices of the colour attachments.
     pub(crate) color: &'a [usize],
     pub(crate) depth_stencil: Option<TextureFormat>,
+    /// Index of the depth-stencil attachment.
+    pub(crate) tested: Option<usize>,
     /// Indices of all attachments that the pass draws or resolves to.
     pub(crate) bound: &'a [usize],
     pub(crate) attachments: &'a [Attachment],
@@ -220,11 +222,19 @@ fn texture(name: &str, shader: Shader, target: &DrawTarget<'_>) -> Result<usize,
     let index = find(name, target.attachments)?;
     let attachment = &target.attachments[index];
     let refuse = |message: &str| Err(At::new(format!("`{name}` {message}")));
+    if target.color.contains(&index) || target.tested == Some(index) {
+        return own_texture(name, shader, attachment).map(|()| index);
+    }
+    if shader.reads_sample() || shader.reads_stencil() {
+        return refuse(
+            "is not part of the pass, and the shader reads samples or stencil of its own pass",
+        );
+    }
     if !attachment.format.is_color() || attachment.samples != 1 {
         return refuse("is not a single-sample colour attachment, so it cannot be read");
     }
     if target.bound.contains(&index) {
-        return refuse("belongs to the pass itself, so it cannot be read");
+        return refuse("is a resolve target of the pass, so it cannot be read");
     }
     if attachment.format.is_integer() {
         return refuse("has integers, but the shader reads floats");
@@ -233,6 +243,59 @@ fn texture(name: &str, shader: Shader, target: &DrawTarget<'_>) -> Result<usize,
         return refuse("differs in size from the pass's attachments");
     }
     Ok(index)
+}
+
+/// Checks that the shader can read an attachment of its own pass.
+fn own_texture(name: &str, shader: Shader, attachment: &Attachment) -> Result<(), At> {
+    let refuse = |message: &str| Err(At::new(format!("`{name}` {message}")));
+    if shader.samples_texture() {
+        return refuse("belongs to the pass itself, where a shader can read only its own texel");
+    }
+    if shader.writes_mask() || shader.writes_reference() {
+        return refuse("belongs to the pass itself, but masks and references must be uploaded");
+    }
+    if shader.reads_sample() != (attachment.samples > 1) {
+        return refuse("has another number of samples than the shader reads");
+    }
+    if shader.reads_stencil() {
+        return match attachment.format.has_stencil() {
+            true => Ok(()),
+            false => refuse("has no stencil, which the shader reads"),
+        };
+    }
+    if attachment.format.is_integer() || attachment.format == TextureFormat::Stencil8 {
+        return refuse("has integers, but the shader reads floats");
+    }
+    Ok(())
+}
+
+/// Checks that a draw with attachments of its own pass as textures changes only what it does not read, or
+/// colours, which it changes after it has read them.
+pub(crate) fn check_own_reads(
+    draw: &Draw,
+    pass: &Pass,
+    attachments: &[Attachment],
+) -> Result<(), At> {
+    if !draw.reads_own(pass) {
+        return Ok(());
+    }
+    if !draw.textures.iter().all(|index| pass.attaches(*index)) {
+        return Err(At::new(
+            "attachments of the pass and other attachments cannot be read by one draw",
+        ));
+    }
+    let changes = |aspect: Aspect| match aspect {
+        Aspect::Color => false,
+        Aspect::Depth => draw.depth.is_some_and(|d| d.write),
+        Aspect::Stencil => changes_stencil(draw),
+    };
+    let aspect = |index: &usize| draw.aspect_read(attachments[*index].format);
+    if draw.textures.iter().map(aspect).any(changes) {
+        return Err(At::new(
+            "a draw cannot read the depth or stencil that it changes: the tests can precede the shader",
+        ));
+    }
+    Ok(())
 }
 
 /// Checks how a texture is sampled.
@@ -456,14 +519,17 @@ fn check_references(texture: Option<&Attachment>) -> Result<(), At> {
 
 /// Returns true if a draw can change depth or stencil.
 pub(crate) fn writes_depth_stencil(draw: &Draw) -> bool {
+    draw.depth.is_some_and(|d| d.write) || changes_stencil(draw)
+}
+
+/// Returns true if a draw can change stencil.
+fn changes_stencil(draw: &Draw) -> bool {
     let changes = |face: &StencilFace| {
         let operations = [face.fail_op, face.depth_fail_op, face.pass_op];
         face.write_mask != 0 && operations.iter().any(|o| *o != StencilOperation::Keep)
     };
-    draw.depth.is_some_and(|d| d.write)
-        || draw
-            .stencil
-            .is_some_and(|s| changes(&s.front) || changes(&s.back))
+    draw.stencil
+        .is_some_and(|s| changes(&s.front) || changes(&s.back))
 }
 
 /// Returns the bits of a write mask's letters: bit 0 is red, bit 3 alpha.
@@ -651,6 +717,58 @@ mod tests {
         assert!(faulty("rgba32float", [-1.0, 1.0, 0.0, 0.0]));
         assert!(faulty("rgba32float", [1.0, 1.5, 0.0, 0.0]));
         assert!(faulty("rgba8unorm", [1.0, 1.0, 0.0, 0.0]));
+    }
+
+    #[test]
+    fn a_draw_reads_its_own_pass_where_it_changes_nothing_it_reads() {
+        let scene = |samples: u32, draw: Value| {
+            let mut drawn = json!({ "mesh": { "kind": "full" } });
+            let keys = draw.as_object().cloned().unwrap_or_default();
+            keys.into_iter().for_each(|(key, value)| drawn[key] = value);
+            parse_scene(&json!({
+                "attachments": {
+                    "c": { "format": "rgba8unorm", "size": [4, 4], "samples": samples },
+                    "d": { "format": "depth24plus-stencil8", "samples": samples },
+                    "t": { "format": "rgba8unorm" }
+                },
+                "passes": [{ "color": ["c"], "depth_stencil": "d", "draws": [drawn] }], "read": ["c"]
+            }))
+        };
+        let depth = |write: bool| json!({ "compare": "less", "write": write });
+        for (samples, draw) in [
+            (1, json!({ "shader": "texel_color", "textures": ["c"] })),
+            (
+                1,
+                json!({ "shader": "texel_color", "textures": ["d"], "depth": depth(false) }),
+            ),
+            (
+                1,
+                json!({ "shader": "texel_stencil", "textures": ["d"], "depth": depth(true) }),
+            ),
+            (
+                4,
+                json!({ "shader": "texel_sample", "textures": ["c"], "depth": depth(true) }),
+            ),
+        ] {
+            assert!(scene(samples, draw.clone()).is_ok(), "{draw}");
+        }
+        for (samples, draw) in [
+            (
+                1,
+                json!({ "shader": "texel_color", "textures": ["d"], "depth": depth(true) }),
+            ),
+            (1, json!({ "shader": "texel_stencil", "textures": ["c"] })),
+            (1, json!({ "shader": "texel_stencil", "textures": ["t"] })),
+            (1, json!({ "shader": "texel_sample", "textures": ["c"] })),
+            (4, json!({ "shader": "texel_color", "textures": ["c"] })),
+            (
+                1,
+                json!({ "shader": "texel_dual_source", "textures": ["c", "t"] }),
+            ),
+            (1, json!({ "shader": "masked_color", "textures": ["c"] })),
+        ] {
+            assert!(scene(samples, draw.clone()).is_err(), "{draw}");
+        }
     }
 
     #[test]

@@ -191,6 +191,10 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
                 ),
             "there is no colour attachment, or it is blitted, which converts integers only to integers",
         ),
+        PathValue::Reads(_) => (
+            scene.passes.iter().any(Pass::reads_itself),
+            "no draw reads an attachment of its pass",
+        ),
         PathValue::Pass(_)
         | PathValue::Target(_)
         | PathValue::Commands(_)
@@ -322,6 +326,12 @@ mod tests {
             if value.key() == "results" {
                 scene["counters"] = json!({ "passed": "any-samples-passed" });
                 scene["passes"][0]["draws"][0]["counters"] = json!(["passed"]);
+            }
+            if let PathValue::Reads(_) = value {
+                let reading = json!({
+                    "mesh": { "kind": "full" }, "shader": "texel_color", "textures": ["color"]
+                });
+                scene["passes"][0]["draws"] = json!([reading]);
             }
             if let PathValue::Resolves(_) = value {
                 scene["attachments"]["color"]["samples"] = json!(4);

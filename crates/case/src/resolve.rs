@@ -1,7 +1,7 @@
 //! Scenes and passes: applies defaults, resolves names to indices, and refuses impossible states.
 
 use crate::attachment::{attachment, default_size, find};
-use crate::draw::{DrawTarget, draw, writes_depth_stencil};
+use crate::draw::{DrawTarget, check_own_reads, draw, writes_depth_stencil};
 use crate::error::At;
 use crate::pass_operations::{PassTarget, clears, operations};
 use crate::path::check_path;
@@ -190,6 +190,7 @@ fn pass(
             samples: first.samples,
             color: &color,
             depth_stencil: format,
+            tested: depth_stencil,
             bound: &bound,
             attachments,
             counters,
@@ -213,7 +214,7 @@ fn pass(
         depth_stencil: format,
         draws: draws.len(),
     };
-    Ok(Pass {
+    let pass = Pass {
         depth_stencil_resolve,
         operations: operations(wire, &target).map_err(|e| e.key("operations"))?,
         clears: clears(wire, &target).map_err(|e| e.key("clears"))?,
@@ -222,7 +223,12 @@ fn pass(
         depth_stencil,
         depth_stencil_read_only: wire.depth_stencil_read_only,
         draws,
-    })
+    };
+    // A draw of a file can stand for several tiles, which read alike.
+    for draw in &pass.draws {
+        check_own_reads(draw, &pass, attachments).map_err(|e| e.key("textures").key("draws"))?;
+    }
+    Ok(pass)
 }
 
 /// Returns the resolve of depth and stencil, after checking that the format has its modes.

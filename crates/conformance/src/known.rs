@@ -86,10 +86,10 @@ const fn driver(
 pub const KNOWN: &[KnownFaults] = &[
     driver("vulkan:lavapipe", Api::Vulkan, VULKAN, &[LAVAPIPE_WRONG]),
     driver("gl:llvmpipe", Api::OpenGl, GL, &[]),
-    driver("gl:zink", Api::OpenGl, GL, &[ZINK_WRONG]),
+    driver("gl:zink", Api::OpenGl, GL_ZINK, &[ZINK_WRONG]),
     driver("gl:softpipe", Api::OpenGl, GL_SOFTPIPE, SOFTPIPE_DEFECTS),
     driver("gl:es:llvmpipe", Api::OpenGlEs, ES, &[]),
-    driver("gl:es:zink", Api::OpenGlEs, ES, &[ZINK_WRONG]),
+    driver("gl:es:zink", Api::OpenGlEs, ES_ZINK, &[ZINK_WRONG]),
     driver(
         "gl:virgl",
         Api::OpenGl,
@@ -148,16 +148,22 @@ const RESOLVES: &str = "depth-resolve-average depth-resolve-max depth-resolve-mi
     depth-stencil-resolve independent-resolve independent-resolve-none stencil-resolve-max \
     stencil-resolve-min";
 
-/// The core profile of llvmpipe and zink. No OpenGL driver stores blue first. No fetch returns 24 bits with
+/// Reads of the own pass, which need texture barriers or framebuffer fetch.
+const OWN_PASS: &str =
+    "own-pass-reads own-pass-reads-in-order own-pass-depth-reads own-pass-stencil-reads";
+const GL_FEATURES: &str = "depth-bounds inherited-queries mirrored-viewport upper-left-domain";
+
+/// The core profile of llvmpipe. No OpenGL driver stores blue first. No fetch returns 24 bits with
 /// certainty.
 const GL: Lacks = Lacks {
-    features: &[
-        "depth-bounds inherited-queries mirrored-viewport upper-left-domain",
-        RESOLVES,
-    ],
+    features: &[GL_FEATURES, RESOLVES],
     formats: &["bgra8unorm"],
     samples: &["depth24plus depth24plus-stencil8"],
     ..NOTHING
+};
+const GL_ZINK: Lacks = Lacks {
+    features: &[GL_FEATURES, RESOLVES, "own-pass-reads-in-order"],
+    ..GL
 };
 const GL_SOFTPIPE: Lacks = Lacks {
     features: &[
@@ -165,6 +171,7 @@ const GL_SOFTPIPE: Lacks = Lacks {
         mirrored-viewport sample-interpolation sample-mask-input sample-mask-output sample-mask-output-with-alpha-to-coverage \
         sample-shading storage-counters tessellation upper-left-domain",
         RESOLVES,
+        OWN_PASS,
     ],
     samples: &[EVERY_FORMAT],
     ..GL
@@ -172,7 +179,8 @@ const GL_SOFTPIPE: Lacks = Lacks {
 /// virgl offers OpenGL 4.3 over a llvmpipe that has 4.5.
 const GL_VIRGL: Lacks = Lacks {
     features: &[
-        "advanced-blend-coherent cull-distances depth-bounds fragment-invocations inherited-queries mirrored-viewport upper-left-domain",
+        "advanced-blend-coherent cull-distances depth-bounds fragment-invocations inherited-queries mirrored-viewport \
+        own-pass-reads-in-order upper-left-domain",
         RESOLVES,
     ],
     ..GL
@@ -182,20 +190,25 @@ const ES_FEATURES: &str = "alpha-to-one conservative-depth depth-bounds first-pr
     forced-early-tests-with-depth fragment-invocations fragment-shader-absent fragment-shader-absent-with-color inherited-queries linear-interpolation logic-operations \
     mirrored-viewport mixed-provoking-vertices polygon-mode-line precise-occlusion stencil-export \
     upper-left-domain";
-/// OpenGL ES of llvmpipe and zink.
+/// OpenGL ES of llvmpipe.
 const ES: Lacks = Lacks {
     features: &[ES_FEATURES, RESOLVES],
     formats: &["bgra8unorm"],
     ..NOTHING
 };
+const ES_ZINK: Lacks = Lacks {
+    features: &[ES_FEATURES, RESOLVES, OWN_PASS],
+    ..ES
+};
 const ES_VIRGL: Lacks = Lacks {
-    features: &[ES_FEATURES, RESOLVES, "advanced-blend-coherent"],
+    features: &[ES_FEATURES, RESOLVES, OWN_PASS, "advanced-blend-coherent"],
     ..ES
 };
 const ES_SOFTPIPE: Lacks = Lacks {
     features: &[
         ES_FEATURES,
         RESOLVES,
+        OWN_PASS,
         "advanced-blend advanced-blend-coherent depth-bias-clamp independent-blend \
         min-sample-shading sample-interpolation sample-mask-input sample-mask-output \
         sample-mask-output-with-alpha-to-coverage sample-shading tessellation",
@@ -209,7 +222,8 @@ const WGPU_FEATURES: &str = "advanced-blend advanced-blend-coherent alpha-to-cov
     sample-mask-output-with-alpha-to-coverage constant-alpha-blend-factor depth-bounds \
     depth-output-without-depth front-and-back-culling inherited-queries last-provoking-vertex \
     logic-operations masked-clears min-max-blend-factors min-sample-shading mirrored-viewport \
-    mixed-provoking-vertices polygon-mode-line precise-occlusion queries-over-passes rasterizer-discard reversed-depth-range \
+    mixed-provoking-vertices own-pass-reads own-pass-reads-in-order own-pass-depth-reads own-pass-stencil-reads \
+    polygon-mode-line precise-occlusion queries-over-passes rasterizer-discard reversed-depth-range \
     sample-coverage scissor-outside separate-stencil-masks stencil-export tessellation triangle-fans \
     upper-left-domain";
 /// The samples' codes of two formats cannot be read with certainty; WebGPU does not resolve integers.

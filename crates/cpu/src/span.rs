@@ -309,7 +309,7 @@ impl<'a, S: Steps> SpanState<'a, S> {
                 InputMask::NONE
             },
             position: window_position(span, point),
-            texels: [self.texel(span, 0), self.texel(span, 1)],
+            texels: [self.texel(span, sample, 0), self.texel(span, sample, 1)],
             neighbours: self.neighbours(span, point),
             taps: if self.draw.shader.taps_texture() {
                 Taps::of(&tap)
@@ -445,11 +445,20 @@ impl<'a, S: Steps> SpanState<'a, S> {
             .map(|plane| plane.at(span.x, span.y, &points))
     }
 
-    fn texel(&self, span: &Span<'_>, t: usize) -> [Real; 4] {
+    fn texel(&self, span: &Span<'_>, sample: usize, t: usize) -> [Real; 4] {
         let Some(index) = self.draw.textures.get(t) else {
             return [[0.0; LANES]; 4];
         };
         let surface = &self.surfaces[*index];
+        if self.draw.shader.reads_stencil() {
+            let offset = span.y * surface.stride + span.x;
+            let stored = &surface.stencil[sample][offset..];
+            let red = std::array::from_fn(|lane| f32::from(stored[lane]));
+            return [red, [0.0; LANES], [0.0; LANES], [1.0; LANES]];
+        }
+        if self.pass.attaches(*index) {
+            return self.steps.fetch_own(surface, span.x, span.y, sample);
+        }
         match (self.draw.sampler, &span.uv) {
             (Some(sampler), Some(planes)) => {
                 let [u, v] = planes

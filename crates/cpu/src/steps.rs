@@ -181,10 +181,20 @@ pub trait Steps {
     /// Returns the texels of a texture at a span.
     #[inline(always)]
     fn fetch(&self, surface: &CpuSurface, x: usize, y: usize) -> [Real; 4] {
+        self.fetch_own(surface, x, y, 0)
+    }
+
+    /// Returns the texels of an attachment of the pass at a sample of a span. Depth is red.
+    #[inline(always)]
+    fn fetch_own(&self, surface: &CpuSurface, x: usize, y: usize, sample: usize) -> [Real; 4] {
         let offset = y * surface.stride + x;
-        std::array::from_fn(|c| match surface.encodings.get(c) {
+        let encodings = surface
+            .depth
+            .as_ref()
+            .map_or(surface.encodings, std::slice::from_ref);
+        std::array::from_fn(|c| match encodings.get(c) {
             Some(encoding) => {
-                let plane = surface.plane(c, 0);
+                let plane = surface.plane(c, sample);
                 Plain::<LANES>.decode(*encoding, std::array::from_fn(|i| plane[offset + i]))
             }
             // A format without alpha is fetched with alpha 1.

@@ -24,6 +24,8 @@ pub struct CpuSurface {
     pub stencil: Vec<Vec<u8>>,
     /// The encodings of the colour channels.
     pub encodings: &'static [ChannelEncoding],
+    /// The encoding of depth.
+    pub depth: Option<ChannelEncoding>,
 }
 
 impl CpuSurface {
@@ -45,6 +47,7 @@ impl CpuSurface {
             planes: Vec::new(),
             stencil: Vec::new(),
             encodings: format.color_channels(),
+            depth: depth_encoding(format),
         };
         match &attachment.contents {
             AttachmentContents::Color(color) => {

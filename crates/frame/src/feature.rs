@@ -96,6 +96,14 @@ state_enum! {
         /// Flat attributes from the first vertex in one draw and from the last in another draw of the same
         /// pass.
         MixedProvokingVertices = "mixed-provoking-vertices",
+        /// Shaders that read the depth that earlier draws of the pass left under the fragment.
+        OwnPassDepthReads = "own-pass-depth-reads",
+        /// Shaders that read the colours that earlier draws of the pass left under the fragment.
+        OwnPassReads = "own-pass-reads",
+        /// The same for draws that overlap themselves: each fragment reads what the previous one left.
+        OwnPassReadsInOrder = "own-pass-reads-in-order",
+        /// Shaders that read the stencil that earlier draws of the pass left under the fragment.
+        OwnPassStencilReads = "own-pass-stencil-reads",
         /// Drawing the edges of polygons.
         PolygonModeLine = "polygon-mode-line",
         /// Occlusion queries that count samples exactly.

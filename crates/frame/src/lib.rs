@@ -75,8 +75,8 @@ pub use message::{is_hidden, printable, shortened, without_mark};
 pub use operation::Operation;
 pub use path::{
     PathArea, PathClears, PathClip, PathColors, PathCommands, PathDraws, PathEnd, PathLayers,
-    PathPass, PathResolves, PathResults, PathStart, PathState, PathTarget, PathTests, PathValue,
-    PathViewport, PathViews,
+    PathPass, PathReads, PathResolves, PathResults, PathStart, PathState, PathTarget, PathTests,
+    PathValue, PathViewport, PathViews,
 };
 pub use property::Property;
 pub use samples::standard_sample_positions;

@@ -266,6 +266,19 @@ path_values! {
         /// Unsigned integers of the same number of bits.
         Uint = "uint",
     }
+    /// The way in which shaders read attachments of their own pass.
+    Reads(PathReads) = "reads" {
+        /// Barriers between the draws: input attachments of a subpass, texture barriers, framebuffer fetch.
+        Barriers = "barriers",
+        /// Input attachments; each draw that reads begins a subpass.
+        Subpasses = "subpasses",
+        /// Input attachments without pass objects, with barriers.
+        LocalRead = "local-read",
+        /// Textures that are in the layout of feedback loops, with barriers.
+        FeedbackLoop = "feedback-loop",
+        /// Attachments that are accessed in the order of primitives, without barriers.
+        Ordered = "ordered",
+    }
 }
 
 impl fmt::Display for PathValue {

@@ -9,6 +9,12 @@ pub(crate) const SECOND_VIEWPORT: &str = "GL_ARB_shader_viewport_layer_array";
 /// The extensions that let vertex shaders select a layer.
 const VERTEX_LAYER: [&str; 2] = [SECOND_VIEWPORT, "GL_AMD_vertex_shader_layer"];
 
+/// Framebuffer fetch in the order of primitives.
+pub(crate) const FETCH: &str = "GL_EXT_shader_framebuffer_fetch";
+/// Framebuffer fetch with barriers.
+pub(crate) const FETCH_BY_BARRIERS: &str = "GL_EXT_shader_framebuffer_fetch_non_coherent";
+/// Framebuffer fetch of depth and stencil.
+pub(crate) const FETCH_DEPTH_STENCIL: &str = "GL_ARM_shader_framebuffer_fetch_depth_stencil";
 /// The extension that lets fragment shaders allow advanced blend equations.
 pub(crate) const ADVANCED_BLEND: &str = "GL_KHR_blend_equation_advanced";
 
@@ -47,6 +53,10 @@ pub(crate) struct Caps {
     pub(crate) stencil_texturing: bool,
     /// Fragment shaders write the stencil reference ([`STENCIL_EXPORT`]).
     pub(crate) stencil_export: bool,
+    /// Shaders read what the framebuffer holds, in the order of primitives ([`FETCH`]).
+    pub(crate) fetches_in_order: bool,
+    /// Shaders read the depth and stencil that the framebuffer holds.
+    pub(crate) fetches_depth_stencil: bool,
     /// Stencil-only textures exist.
     pub(crate) stencil_textures: bool,
     /// Shaders can force early fragment tests.
@@ -144,6 +154,8 @@ impl Caps {
             fixed_restart: since((4, 3), ALWAYS) || has("GL_ARB_ES3_compatibility"),
             stencil_texturing: since((4, 3), (3, 1)) || has("GL_ARB_stencil_texturing"),
             stencil_export: !es && has(STENCIL_EXPORT),
+            fetches_in_order: has(FETCH),
+            fetches_depth_stencil: has(FETCH_DEPTH_STENCIL),
             stencil_textures: since((4, 4), (3, 2))
                 || has("GL_ARB_texture_stencil8")
                 || has("GL_OES_texture_stencil8"),

@@ -3,6 +3,7 @@
 use crate::attachment::Attachment;
 use crate::clear::{ClearCall, discard};
 use crate::context::Context;
+use crate::own_pass::{self, OwnPassWay};
 use crate::pool::PassFramebuffer;
 use crate::program::{PARAMS_BINDING, STORAGE_BINDING};
 use crate::query::QueryObject;
@@ -58,6 +59,8 @@ pub(crate) struct GlPass {
     pub(crate) clears: Vec<(usize, ClearCall)>,
     /// True if state that does not change between draws is set only once.
     pub(crate) keeps_state: bool,
+    /// The way in which draws read attachments of the pass; `None` if no draw does.
+    pub(crate) reads: Option<OwnPassWay>,
     /// The attachment points that the pass discards at its end.
     pub(crate) discards: Vec<u32>,
     /// Multisampled attachments and their resolve targets.
@@ -82,7 +85,10 @@ pub(crate) struct DrawCall {
     pub(crate) state: DrawState,
     /// State that is set before the draw's own.
     pub(crate) other: Option<DrawState>,
-    pub(crate) textures: Vec<glow::Texture>,
+    /// The textures with their targets.
+    pub(crate) textures: Vec<(u32, glow::Texture)>,
+    /// True if the shader fetches stencil.
+    pub(crate) fetches_stencil: bool,
     /// The sampler; `None` if texels are fetched.
     pub(crate) sampler: Option<glow::Sampler>,
     /// The queries that begin before the draw, and the queries that end after it.
@@ -157,6 +163,9 @@ pub(crate) fn draw_all(
             if is_set && touched {
                 draw.state.restore(context);
             }
+            if let Some(way) = pass.reads {
+                own_pass::barrier(context, way);
+            }
             draw_one(context, inputs, draw, is_set);
             (set, touched) = (Some(&draw.state), false);
         }
@@ -206,11 +215,17 @@ fn draw_one(context: &Context, inputs: &DrawBuffers, draw: &DrawCall, is_set: bo
             let (point, size) = (PARAMS_BINDING, size_of::<etalon_scene::Params>() as i32);
             gl.bind_buffer_range(glow::UNIFORM_BUFFER, point, Some(buffer), offset, size);
         }
-        for (unit, texture) in (0..).zip(&draw.textures) {
+        for (unit, (target, texture)) in (0..).zip(&draw.textures) {
             gl.active_texture(glow::TEXTURE0 + unit);
-            gl.bind_texture(glow::TEXTURE_2D, Some(*texture));
+            gl.bind_texture(*target, Some(*texture));
             gl.bind_sampler(unit, draw.sampler);
         }
+        let mode = |mode: u32| {
+            for (target, _) in draw.textures.iter().filter(|_| draw.fetches_stencil) {
+                gl.tex_parameter_i32(*target, glow::DEPTH_STENCIL_TEXTURE_MODE, mode as i32);
+            }
+        };
+        mode(glow::STENCIL_INDEX);
         let storage = match (draw.runs, draw.uses_pool) {
             (Some(offset), _) => inputs.runs.map(|(b, _)| (b, offset, size_of::<u32>())),
             (None, true) => inputs.pool.map(|(buffer, size)| (buffer, 0, size)),
@@ -256,6 +271,7 @@ fn draw_one(context: &Context, inputs: &DrawBuffers, draw: &DrawCall, is_set: bo
             state::unset_restart_unindexed(context);
         }
         draw.state.end_advanced(context);
+        mode(glow::DEPTH_COMPONENT);
         if numbers.is_some() {
             // Mesa takes the number of draws from a bound buffer for all indirect draws.
             gl.bind_buffer(PARAMETER_BUFFER, None);

@@ -1,6 +1,6 @@
 //! Entry points that glow lacks.
 
-use crate::caps::ADVANCED_BLEND;
+use crate::caps::{ADVANCED_BLEND, FETCH_BY_BARRIERS};
 use crate::egl::{EglContext, function_at};
 use std::collections::HashSet;
 use std::ffi::{c_char, c_void};
@@ -34,6 +34,8 @@ entry_points! {
     logic_op: fn(u32);
     clamp_color: fn(u32, u32);
     blend_barrier: fn();
+    texture_barrier: fn();
+    fetch_barrier: fn();
     polygon_offset_clamp: fn(f32, f32, f32);
     depth_bounds: fn(f64, f64);
     viewport_indexed: fn(u32, f32, f32, f32, f32);
@@ -210,6 +212,14 @@ impl EntryPoints {
             load!(blend_barrier, c"glBlendBarrier");
         } else if has(ADVANCED_BLEND) {
             load!(blend_barrier, c"glBlendBarrierKHR");
+        }
+        if !es && (version >= (4, 5) || has("GL_ARB_texture_barrier")) {
+            load!(texture_barrier, c"glTextureBarrier");
+        } else if has("GL_NV_texture_barrier") {
+            load!(texture_barrier, c"glTextureBarrierNV");
+        }
+        if has(FETCH_BY_BARRIERS) {
+            load!(fetch_barrier, c"glFramebufferFetchBarrierEXT");
         }
         if !es && has("GL_EXT_depth_bounds_test") {
             load!(depth_bounds, c"glDepthBoundsEXT");

@@ -1,6 +1,7 @@
 //! The features of a context.
 
 use crate::context::Context;
+use crate::own_pass;
 use etalon_frame::Feature;
 use std::collections::BTreeSet;
 
@@ -69,6 +70,10 @@ pub(crate) fn features(context: &Context) -> BTreeSet<Feature> {
         | Feature::IndependentResolveNone
         | Feature::StencilResolveMax
         | Feature::StencilResolveMin => false,
+        Feature::OwnPassReads
+        | Feature::OwnPassReadsInOrder
+        | Feature::OwnPassDepthReads
+        | Feature::OwnPassStencilReads => own_pass::supports(context, *feature),
         // ES has no `glPolygonMode`.
         Feature::PolygonModeLine => !caps.es,
         Feature::PreciseOcclusion => caps.samples_passed,

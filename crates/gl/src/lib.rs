@@ -27,6 +27,7 @@ mod features;
 mod format;
 mod objects;
 mod options;
+mod own_pass;
 mod path;
 #[cfg(feature = "faults")]
 mod planted;

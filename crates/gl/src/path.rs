@@ -4,6 +4,7 @@
 //! functions.
 
 use crate::context::Context;
+use crate::own_pass;
 use crate::support::{ReadBackPath, Support};
 use etalon_frame::{
     ChannelEncoding, Feature, PathArea, PathClears, PathClip, PathCommands, PathDraws, PathEnd,
@@ -49,6 +50,7 @@ pub(crate) fn offered(context: &Context, features: &BTreeSet<Feature>) -> BTreeS
         PathValue::Views(PathViews::Srgb | PathViews::Uint) => {
             context.entry_points.texture_view.is_some()
         }
+        PathValue::Reads(reads) => own_pass::offers(context, reads),
         // OpenGL has no pass objects, pipelines, command buffers or render areas.
         PathValue::Pass(
             PathPass::DynamicRendering | PathPass::RenderPass | PathPass::SecondSubpass,

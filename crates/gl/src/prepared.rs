@@ -8,6 +8,7 @@ use crate::counters::{self, Counters};
 use crate::draw::{self, DrawBuffers, DrawCall, GlPass, ResolveBlit};
 use crate::enums::topology;
 use crate::objects::Objects;
+use crate::own_pass::{self, OwnPassWay};
 use crate::path::{self, Variant};
 use crate::pool::ObjectPool;
 use crate::program::FragmentForm;
@@ -19,10 +20,10 @@ use crate::surface::{Surface, SurfaceKind, upload};
 use crate::vertices::{Arguments, BufferedGeometry, Fetched};
 use etalon_backend::{BackendError, FrameTime, Phase, Prepared};
 use etalon_frame::{
-    Frame, PathCommands, PathDraws, PathEnd, PathState, PathTarget, PathValue, PathViews,
+    Feature, Frame, PathCommands, PathDraws, PathEnd, PathState, PathTarget, PathValue, PathViews,
     Requirement, TextureFormat,
 };
-use etalon_scene::{AttachmentContents, Draw, Enclosing, Path, Scene};
+use etalon_scene::{AttachmentContents, Draw, Enclosing, Pass, Path, Scene};
 use glow::HasContext;
 use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
@@ -118,7 +119,13 @@ impl<'a> GlScene<'a> {
             queries: self.counters.queries(context, &mut pool, scene)?,
         };
         for pass in &scene.passes {
-            self.pass(&mut pool, pass, path::is_layered(scene), &mut unused)?;
+            let reads = own_pass::way(context, scene, pass)?;
+            self.pass(
+                &mut pool,
+                pass,
+                (path::is_layered(scene), reads),
+                &mut unused,
+            )?;
         }
         Ok(())
     }
@@ -253,8 +260,8 @@ impl<'a> GlScene<'a> {
     fn pass(
         &mut self,
         pool: &mut ObjectPool,
-        pass: &etalon_scene::Pass,
-        layered: bool,
+        pass: &Pass,
+        (layered, reads): (bool, Option<OwnPassWay>),
         unused: &mut Unused,
     ) -> Result<(), BackendError> {
         let context = self.context;
@@ -304,7 +311,7 @@ impl<'a> GlScene<'a> {
             // If this fails, the target is not returned to the pool, and is deleted with the context.
             draws.push(DrawCall {
                 queries: Enclosing::draw(&unused.queries, (number, index)),
-                ..self.draw(pool, draw, (pass.depth_stencil_read_only, layered), unused)?
+                ..self.draw(pool, draw, (pass, layered, reads), unused)?
             });
         }
         // Reading a framebuffer with layers would read the first layer.
@@ -322,6 +329,7 @@ impl<'a> GlScene<'a> {
             loads: ClearCall::loads(pass, &integers, self.path.clears, packed),
             clears: clear::commands(clears, &integers, self.path.clears, packed),
             keeps_state: self.path.state == PathState::Kept,
+            reads,
             discards: clear::discards(pass, packed),
             resolves,
             queries: Enclosing::pass(&unused.queries, number),
@@ -329,11 +337,30 @@ impl<'a> GlScene<'a> {
         Ok(())
     }
 
+    /// Returns the texture of an attachment that a draw of the pass fetches, with its target.
+    fn texture(&self, index: usize, pass: &Pass) -> Result<(u32, glow::Texture), BackendError> {
+        let attachment = self.attachments.get(index);
+        let surface = attachment.map(|attachment| &attachment.surface);
+        match surface.and_then(|surface| Some((surface.samples(), surface.texture()?))) {
+            Some((1, texture)) => Ok((glow::TEXTURE_2D, texture)),
+            Some((_, texture)) => Ok((glow::TEXTURE_2D_MULTISAMPLE, texture)),
+            // Stencil alone can be a renderbuffer.
+            None if pass.depth_stencil == Some(index) => {
+                let needed = Requirement::Feature(Feature::OwnPassStencilReads);
+                Err(BackendError::NotSupported(needed))
+            }
+            None => Err(BackendError::internal_of(
+                "an attachment is no texture",
+                index.to_string(),
+            )),
+        }
+    }
+
     fn draw(
         &mut self,
         pool: &mut ObjectPool,
         draw: &Draw,
-        (read_only, layered): (bool, bool),
+        (pass, layered, reads): (&Pass, bool, Option<OwnPassWay>),
         unused: &mut Unused,
     ) -> Result<DrawCall, BackendError> {
         let context = self.context;
@@ -342,20 +369,18 @@ impl<'a> GlScene<'a> {
             fetched.ok_or_else(|| BackendError::internal("a draw has no place"))?;
         let variant = path::variant(&self.path, unused.number);
         let block = draw.shader.uses_params().then_some(unused.params);
-        let textures = draw
-            .textures
-            .iter()
-            .map(|index| {
-                let attachment = self.attachments.get(*index);
-                attachment.and_then(|a| a.surface.texture()).ok_or_else(|| {
-                    BackendError::internal_of("an attachment is no texture", index.to_string())
-                })
-            })
-            .collect::<Result<_, _>>()?;
+        let fetch = own_pass::fetch(reads, pass, draw);
+        let mut textures = Vec::new();
+        // What is fetched from the framebuffer is not bound.
+        for index in draw.textures.iter().filter(|_| fetch.is_none()) {
+            textures.push(self.texture(*index, pass)?);
+        }
+        let read_only = pass.depth_stencil_read_only;
         let sampler = draw.sampler.map(|sampler| pool.sampler(context, sampler));
         let form = FragmentForm {
             tests: draw.early_tests,
             blend: draw.targets.iter().find_map(|t| t.advanced),
+            fetch,
         };
         let program = |layer| {
             let mut programs = self.objects.programs.borrow_mut();
@@ -380,6 +405,7 @@ impl<'a> GlScene<'a> {
                 }
                 _ => None,
             },
+            fetches_stencil: draw.shader.reads_stencil() && fetch.is_none(),
             textures,
             sampler: sampler.transpose()?,
             queries: Enclosing::default(),

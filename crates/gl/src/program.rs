@@ -3,6 +3,7 @@
 use crate::caps::{ADVANCED_BLEND, SECOND_VIEWPORT, STENCIL_EXPORT};
 use crate::context::Context;
 use crate::enums::blend_support;
+use crate::own_pass::{self, OwnFetch};
 use crate::path::Variant;
 use etalon_backend::BackendError;
 use etalon_scene::{
@@ -46,6 +47,8 @@ pub(crate) struct FragmentForm {
     pub(crate) tests: EarlyTests,
     /// The advanced blend equation that the shader allows.
     pub(crate) blend: Option<AdvancedBlend>,
+    /// The attachments that the shader fetches from the framebuffer in place of its textures.
+    pub(crate) fetch: Option<OwnFetch>,
 }
 
 /// The type of the values that a read-back program fetches.
@@ -89,10 +92,13 @@ impl Programs {
         let translated = GlslShader::new(context, shader, form.tests).map_err(fail)?;
         let vertex = varied(context, translated.vertex, variant);
         let mut stages = vec![(glow::VERTEX_SHADER, vertex)];
-        let fragment = translated.fragment.map(|text| match form.blend {
+        let mut fragment = translated.fragment.map(|text| match form.blend {
             Some(mode) => allowing(context, &text, mode),
             None => text,
         });
+        if let (Some(text), Some(fetch)) = (&mut fragment, form.fetch) {
+            *text = own_pass::fetching(text, &translated.textures, fetch).map_err(fail)?;
+        }
         stages.extend(fragment.map(|text| (glow::FRAGMENT_SHADER, text)));
         stages.extend(order.into_iter().flat_map(|o| patches(context, o)));
         let program = link(context, shader.name(), &stages)?;

@@ -137,6 +137,17 @@ hooks! {
             }))
         };
 
+        /// Fetches of attachments of the pass, redirected to `bug(([x, y], sample), [width, height])`.
+        own_texel(([u32; 2], usize), [u32; 2]) -> ([u32; 2], usize):
+        fetch_own(surface: &CpuSurface, x: usize, y: usize, sample: usize) -> [Real; 4] = |bug| {
+            let size = [surface.width as u32, surface.height as u32];
+            planes(from_fn(|i| {
+                let ([x, y], sample) = bug(([(x + i) as u32, y as u32], sample), size);
+                let (x, y) = (x.min(size[0] - 1) as usize, y.min(size[1] - 1) as usize);
+                Faithful.fetch_own(surface, x - x % LANES, y, sample).map(|plane| plane[x % LANES])
+            }))
+        };
+
         /// Sampled textures, given the right sampling, the texture, the sampler and the coordinates.
         sampled(&dyn Fn([f32; 2]) -> [f32; 4], &CpuSurface, Sampler, [f32; 2]) -> [f32; 4]:
         sample(surface: &CpuSurface, sampler: Sampler, u: Real, v: Real) -> [Real; 4] = |bug| {

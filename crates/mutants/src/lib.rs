@@ -44,6 +44,7 @@ mod logic;
 mod mask;
 mod memory;
 mod mutant;
+mod own_pass;
 mod permission;
 mod plant;
 mod provoking;
@@ -90,7 +91,7 @@ const CLASSES: &[Class] = &[
     clip_distance::add, cull_distance::add, clipping::add, interpolation::add, capability::add,
     clear::add, geometry::add, upload::add, fetch::add, early::add,
     discard::add, counter::add, texture::add, invariance::add, readback::add, stale::sticky, tiled::add,
-    hierarchy::add, sequence::add, size::add, shader_mask::add, input_mask::add, stencil_export::add, held::add,
+    hierarchy::add, sequence::add, size::add, shader_mask::add, input_mask::add, stencil_export::add, held::add, own_pass::add,
     combinations::add,
 ];
 

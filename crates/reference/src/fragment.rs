@@ -337,7 +337,8 @@ impl Walk<'_> {
                     texels: draw.textures.iter().enumerate().map(texture).collect(),
                 }
             },
-            None,
+            draw.reads_own(&self.scene.passes[place.pass])
+                .then_some(self.rules.own_pass),
         );
         output
     }

@@ -7,7 +7,7 @@ use crate::rounding::to_codes;
 use crate::sample::Sample;
 use crate::walk::{FragmentPlace, Walk};
 use crate::world::World;
-use etalon_frame::{ChannelEncoding, CodeInterval};
+use etalon_frame::{Aspect, ChannelEncoding, CodeInterval};
 use etalon_pipeline::{Arithmetic, texel_position};
 use etalon_scene::{AddressMode, FilterMode, InterpolationSampling, Sampler};
 use smallvec::SmallVec;
@@ -35,6 +35,9 @@ impl Walk<'_> {
             return [Range::exact(0.0); 4];
         };
         let drawn = self.is_drawn_before(index, place.pass);
+        if self.scene.passes[place.pass].attaches(index) {
+            return self.left_at_sample(place, world, index);
+        }
         match (place.draw.sampler, self.coordinates(place)) {
             (Some(sampler), Some(uv)) => {
                 let texture = SampledTexture {
@@ -109,7 +112,7 @@ impl Walk<'_> {
             return self.anything(index);
         }
         if attachment.samples == at.samples {
-            return self.decoded(index, world.cells[index].channels());
+            return self.left_at_sample(place, world, index);
         }
         let at = Sample {
             samples: attachment.samples,
@@ -118,6 +121,20 @@ impl Walk<'_> {
         };
         let contents = self.contents_before(index, at, place.pass);
         contents.unwrap_or_else(|| self.anything(index))
+    }
+
+    /// Returns the contents of an attachment at the sample, as this world has them when the fragment is shaded.
+    fn left_at_sample(&self, place: &FragmentPlace<'_>, world: &World, index: usize) -> [Range; 4] {
+        let cell = &world.cells[index];
+        let red = match place.draw.aspect_read(self.scene.attachments[index].format) {
+            Aspect::Color => return self.decoded(index, cell.channels()),
+            Aspect::Depth => {
+                Judging::new(self.rules).decode(self.depth_encoding(index), cell.channel(0))
+            }
+            Aspect::Stencil => Range::exact(f64::from(cell.stencil)),
+        };
+        let [none, one] = [0.0, 1.0].map(Range::exact);
+        [red, none, none, one]
     }
 
     /// Returns everything that a sample of a texture can contain after earlier passes; `None` if that is

@@ -170,6 +170,10 @@ impl Walk<'_> {
         let attachment = &self.scene.attachments[index];
         let drawn = self.is_drawn_before(index, pass);
         let reading_pass = &self.scene.passes[pass];
+        if reading_pass.attaches(index) {
+            // The sample's state has it.
+            return TextureEffect::Known;
+        }
         let same_size = attachment.size == self.scene.pass_size(reading_pass);
         let same_shape = same_size && attachment.samples == self.scene.pass_samples(reading_pass);
         match (draw.sampler.filter(|_| draw.shader.uses_uv()), drawn) {

@@ -110,10 +110,11 @@ impl Undefined {
         let stencil = draw
             .stencil
             .is_some_and(|s| reads(s.front.compare) || reads(s.back.compare));
+        let read = [Aspect::Color, Aspect::Depth, Aspect::Stencil];
         let mut textures = draw.textures.iter();
         depth && undefined(Aspect::Depth)
             || stencil && undefined(Aspect::Stencil)
-            || textures.any(|i| self.aspect(*i, Aspect::Color))
+            || textures.any(|i| read.iter().any(|aspect| self.aspect(*i, *aspect)))
     }
 }
 

@@ -11,6 +11,7 @@ use crate::rasterization::{
 use crate::sampler::Sampler;
 use crate::shader::Shader;
 use crate::tessellation::Tessellation;
+use etalon_frame::{Aspect, TextureFormat};
 use serde::{Deserialize, Serialize};
 
 /// One draw call with all its state.
@@ -35,7 +36,8 @@ pub struct Draw {
     /// The order of fragment tests and fragment shader.
     pub early_tests: EarlyTests,
     /// Indices of the attachments that the shader reads: single-sample colour attachments, uploaded, cleared
-    /// or left by earlier passes, that are not part of the pass.
+    /// or left by earlier passes; or attachments of the pass itself, which the shader reads at its own texel and
+    /// sample, as the previous draws left them.
     pub textures: Vec<usize>,
     /// The sampler of the textures; `None` if the shader fetches single texels.
     pub sampler: Option<Sampler>,
@@ -88,6 +90,17 @@ impl Draw {
     /// on which they do nothing (Vulkan, Logical Operations; OpenGL 4.6, 17.3.6 and 17.3.9).
     pub fn blend_of(&self, target: &ColorTarget) -> Option<BlendState> {
         target.blend.filter(|_| self.logic.is_none())
+    }
+
+    /// Returns the aspect that the shader reads of an attachment of this format.
+    pub fn aspect_read(&self, format: TextureFormat) -> Aspect {
+        if self.shader.reads_stencil() {
+            Aspect::Stencil
+        } else if format.is_color() {
+            Aspect::Color
+        } else {
+            Aspect::Depth
+        }
     }
 
     /// Returns true if alpha counts as 1 after alpha to coverage.

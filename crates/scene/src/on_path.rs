@@ -79,6 +79,7 @@ impl Scene {
                 .iter()
                 .flat_map(|d| &d.textures)
                 .copied()
+                .filter(|index| !pass.attaches(*index))
                 .collect();
             for index in read.into_iter().chain(pass.resolve_targets()) {
                 used[index] = true;

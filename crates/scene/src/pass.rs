@@ -182,6 +182,16 @@ impl Pass {
         given.copied().unwrap_or_default()
     }
 
+    /// Returns true if an attachment is drawn to or tested in the pass.
+    pub fn attaches(&self, index: usize) -> bool {
+        self.color.contains(&index) || self.depth_stencil == Some(index)
+    }
+
+    /// Returns true if a draw of the pass reads an attachment of the pass.
+    pub fn reads_itself(&self) -> bool {
+        self.draws.iter().any(|draw| draw.reads_own(self))
+    }
+
     /// Returns the locations whose resolves the path makes commands after the pass, with their targets.
     /// Contents that the pass discards are still resolved within it.
     pub fn moved_resolves(&self, path: &Path) -> impl Iterator<Item = (usize, usize)> {
@@ -271,6 +281,13 @@ impl Pass {
             aspects.extend(self.depth_stencil.filter(|_| has).map(|i| (i, aspect)));
         }
         aspects
+    }
+}
+
+impl Draw {
+    /// Returns true if the draw reads an attachment of its own pass.
+    pub fn reads_own(&self, pass: &Pass) -> bool {
+        self.textures.iter().any(|index| pass.attaches(*index))
     }
 }
 

@@ -6,8 +6,8 @@
 
 use etalon_frame::{
     PathArea, PathClears, PathClip, PathColors, PathCommands, PathDraws, PathEnd, PathLayers,
-    PathPass, PathResolves, PathResults, PathStart, PathState, PathTarget, PathTests, PathValue,
-    PathViewport, PathViews,
+    PathPass, PathReads, PathResolves, PathResults, PathStart, PathState, PathTarget, PathTests,
+    PathValue, PathViewport, PathViews,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -50,6 +50,8 @@ pub struct Path {
     pub resolves: PathResolves,
     /// The format of the textures that color attachments are views of.
     pub views: PathViews,
+    /// The way in which shaders read attachments of their own pass.
+    pub reads: PathReads,
 }
 
 impl Path {
@@ -74,6 +76,7 @@ impl Path {
             colors,
             resolves,
             views,
+            reads,
         } = *self;
         let values = [
             PathValue::Start(start),
@@ -93,6 +96,7 @@ impl Path {
             PathValue::Colors(colors),
             PathValue::Resolves(resolves),
             PathValue::Views(views),
+            PathValue::Reads(reads),
         ];
         values.into_iter().filter(|v| !v.is_default()).collect()
     }

@@ -11,7 +11,7 @@ use crate::rasterization::{CullMode, PolygonMode, PrimitiveTopology, ProvokingVe
 use crate::scene::Scene;
 use crate::shader::{Interpolation, InterpolationSampling};
 use crate::tessellation::DomainOrigin;
-use etalon_frame::{CounterKind, Feature, PathCommands, Requirement};
+use etalon_frame::{Aspect, CounterKind, Feature, PathCommands, Requirement};
 use std::collections::BTreeSet;
 
 impl Scene {
@@ -87,6 +87,7 @@ impl Scene {
                     needed.insert(Requirement::Feature(Feature::DepthOutputWithoutDepth));
                 }
                 needed.extend(features(draw, size).into_iter().map(Requirement::Feature));
+                needed.extend(self.own_reads(pass, draw).map(Requirement::Feature));
                 for (target, index) in draw.targets.iter().zip(&pass.color) {
                     if target.blends() {
                         needed.insert(Requirement::Blending(self.attachments[*index].format));
@@ -102,6 +103,23 @@ impl Scene {
 }
 
 impl Scene {
+    /// Returns the features by which a draw reads attachments of its pass. The order of its fragments matters
+    /// if it reads what it draws, which depth and stencil are not.
+    fn own_reads(&self, pass: &Pass, draw: &Draw) -> impl Iterator<Item = Feature> {
+        let own = draw.textures.iter().filter(|index| pass.attaches(**index));
+        own.flat_map(|index| {
+            let mut targets = pass.color.iter().zip(&draw.targets);
+            let draws = targets.any(|(drawn, target)| drawn == index && target.write_mask != 0);
+            let read = match draw.aspect_read(self.attachments[*index].format) {
+                Aspect::Color => Feature::OwnPassReads,
+                Aspect::Depth => Feature::OwnPassDepthReads,
+                Aspect::Stencil => Feature::OwnPassStencilReads,
+            };
+            let in_order = (draws && may_overlap(draw)).then_some(Feature::OwnPassReadsInOrder);
+            std::iter::once(read).chain(in_order)
+        })
+    }
+
     /// Returns true if the first color attachment of a pass has an alpha channel and can be blended into.
     fn has_alpha(&self, pass: &Pass) -> bool {
         let first = pass.color.first();

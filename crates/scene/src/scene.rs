@@ -1,7 +1,7 @@
 //! Scenes.
 //!
 //! Scenes are valid by construction: their builder keeps indices in range and sizes equal within a pass, and
-//! lets no pass read what it draws to. Backends and the judge rely on it.
+//! lets no draw read what it changes elsewhere. Backends and the judge rely on it.
 
 use crate::attachment::{Attachment, AttachmentContents};
 use crate::draw::Draw;
@@ -58,11 +58,13 @@ impl Scene {
     }
 
     /// Returns the layers that the path gives to passes. There is only one if draws count or store, which
-    /// they would do once per layer, or if the vertex shader is not the last stage before rasterization.
+    /// they would do once per layer, if they read their own pass, or if the vertex shader is not the last stage
+    /// before rasterization.
     pub fn layers(&self) -> PathLayers {
         let mut draws = self.passes.iter().flat_map(|p| &p.draws);
         let once = draws.any(|d| d.shader.uses_storage() || d.tessellation.is_some());
-        if once || !self.counters.is_empty() {
+        let reads_itself = self.passes.iter().any(Pass::reads_itself);
+        if once || reads_itself || !self.counters.is_empty() {
             PathLayers::One
         } else {
             self.path.layers

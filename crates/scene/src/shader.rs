@@ -32,6 +32,10 @@ struct ShaderFacts {
     either: bool,
     /// The number of textures that it reads.
     textures: usize,
+    /// True if the shader reads the sample that it shades of a texture with several.
+    multisampled: bool,
+    /// True if the shader reads a stencil value.
+    stencil: bool,
     /// True if the shader samples its texture instead of fetching single texels.
     sampler: bool,
     /// True if the shader also samples at coordinates that it computes.
@@ -132,6 +136,8 @@ impl ShaderFacts {
         sampling: InterpolationSampling::Center,
         either: false,
         textures: 0,
+        multisampled: false,
+        stencil: false,
         sampler: false,
         taps: false,
         derivatives: false,
@@ -202,6 +208,16 @@ impl Shader {
     /// Returns the number of textures that the shader reads.
     pub fn textures(self) -> usize {
         self.facts().textures
+    }
+
+    /// Returns true if the shader reads the sample that it shades of a texture with several.
+    pub fn reads_sample(self) -> bool {
+        self.facts().multisampled
+    }
+
+    /// Returns true if the shader reads a stencil value. It can only read attachments of its own pass.
+    pub fn reads_stencil(self) -> bool {
+        self.facts().stencil
     }
 
     /// Returns true if the shader samples its texture instead of fetching single texels.
@@ -543,6 +559,10 @@ shaders! {
     TexelDiscard = "texel_discard" { params: true, textures: 1, discards: true, position_only: true },
     /// The texel of texture 0 under the fragment as source, the texel of texture 1 as second source.
     TexelDualSource = "texel_dual_source" { textures: 2, second_source: true, position_only: true },
+    /// The texel of texture 0 under the fragment, of the sample that is being shaded. Runs once per sample.
+    TexelSample = "texel_sample" { textures: 1, multisampled: true, per_sample: true, position_only: true },
+    /// The stencil value of texture 0 under the fragment as red, with alpha 1.
+    TexelStencil = "texel_stencil" { textures: 1, stencil: true, position_only: true },
     /// `params.color` as integers.
     UintColor = "uint_color" { params: true, integers: true, position_only: true },
     /// `params.color`.
@@ -568,9 +588,15 @@ mod tests {
             assert_eq!(shader.uses_params(), has("@binding(0)"), "{name}");
             assert_eq!(
                 shader.textures(),
-                text.matches("texture_2d<f32>;").count(),
+                text.matches(": texture_").count(),
                 "{name}"
             );
+            assert_eq!(
+                shader.reads_sample(),
+                has("texture_multisampled_2d<f32>"),
+                "{name}"
+            );
+            assert_eq!(shader.reads_stencil(), has("texture_2d<u32>"), "{name}");
             assert_eq!(shader.uses_storage(), has("@binding(3)"), "{name}");
             assert_eq!(shader.uses_pool(), has("array<atomic<u32>>"), "{name}");
             let adds = has("atomicExchange") || has("atomicMax");

@@ -7,6 +7,7 @@ use ash::vk;
 pub(crate) struct ColorPlan {
     /// The view; null if the location has no attachment.
     pub(crate) view: vk::ImageView,
+    pub(crate) layout: vk::ImageLayout,
     pub(crate) ends: Ends,
     /// The view and mode of the resolve, if the pass resolves it.
     pub(crate) resolve: Option<(vk::ImageView, vk::ResolveModeFlags)>,
@@ -15,6 +16,7 @@ pub(crate) struct ColorPlan {
 /// The depth-stencil attachment of a pass.
 pub(crate) struct DepthStencilPlan {
     pub(crate) view: vk::ImageView,
+    pub(crate) layout: vk::ImageLayout,
     /// The load and store operation of depth, if the format has depth.
     pub(crate) depth: Option<Ends>,
     /// The load and store operation of stencil, if the format has stencil.

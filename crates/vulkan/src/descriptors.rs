@@ -5,12 +5,15 @@ use crate::counting::CounterQueries;
 use crate::device::Device;
 use crate::error::internal;
 use crate::image::DeviceImage;
+use crate::image_state::FETCHED;
 use crate::inputs::PARAMS_BYTES;
+use crate::own_pass;
 use crate::pipeline::{Pipelines, SAMPLER_BINDING, STORAGE_BINDING, ShaderBindings};
 use crate::samplers::Samplers;
 use crate::slot::Slot;
 use ash::vk;
 use etalon_backend::BackendError;
+use etalon_frame::PathReads;
 use etalon_scene::{Draw, Sampler};
 use std::collections::HashMap;
 use std::mem::size_of;
@@ -20,6 +23,8 @@ use std::mem::size_of;
 #[derive(PartialEq, Eq, Hash)]
 struct Resources {
     textures: Vec<usize>,
+    /// The way in which the draw reads attachments of its pass, and the aspect of depth and stencil.
+    own: Option<(PathReads, bool)>,
     sampler: Option<Sampler>,
     counter: Option<usize>,
     pool: bool,
@@ -71,15 +76,16 @@ impl<'a> Descriptors<'a> {
         (pipelines, samplers): (&mut Pipelines, &mut Samplers),
         slot: &Slot,
         counting: &CounterQueries,
-        draw: &Draw,
+        (draw, own): (&Draw, Option<PathReads>),
     ) -> Result<vk::DescriptorSet, BackendError> {
         let word = counting.word(draw)?;
-        let bindings = ShaderBindings::of(draw.shader);
+        let bindings = ShaderBindings::of(draw.shader, own_pass::has_inputs(own));
         if draw.textures.len() != bindings.textures || draw.sampler.is_some() != bindings.sampler {
             return Err(internal("a draw lacks the textures that its shader reads"));
         }
         let resources = Resources {
             textures: draw.textures.clone(),
+            own: own.map(|way| (way, draw.shader.reads_stencil())),
             sampler: draw.sampler,
             counter: word.map(|(counter, _)| counter),
             pool: draw.shader.uses_pool(),
@@ -93,7 +99,8 @@ impl<'a> Descriptors<'a> {
             Some(sampler) => Some(samplers.get(device, sampler)?),
             None => None,
         };
-        self.write(device, set, draw, sampler, word.map(|(_, offset)| offset))?;
+        let word = word.map(|(_, offset)| offset);
+        self.write(device, set, (draw, own), sampler, word)?;
         self.sets.insert(resources, set);
         Ok(set)
     }
@@ -102,7 +109,7 @@ impl<'a> Descriptors<'a> {
         &self,
         device: &Device,
         set: vk::DescriptorSet,
-        draw: &Draw,
+        (draw, own): (&Draw, Option<PathReads>),
         sampler: Option<vk::Sampler>,
         word: Option<u64>,
     ) -> Result<(), BackendError> {
@@ -120,14 +127,20 @@ impl<'a> Descriptors<'a> {
                 .images
                 .get(*index)
                 .ok_or_else(|| internal("a draw names no attachment"))?;
+            let aspect = match (image.aspects(), draw.shader.reads_stencil()) {
+                (vk::ImageAspectFlags::COLOR, _) => vk::ImageAspectFlags::COLOR,
+                (_, true) => vk::ImageAspectFlags::STENCIL,
+                (_, false) => vk::ImageAspectFlags::DEPTH,
+            };
             textures.push([vk::DescriptorImageInfo {
                 sampler: vk::Sampler::null(),
-                image_view: image.whole()?,
-                image_layout: vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL,
+                image_view: image.view(aspect)?,
+                image_layout: own.map_or(FETCHED, own_pass::state).layout,
             }]);
         }
         for (binding, info) in (1..).zip(&textures) {
-            writes.push(write(binding, vk::DescriptorType::SAMPLED_IMAGE).image_info(info));
+            let kind = own_pass::descriptor(own_pass::has_inputs(own));
+            writes.push(write(binding, kind).image_info(info));
         }
         let samplers = [vk::DescriptorImageInfo::default().sampler(sampler.unwrap_or_default())];
         if sampler.is_some() {

@@ -2,6 +2,7 @@
 
 use crate::error::{Check, describe};
 use crate::instance::{INSTANCE_VERSION, Instance};
+use crate::own_pass::OwnPassWays;
 use crate::recording;
 use crate::sanity;
 use crate::single_state::SingleState;
@@ -56,6 +57,8 @@ pub(crate) struct Device {
     pub(crate) dynamic_logic: Option<ash::ext::extended_dynamic_state2::Device>,
     /// True if logic operations can be enabled and disabled dynamically.
     pub(crate) logic_enable: bool,
+    /// The optional ways of draws that read attachments of their own pass.
+    pub(crate) own_pass: OwnPassWays,
     /// The provoking vertices that the device supports in addition to the first.
     pub(crate) provoking: Provoking,
     /// True if advanced blending is coherent; `None` if the device lacks it.
@@ -490,6 +493,10 @@ impl Device {
         let logic_enable = dynamic_logic && all_extended && has_dynamic_logic_enable(api, physical);
         let advanced_blend = advanced_blend(api, physical);
         let stencil_export = has_extension(api, physical, ash::ext::shader_stencil_export::NAME);
+        let has = |name: &CStr| has_extension(api, physical, name);
+        let mut own_pass = OwnPassWays::of(api, physical, has);
+        own_pass.local_read &= instance.knows_local_reads();
+        let mut own_features = own_pass.features();
         let extensions: Vec<_> = [
             (stencil_export, ash::ext::shader_stencil_export::NAME),
             (
@@ -503,6 +510,7 @@ impl Device {
             (clips, ash::ext::depth_clip_enable::NAME),
         ]
         .into_iter()
+        .chain(own_features.extensions())
         .filter_map(|(used, name)| used.then_some(name.as_ptr()))
         .collect();
         let mut enabled_extended =
@@ -526,6 +534,7 @@ impl Device {
             .enabled_extension_names(&extensions)
             .push_next(&mut enabled13)
             .push_next(&mut enabled11);
+        info = own_features.enable(info);
         let indirect_count = has_indirect_count(api, physical, &properties.limits);
         // A device with the extension has both of its features
         // (VUID-VkDeviceCreateInfo-ppEnabledExtensionNames-02835).
@@ -602,6 +611,7 @@ impl Device {
             logic_enable,
             advanced_blend,
             stencil_export,
+            own_pass,
             // A recording has no timestamps.
             timestamp_bits: if properties.limits.timestamp_period > 0.0
                 && !recording::is_installed()

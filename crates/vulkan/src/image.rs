@@ -262,7 +262,8 @@ impl DeviceImage {
         let aspects = format::aspect_mask(key.format);
         let mut masks = vec![aspects];
         let both = vk::ImageAspectFlags::DEPTH | vk::ImageAspectFlags::STENCIL;
-        if aspects == both && key.usage.contains(vk::ImageUsageFlags::SAMPLED) {
+        let read = vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::INPUT_ATTACHMENT;
+        if aspects == both && key.usage.intersects(read) {
             masks.extend([vk::ImageAspectFlags::DEPTH, vk::ImageAspectFlags::STENCIL]);
         }
         let kind = vk::ImageViewType::TYPE_2D;

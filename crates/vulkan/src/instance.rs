@@ -23,6 +23,9 @@ pub(crate) struct Instance {
     messenger: Option<Messenger>,
 }
 
+/// The first version whose text has `VK_KHR_dynamic_rendering_local_read`.
+const LOCAL_READS: u32 = vk::make_api_version(0, 1, 3, 276);
+
 struct Messenger {
     functions: ext::debug_utils::Instance,
     raw: vk::DebugUtilsMessengerEXT,
@@ -107,6 +110,12 @@ impl Instance {
         Ok(instance)
     }
 
+    /// Returns true unless a validation layer is enabled that is older than local reads, and calls them errors.
+    pub(crate) fn knows_local_reads(&self) -> bool {
+        let layer = entry().ok().and_then(validation_layer);
+        self.messenger.is_none() || layer.is_some_and(|layer| layer.spec_version >= LOCAL_READS)
+    }
+
     /// Records the calls to devices that are created later.
     pub(crate) fn record(&mut self) {
         self.raw = recording::instance(&self.raw);
@@ -168,14 +177,17 @@ impl Drop for Instance {
     }
 }
 
-/// Returns true if the validation layer has synchronization validation.
-fn validation_extensions(entry: &ash::Entry) -> Result<bool, Unavailable> {
+/// Returns the properties of the validation layer; `None` if it is not installed.
+fn validation_layer(entry: &ash::Entry) -> Option<vk::LayerProperties> {
     // SAFETY: no requirements beyond a loaded entry.
     let layers = unsafe { entry.enumerate_instance_layer_properties() }.unwrap_or_default();
-    let found = layers
-        .iter()
-        .any(|l| l.layer_name_as_c_str() == Ok(VALIDATION_LAYER));
-    if !found {
+    let mut layers = layers.into_iter();
+    layers.find(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION_LAYER))
+}
+
+/// Returns true if the validation layer has synchronization validation.
+fn validation_extensions(entry: &ash::Entry) -> Result<bool, Unavailable> {
+    if validation_layer(entry).is_none() {
         return Err(Unavailable::new(
             "the layer VK_LAYER_KHRONOS_validation is not installed",
             "apt-get install vulkan-validationlayers",

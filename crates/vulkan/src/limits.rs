@@ -108,6 +108,7 @@ fn has(device: &Device, feature: Feature) -> bool {
         Feature::PolygonModeLine => features.fill_mode_non_solid,
         Feature::PreciseOcclusion => features.occlusion_query_precise,
         // Only OpenGL has these features.
+        Feature::OwnPassReadsInOrder => device.own_pass.orders_colors().into(),
         Feature::ClipDistanceMask | Feature::MaskedClears | Feature::SampleCoverage => vk::FALSE,
         Feature::MinSampleShading | Feature::SampleInterpolation | Feature::SampleShading => {
             features.sample_rate_shading
@@ -131,6 +132,9 @@ fn has(device: &Device, feature: Feature) -> bool {
         | Feature::LinearInterpolation
         | Feature::MinMaxBlendFactors
         | Feature::MirroredViewport
+        | Feature::OwnPassReads
+        | Feature::OwnPassDepthReads
+        | Feature::OwnPassStencilReads
         | Feature::QueriesOverPasses
         | Feature::RasterizerDiscard
         | Feature::ReversedDepthRange

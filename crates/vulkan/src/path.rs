@@ -13,8 +13,8 @@ use crate::single_state::SingleState;
 use ash::vk;
 use etalon_backend::BackendError;
 use etalon_frame::{
-    Aspect, ChannelEncoding, PathArea, PathClip, PathDraws, PathEnd, PathLayers, PathState,
-    PathTarget, PathValue, PathViewport, Requirement, TextureFormat,
+    Aspect, ChannelEncoding, PathArea, PathClip, PathDraws, PathEnd, PathLayers, PathReads,
+    PathState, PathTarget, PathValue, PathViewport, Requirement, TextureFormat,
 };
 use etalon_scene::{Attachment, Draw, Multisample, Path, Scene};
 use std::collections::BTreeSet;
@@ -39,6 +39,9 @@ pub(crate) fn offered(device: &Device) -> BTreeSet<PathValue> {
         | PathValue::Clip(PathClip::Toggled)
         | PathValue::Draws(PathDraws::IndirectBeside)
         | PathValue::End(PathEnd::ReadBuffer) => false,
+        PathValue::Reads(PathReads::LocalRead) => device.own_pass.local_read,
+        PathValue::Reads(PathReads::FeedbackLoop) => device.own_pass.feedback_loop,
+        PathValue::Reads(PathReads::Ordered) => device.own_pass.orders_colors(),
         _ => true,
     };
     PathValue::all().into_iter().filter(has).collect()

@@ -3,6 +3,8 @@
 use crate::device::Device;
 use crate::dynamic::{Dynamic, Setting};
 use crate::error::{Check, internal};
+use crate::input_attachment::Inputs;
+use crate::own_pass;
 use crate::render_pass::{Compatible, RenderPass};
 use crate::shader::Modules;
 use crate::single_state::{SingleState, other_samples};
@@ -44,6 +46,8 @@ struct StaticState {
     logic: Option<LogicOperation>,
     color: Vec<ColorTarget>,
     pass: Option<Compatible>,
+    subpass: u32,
+    inputs: Inputs,
     layer: Option<u32>,
     setting: Setting,
     /// The rest of the state as text, unless it is dynamic.
@@ -93,14 +97,17 @@ pub(crate) const INSTANCE_BINDING: u32 = 1;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct ShaderBindings {
     pub(crate) textures: usize,
+    /// True if the textures are input attachments.
+    pub(crate) inputs: bool,
     pub(crate) sampler: bool,
     pub(crate) storage: bool,
 }
 
 impl ShaderBindings {
-    pub(crate) fn of(shader: Shader) -> Self {
+    pub(crate) fn of(shader: Shader, inputs: bool) -> Self {
         Self {
             textures: shader.textures(),
+            inputs,
             sampler: shader.samples_texture(),
             storage: shader.uses_storage(),
         }
@@ -137,6 +144,10 @@ pub(crate) struct Pipelines {
 pub(crate) struct Way<'a> {
     /// The render pass object; `None` for dynamic rendering.
     pub(crate) pass: Option<&'a RenderPass>,
+    /// The subpass of the render pass object.
+    pub(crate) subpass: u32,
+    /// The input attachments that the draw's textures are.
+    pub(crate) inputs: Inputs,
     /// The layer that the vertex shader writes, if it writes one.
     pub(crate) layer: Option<u32>,
     pub(crate) setting: Setting,
@@ -174,7 +185,12 @@ impl Pipelines {
         let both = vk::ShaderStageFlags::VERTEX | fragment;
         let mut entries = vec![binding(0, vk::DescriptorType::UNIFORM_BUFFER_DYNAMIC, both)];
         for (number, _) in (1..).zip(0..bindings.textures) {
-            entries.push(binding(number, vk::DescriptorType::SAMPLED_IMAGE, both));
+            let stages = if bindings.inputs { fragment } else { both };
+            entries.push(binding(
+                number,
+                own_pass::descriptor(bindings.inputs),
+                stages,
+            ));
         }
         if bindings.storage {
             let kind = vk::DescriptorType::STORAGE_BUFFER;
@@ -206,6 +222,8 @@ impl Pipelines {
             last_provokes: draw.provoking == Some(ProvokingVertex::Last),
             instanced: draw.fetch.instances > 0,
             pass: way.pass.map(|p| p.compatible.clone()),
+            subpass: way.subpass,
+            inputs: way.inputs,
             layer: way.layer,
             setting: way.setting,
             fixed: way.setting.fixed.then(|| way.state.text()),
@@ -225,12 +243,16 @@ impl Pipelines {
             device,
             draw.shader,
             draw.early_tests,
+            way.inputs,
             Chosen {
                 second_viewport: way.setting.viewport == PathViewport::Array,
                 layer: way.layer,
             },
         )?;
-        let layout = self.layout(device, ShaderBindings::of(draw.shader))?;
+        let layout = self.layout(
+            device,
+            ShaderBindings::of(draw.shader, way.inputs != [None; 2]),
+        )?;
         let stage = |stage, name| {
             vk::PipelineShaderStageCreateInfo::default()
                 .stage(stage)
@@ -391,6 +413,11 @@ fn create(
     if let Some(logic) = key.logic {
         blend = blend.logic_op_enable(true).logic_op(state::logic(logic));
     }
+    blend = blend.flags(own_pass::blend_flags(key.targets.reads));
+    let depth_stencil = depth_stencil.flags(own_pass::depth_stencil_flags(
+        key.targets.reads,
+        device.own_pass,
+    ));
     if let Some(state) = fixed {
         blend = blend.blend_constants(state.blend_constants());
     }
@@ -411,12 +438,13 @@ fn create(
         .depth_stencil_state(&depth_stencil)
         .color_blend_state(&blend)
         .dynamic_state(&dynamic)
+        .flags(own_pass::pipeline_flags(key.targets.reads))
         .layout(layout);
     if key.tessellation.is_some() {
         info = info.tessellation_state(&patches);
     }
     info = match way.pass {
-        Some(pass) => info.render_pass(pass.raw).subpass(pass.compatible.subpass),
+        Some(pass) => info.render_pass(pass.raw).subpass(key.subpass),
         None => info.push_next(&mut rendering),
     };
     // SAFETY: all parts of `info` live, and the device can draw to the formats and has every feature used.

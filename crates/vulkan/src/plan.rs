@@ -11,11 +11,12 @@ use crate::gpu::Gpu;
 use crate::image::{DeviceImage, ImageKey, ImagePlace};
 use crate::inputs::{Arguments, CallNumbers, DrawInputs};
 use crate::limits::attachment_usage;
+use crate::own_pass;
 use crate::path;
 use crate::pipeline::Pipeline;
 use crate::read::ReadPlan;
 use crate::render_pass::RenderPass;
-use crate::role::{Role, roles};
+use crate::role::{Role, roles_by};
 use crate::single::Single;
 use crate::state;
 use crate::targets::Targets;
@@ -141,10 +142,10 @@ pub(crate) struct DrawPlan {
     pub(crate) queries: Enclosing<PoolQuery>,
 }
 
-/// Returns true if a shader reads the attachment.
+/// Returns true if a shader of another pass than the attachment's own reads it.
 pub(crate) fn is_fetched(scene: &Scene, index: usize) -> bool {
-    let mut draws = scene.passes.iter().flat_map(|p| &p.draws);
-    draws.any(|d| d.textures.contains(&index))
+    let mut passes = scene.passes.iter().filter(|pass| !pass.attaches(index));
+    passes.any(|pass| pass.draws.iter().any(|d| d.textures.contains(&index)))
 }
 
 impl InitialContents {
@@ -185,13 +186,19 @@ impl PassPlan {
             targets,
             advanced: pass.draws.iter().any(is_advanced),
             object: None,
-            roles: roles(pass),
+            roles: Vec::new(),
             color: Vec::with_capacity(pass.color.len()),
             depth_stencil: None,
             draws: Vec::with_capacity(pass.draws.len()),
             clears: Vec::with_capacity(pass.clears.len()),
             resolves: Vec::new(),
             queries: Enclosing::default(),
+        };
+        plan.roles = roles_by(pass, plan.targets.reads);
+        let layout = |index: usize| {
+            let mut roles = plan.roles.iter();
+            let role = roles.find(|(attached, _)| *attached == index);
+            role.map_or(vk::ImageLayout::UNDEFINED, |(_, role)| role.state().layout)
         };
         let integer = |location: usize| {
             let index = pass.color.get(location);
@@ -246,6 +253,7 @@ impl PassPlan {
                 } else {
                     image(*index)?.attached()?
                 },
+                layout: layout(*index),
                 ends: Ends::new(pass.color_operations(location), value),
                 resolve,
             });
@@ -254,6 +262,7 @@ impl PassPlan {
             let format = scene.attachments.get(index).map(|a| a.format);
             plan.depth_stencil = Some(DepthStencilPlan {
                 view: image(index)?.attached()?,
+                layout: layout(index),
                 depth: format
                     .is_some_and(|f| f.has_depth())
                     .then(|| Ends::new(pass.operations.depth, |v| depth_stencil_value(v, 0))),
@@ -339,10 +348,19 @@ pub(crate) fn image_key(
         | Role::DepthStencil
         | Role::DepthStencilReadOnly
         | Role::DepthStencilResolve => usage |= attachment_usage(format),
-        Role::Fetched | Role::Idle => {}
+        Role::Fetched | Role::Own(_) | Role::Idle => {}
     }
     if fetched {
         usage |= vk::ImageUsageFlags::SAMPLED;
+    }
+    for pass in scene
+        .passes
+        .iter()
+        .filter(|_| own_pass::is_read(scene, index))
+    {
+        if let Some(way) = own_pass::way(gpu.device.own_pass, scene, pass)? {
+            usage |= own_pass::usage(way);
+        }
     }
     if read && end == PathEnd::ShaderRead {
         usage |= vk::ImageUsageFlags::SAMPLED;
@@ -446,6 +464,7 @@ pub(crate) fn targets(gpu: &Gpu, scene: &Scene, pass: &Pass) -> Result<Targets, 
         stencil: vk::Format::UNDEFINED,
         samples: scene.pass_samples(pass),
         layers: scene.layers(),
+        reads: own_pass::way(gpu.device.own_pass, scene, pass)?,
     };
     for index in &pass.color {
         targets.color.push(if scene.is_gap(*index) {

@@ -10,7 +10,9 @@ use crate::extended::{self, DynamicValues};
 use crate::format;
 use crate::gpu::{Gpu, Pools};
 use crate::image::{DRAWN_LAYERS, DeviceImage};
+use crate::input_attachment;
 use crate::inputs::{DrawInputs, Inputs};
+use crate::own_pass;
 use crate::path;
 use crate::pipeline::{Pipelines, Way};
 use crate::plan::{
@@ -30,8 +32,8 @@ use crate::targets::Targets;
 use ash::vk;
 use etalon_backend::{BackendError, FrameTime, Phase, Prepared};
 use etalon_frame::{
-    Feature, Frame, PathCommands, PathDraws, PathEnd, PathLayers, PathPass, PathState, PathValue,
-    Requirement,
+    Feature, Frame, PathCommands, PathDraws, PathEnd, PathLayers, PathPass, PathReads, PathState,
+    PathValue, Requirement,
 };
 use etalon_scene::{AttachmentContents, Draw, Enclosing, Pass, Path, Pool, Scene};
 use std::cell::Cell;
@@ -287,10 +289,11 @@ impl<'a> VulkanScene<'a> {
                 let planned = self.plan.passes.push_mut(planned);
                 planned.resolves.clone_from(resolves);
                 planned.queries = Enclosing::pass(&queries, number);
-                if scene.path.pass != PathPass::DynamicRendering {
-                    let second = scene.path.pass == PathPass::SecondSubpass;
+                if own_pass::has_object(targets.reads, scene.path.pass) {
+                    let first = u32::from(scene.path.pass == PathPass::SecondSubpass);
                     let attached = (&planned.color[..], planned.depth_stencil.as_ref());
-                    let object = RenderPass::new(device, planned.size, attached, &targets, second)?;
+                    let (size, draws) = (planned.size, pass.draws.len());
+                    let object = RenderPass::new(device, size, attached, &targets, first, draws)?;
                     planned.object = Some(object);
                 }
                 let drawing = SceneDrawing {
@@ -308,8 +311,11 @@ impl<'a> VulkanScene<'a> {
                         return Err(internal("a draw lacks a target for each colour attachment"));
                     }
                     let made = (&mut pools.pipelines, &mut pools.samplers);
-                    let set = sets.get(device, made, slot, counting, draw)?;
-                    let drawn = drawing.plan(&mut pools.pipelines, index, draw, place, set)?;
+                    let own = targets.reads.filter(|_| draw.reads_own(pass));
+                    let set = sets.get(device, made, slot, counting, (draw, own))?;
+                    let inputs = own_pass::inputs(own, pass, draw)?;
+                    let place = (place, set, inputs);
+                    let drawn = drawing.plan(&mut pools.pipelines, index, draw, place)?;
                     planned.draws.push(drawn);
                 }
             }
@@ -366,8 +372,7 @@ impl SceneDrawing<'_> {
         pipelines: &mut Pipelines,
         index: usize,
         draw: &Draw,
-        place: &DrawInputs,
-        set: vk::DescriptorSet,
+        (place, set, inputs): (&DrawInputs, vk::DescriptorSet, input_attachment::Inputs),
     ) -> Result<DrawPlan, BackendError> {
         let (device, mut setting, targets) = (self.device, self.setting, self.targets);
         let state = self.path.state;
@@ -380,6 +385,11 @@ impl SceneDrawing<'_> {
         };
         let way = Way {
             pass: self.object,
+            subpass: self.object.map_or(0, |object| {
+                let each = targets.reads == Some(PathReads::Subpasses);
+                object.first_subpass + if each { index as u32 } else { 0 }
+            }),
+            inputs,
             layer,
             setting,
             state: &dynamic,

@@ -12,6 +12,7 @@ use crate::image_state::{
     ImageState, TRANSFER_DST, TRANSFER_SRC, UNDEFINED,
 };
 use crate::inputs::{ARGUMENTS_BYTES, Arguments, CallNumbers};
+use crate::own_pass;
 use crate::pipeline::{INSTANCE_BINDING, Pipeline};
 use crate::plan::{AttachmentPlan, DrawPlan, InitialContents, PassPlan, ScenePlan};
 use crate::read::ReadPlan;
@@ -22,19 +23,20 @@ use crate::slot::Slot;
 use crate::storage;
 use ash::vk;
 use etalon_backend::BackendError;
-use etalon_frame::{PathCommands, PathEnd};
+use etalon_frame::{PathCommands, PathEnd, PathReads};
 use std::cell::Cell;
 use std::ops::Range;
 
 impl Role {
     /// Returns the state of an attachment in this role.
-    fn state(self) -> ImageState {
+    pub(crate) fn state(self) -> ImageState {
         match self {
             Self::Color => COLOR,
             Self::DepthStencil => DEPTH_STENCIL,
             Self::DepthStencilReadOnly => DEPTH_STENCIL_READ_ONLY,
             Self::DepthStencilResolve => DEPTH_STENCIL_RESOLVE,
             Self::Fetched => FETCHED,
+            Self::Own(way) => own_pass::state(way),
             Self::Idle => TRANSFER_DST,
         }
     }
@@ -250,7 +252,8 @@ fn change_roles(
         else {
             return Err(internal("a role of an attachment that is not in the plan"));
         };
-        if *now != role {
+        // Between passes that read themselves, shaders' reads follow the writes too.
+        if *now != role || matches!(role, Role::Own(_)) {
             moved.push(attachment.barrier(now.state(), role.state()));
             *now = role;
         }
@@ -357,7 +360,7 @@ impl CommandRecorder<'_> {
         let inheritance = match &pass.object {
             Some(object) => inheritance
                 .render_pass(object.raw)
-                .subpass(object.compatible.subpass)
+                .subpass(object.first_subpass)
                 .framebuffer(object.framebuffer),
             None => inheritance.push_next(&mut rendering),
         };
@@ -460,12 +463,12 @@ unsafe fn begin_render_pass(
     object: &RenderPass,
 ) {
     let (commands, contents) = (recorder.slot.commands(), recorder.contents());
+    let subpasses = object.first_subpass;
     let info = vk::RenderPassBeginInfo::default()
         .render_pass(object.raw)
         .framebuffer(object.framebuffer)
         .render_area(pass.area)
         .clear_values(&object.values);
-    let subpasses = object.compatible.subpass;
     // SAFETY: upheld by the caller; the first of two subpasses stays empty.
     unsafe {
         let first = match subpasses {
@@ -491,15 +494,14 @@ unsafe fn begin_rendering(device: &Device, recorder: &CommandRecorder<'_>, pass:
             .store_op(ends.store)
             .clear_value(ends.value)
     };
-    let layout = COLOR.layout;
     let mut color = Vec::with_capacity(pass.color.len());
     for target in &pass.color {
-        let mut info = attachment(target.view, layout, &target.ends);
+        let mut info = attachment(target.view, target.layout, &target.ends);
         if let Some((resolve, mode)) = target.resolve {
             info = info
                 .resolve_mode(mode)
                 .resolve_image_view(resolve)
-                .resolve_image_layout(layout);
+                .resolve_image_layout(COLOR.layout);
         }
         color.push(info);
     }
@@ -508,10 +510,9 @@ unsafe fn begin_rendering(device: &Device, recorder: &CommandRecorder<'_>, pass:
         let ends = ends(plan)?;
         let info = if plan.read_only {
             // A store operation would count as a write.
-            attachment(plan.view, DEPTH_STENCIL_READ_ONLY.layout, ends)
-                .store_op(vk::AttachmentStoreOp::NONE)
+            attachment(plan.view, plan.layout, ends).store_op(vk::AttachmentStoreOp::NONE)
         } else {
-            attachment(plan.view, DEPTH_STENCIL.layout, ends)
+            attachment(plan.view, plan.layout, ends)
         };
         Some(match plan.resolve {
             None => info,
@@ -579,8 +580,19 @@ unsafe fn draws(
             .skip_while(|(before, _)| first > 0 && *before < first)
             .peekable();
         for (index, draw) in pass.draws.iter().enumerate().take(end).skip(first) {
+            let mut cleared = false;
             while let Some((_, clear)) = clears.next_if(|(before, _)| *before <= index) {
                 clear.record(device, commands);
+                cleared = true;
+            }
+            match pass.targets.reads {
+                Some(PathReads::Subpasses) if index > 0 => {
+                    api.cmd_next_subpass(commands, vk::SubpassContents::INLINE);
+                }
+                Some(way) if cleared || index > 0 && way != PathReads::Ordered => {
+                    own_pass::barrier(api, commands, way);
+                }
+                _ => {}
             }
             let pipeline = &*draw.pipeline;
             // The path decides the order of pipeline and state:
@@ -624,6 +636,10 @@ unsafe fn draws(
         }
         for (_, clear) in clears.filter(|_| end == pass.draws.len()) {
             clear.record(device, commands);
+        }
+        if let Some(PathReads::FeedbackLoop) = pass.targets.reads {
+            // Store operations write after the reads, which are not those of attachments.
+            own_pass::barrier(api, commands, PathReads::FeedbackLoop);
         }
         if let Some(current_state) = current_state {
             current.pipeline = bound;

@@ -4,18 +4,20 @@ use crate::attached::{ColorPlan, DepthStencilPlan};
 use crate::clear::Ends;
 use crate::device::Device;
 use crate::error::Check;
-use crate::image_state::{COLOR, DEPTH_STENCIL, DEPTH_STENCIL_READ_ONLY, DEPTH_STENCIL_RESOLVE};
+use crate::image_state::{COLOR, DEPTH_STENCIL_RESOLVE};
+use crate::own_pass;
 use crate::state;
 use crate::targets::Targets;
 use ash::vk;
 use etalon_backend::BackendError;
+use etalon_frame::PathReads;
 
 /// The properties that compatible render passes share, in addition to formats (Vulkan, Render Pass
 /// Compatibility).
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Compatible {
-    /// The subpass that draws.
-    pub(crate) subpass: u32,
+    /// The number of subpasses.
+    subpasses: u32,
     resolves: Vec<bool>,
     modes: Option<[u32; 2]>,
     read_only: bool,
@@ -26,6 +28,8 @@ pub(crate) struct RenderPass {
     pub(crate) raw: vk::RenderPass,
     pub(crate) framebuffer: vk::Framebuffer,
     pub(crate) compatible: Compatible,
+    /// The subpass of the first draw.
+    pub(crate) first_subpass: u32,
     /// The clear values, one per attachment, in the render pass's order.
     pub(crate) values: Vec<vk::ClearValue>,
 }
@@ -70,15 +74,17 @@ impl Attachments {
 }
 
 impl RenderPass {
-    /// Creates the render pass object of a planned pass. With a second subpass, the first uses the same
-    /// attachments and draws nothing, so that load operations and draws are in different subpasses.
+    /// Creates the render pass object of a planned pass. The subpasses before that of the first draw use the same
+    /// attachments and draw nothing, so that load operations and draws are in different subpasses. All draws are in
+    /// one subpass, or, if their reads need it, each is in one of its own.
     /// It is one call, and its structures must outlive it.
     pub(crate) fn new(
         device: &Device,
         size: [u32; 2],
         (colors, depth_stencil): (&[ColorPlan], Option<&DepthStencilPlan>),
         targets: &Targets,
-        second_subpass: bool,
+        first_subpass: u32,
+        draws: usize,
     ) -> Result<Self, BackendError> {
         let mut attachments = Attachments::default();
         let kept = Ends::kept();
@@ -92,7 +98,7 @@ impl RenderPass {
             }
             let shape = (plan.view, *format, targets.samples);
             let aspect = vk::ImageAspectFlags::COLOR;
-            color.push(attachments.add(shape, COLOR.layout, aspect, [&plan.ends, &kept]));
+            color.push(attachments.add(shape, plan.layout, aspect, [&plan.ends, &kept]));
             resolves.push(match plan.resolve {
                 None => unused(),
                 Some((view, _)) => {
@@ -101,14 +107,10 @@ impl RenderPass {
             });
         }
         let tested = depth_stencil.map(|plan| {
-            let layout = if plan.read_only {
-                DEPTH_STENCIL_READ_ONLY.layout
-            } else {
-                DEPTH_STENCIL.layout
-            };
             let ends = depth_stencil_ends(plan);
             let shape = (plan.view, targets.depth_stencil(), targets.samples);
-            let reference = attachments.add(shape, layout, targets.aspects(), [&ends[0], &ends[1]]);
+            let reference =
+                attachments.add(shape, plan.layout, targets.aspects(), [&ends[0], &ends[1]]);
             let last = attachments.values.last_mut();
             if let Some(value) = last {
                 *value = vk::ClearValue {
@@ -135,11 +137,25 @@ impl RenderPass {
                 .stencil_resolve_mode(stencil)
                 .depth_stencil_resolve_attachment(target);
         }
+        // Attachments that draws read have a layout for it.
+        let is_read = |reference: &&vk::AttachmentReference2<'_>| {
+            let state = targets.reads.map(own_pass::state);
+            state.is_some_and(|state| state.layout == reference.layout)
+        };
+        let inputs: Vec<_> = color
+            .iter()
+            .chain(&tested)
+            .map(|input| Some(input).filter(is_read).copied().unwrap_or_else(unused))
+            .collect();
         let described = |last: bool| {
             let mut subpass = vk::SubpassDescription2::default()
+                .flags(own_pass::subpass_flags(targets.reads, device.own_pass))
                 .pipeline_bind_point(vk::PipelineBindPoint::GRAPHICS)
                 .view_mask(targets.views())
                 .color_attachments(&color);
+            if own_pass::has_inputs(targets.reads) {
+                subpass = subpass.input_attachments(&inputs);
+            }
             if let Some(tested) = &tested {
                 subpass = subpass.depth_stencil_attachment(tested);
             }
@@ -152,27 +168,36 @@ impl RenderPass {
         if target.is_some() {
             last = last.push_next(&mut depth_stencil_resolve);
         }
-        let (subpasses, subpass) = if second_subpass {
-            (vec![described(false), last], 1)
-        } else {
-            (vec![last], 0)
+        let drawing = match targets.reads {
+            Some(PathReads::Subpasses) => u32::try_from(draws.max(1)).unwrap_or(u32::MAX),
+            _ => 1,
         };
-        let dependencies = [between_subpasses()];
+        let last_number = first_subpass + drawing - 1;
+        let mut subpasses: Vec<_> = (0..last_number).map(|_| described(false)).collect();
+        subpasses.push(last);
+        let between = (1..=last_number).map(|to| match targets.reads {
+            Some(way) => own_pass::dependency(way, to - 1, to),
+            None => between_subpasses(),
+        });
+        let within = (0..=last_number)
+            .filter_map(|number| Some(own_pass::dependency(targets.reads?, number, number)));
+        let dependencies: Vec<_> = between.chain(within).collect();
         let info = vk::RenderPassCreateInfo2::default()
             .attachments(&attachments.descriptions)
             .subpasses(&subpasses)
-            .dependencies(&dependencies[..usize::from(second_subpass)]);
+            .dependencies(&dependencies);
         // SAFETY: all parts of `info` live.
         let raw = unsafe { device.raw.create_render_pass2(&info, None) }.check("a render pass")?;
         let mut made = Self {
             raw,
             framebuffer: vk::Framebuffer::null(),
             compatible: Compatible {
-                subpass,
+                subpasses: last_number + 1,
                 resolves: colors.iter().map(|c| c.resolve.is_some()).collect(),
                 modes: resolved.map(|(_, modes)| modes.map(vk::ResolveModeFlags::as_raw)),
                 read_only: depth_stencil.is_some_and(|d| d.read_only),
             },
+            first_subpass,
             values: attachments.values,
         };
         let [width, height] = size;

@@ -1,5 +1,6 @@
 //! The uses of attachments.
 
+use etalon_frame::PathReads;
 use etalon_scene::{Pass, Scene};
 
 /// The use of an attachment in a pass, or in all passes together.
@@ -13,6 +14,8 @@ pub(crate) enum Role {
     /// The resolve target of depth and stencil.
     DepthStencilResolve,
     Fetched,
+    /// An attachment that draws of its own pass read in this way.
+    Own(PathReads),
     /// No pass uses the image. It can still be read back.
     Idle,
 }
@@ -28,15 +31,28 @@ impl Role {
                 Self::DepthStencil | Self::DepthStencilReadOnly | Self::DepthStencilResolve => {
                     return Self::DepthStencil;
                 }
-                Self::Fetched | Self::Idle => found = role,
+                Self::Fetched | Self::Own(_) | Self::Idle => found = role,
             }
         }
         found
     }
 }
 
-/// Returns the attachments of a pass, each once, with their roles.
-pub(crate) fn roles(pass: &Pass) -> Vec<(usize, Role)> {
+/// Returns the attachments of a pass, each once, with their roles, if its draws read those of the pass in this
+/// way.
+pub(crate) fn roles_by(pass: &Pass, way: Option<PathReads>) -> Vec<(usize, Role)> {
+    let mut roles = roles(pass);
+    for (index, role) in &mut roles {
+        let read = pass.draws.iter().any(|d| d.textures.contains(index));
+        if let Some(way) = way.filter(|_| read && pass.attaches(*index)) {
+            *role = Role::Own(way);
+        }
+    }
+    roles
+}
+
+/// Returns the attachments of a pass, each once, with their roles, if no draw reads those of the pass.
+fn roles(pass: &Pass) -> Vec<(usize, Role)> {
     let drawn = pass.color.iter().chain(pass.resolve.iter().flatten());
     let mut roles: Vec<_> = drawn.map(|index| (*index, Role::Color)).collect();
     let tested = if pass.depth_stencil_read_only {

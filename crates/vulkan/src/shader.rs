@@ -3,6 +3,7 @@
 use crate::cull_distance;
 use crate::device::Device;
 use crate::error::Check;
+use crate::input_attachment::{self, Inputs};
 use crate::mask_array;
 use crate::stencil_export;
 use crate::viewport::{self, Chosen};
@@ -28,10 +29,13 @@ pub(crate) struct Module {
     pub(crate) attributes: Vec<u32>,
 }
 
-/// The modules by shader, early-test mode, and chosen viewport and layer. There are few, so all are kept.
+/// The properties that a module depends on.
+type ModuleKey = (Shader, EarlyTests, Inputs, Chosen);
+
+/// The modules by shader, early-test mode, input attachments, and chosen viewport and layer. There are few, so all are kept.
 #[derive(Debug, Default)]
 pub(crate) struct Modules {
-    modules: HashMap<(Shader, EarlyTests, Chosen), Module>,
+    modules: HashMap<ModuleKey, Module>,
 }
 
 /// Translates a WGSL file.
@@ -84,9 +88,10 @@ impl Modules {
         device: &Device,
         shader: Shader,
         tests: EarlyTests,
+        inputs: Inputs,
         chosen: Chosen,
     ) -> Result<Module, BackendError> {
-        let key = (shader, tests, chosen);
+        let key = (shader, tests, inputs, chosen);
         if let Some(module) = self.modules.get(&key) {
             return Ok(module.clone());
         }
@@ -99,6 +104,9 @@ impl Modules {
         }
         if shader.cull_distances() > 0 {
             translated.words = cull_distance::as_cull_distances(&translated.words);
+        }
+        if inputs != [None; 2] {
+            translated.words = input_attachment::as_inputs(&translated.words, inputs);
         }
         if chosen != Chosen::default() {
             translated.words = viewport::choose(&translated.words, chosen);

@@ -125,6 +125,10 @@ impl Slot {
                     vk::DescriptorType::SAMPLED_IMAGE,
                     self.sets.saturating_mul(self.images),
                 ),
+                size(
+                    vk::DescriptorType::INPUT_ATTACHMENT,
+                    self.sets.saturating_mul(self.images),
+                ),
                 size(vk::DescriptorType::STORAGE_BUFFER, self.sets),
                 size(vk::DescriptorType::SAMPLER, self.sets),
             ];

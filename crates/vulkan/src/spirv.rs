@@ -6,9 +6,12 @@ pub(crate) const ENTRY_POINT: u32 = 15;
 pub(crate) const EXECUTION_MODE: u32 = 16;
 pub(crate) const CAPABILITY: u32 = 17;
 pub(crate) const TYPE_INT: u32 = 21;
+pub(crate) const TYPE_VECTOR: u32 = 23;
+pub(crate) const TYPE_IMAGE: u32 = 25;
 pub(crate) const TYPE_ARRAY: u32 = 28;
 pub(crate) const TYPE_POINTER: u32 = 32;
 pub(crate) const CONSTANT: u32 = 43;
+pub(crate) const CONSTANT_NULL: u32 = 46;
 pub(crate) const FUNCTION: u32 = 54;
 pub(crate) const FUNCTION_END: u32 = 56;
 pub(crate) const VARIABLE: u32 = 59;
@@ -16,10 +19,14 @@ pub(crate) const LOAD: u32 = 61;
 pub(crate) const STORE: u32 = 62;
 pub(crate) const ACCESS_CHAIN: u32 = 65;
 pub(crate) const DECORATE: u32 = 71;
+pub(crate) const IMAGE_FETCH: u32 = 95;
+pub(crate) const IMAGE_READ: u32 = 98;
 pub(crate) const RETURN: u32 = 253;
 
 /// The decoration Location.
 pub(crate) const LOCATION: u32 = 30;
+/// The decoration Binding.
+pub(crate) const BINDING: u32 = 33;
 /// The decoration BuiltIn.
 pub(crate) const BUILT_IN: u32 = 11;
 /// The storage class Input.

@@ -2,7 +2,7 @@
 
 use crate::image::{DRAWN_LAYERS, LAYERS};
 use ash::vk;
-use etalon_frame::PathLayers;
+use etalon_frame::{PathLayers, PathReads};
 
 /// The formats and sample count of a pass's attachments.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -16,6 +16,8 @@ pub(crate) struct Targets {
     pub(crate) samples: u32,
     /// The layers of the pass.
     pub(crate) layers: PathLayers,
+    /// The way in which draws read attachments of the pass; `None` if no draw does.
+    pub(crate) reads: Option<PathReads>,
 }
 
 impl Targets {

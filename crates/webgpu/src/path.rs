@@ -55,6 +55,8 @@ pub(crate) fn paths(
         )
         | PathValue::Start(PathStart::Transfer | PathStart::ClearCommand)
         | PathValue::Pass(_)
+        // A texture that a pass draws to cannot be bound in it (Resource Usages).
+        | PathValue::Reads(_)
         | PathValue::Area(_)
         | PathValue::Clears(_)
         | PathValue::Results(PathResults::Once)

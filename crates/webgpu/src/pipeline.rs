@@ -249,6 +249,8 @@ fn attributes(shader: Shader) -> &'static [VertexAttribute] {
         | Shader::TexelColorEight
         | Shader::TexelDiscard
         | Shader::TexelDualSource
+        | Shader::TexelSample
+        | Shader::TexelStencil
         | Shader::UintColor
         | Shader::UniformColor
         | Shader::VertexOnly

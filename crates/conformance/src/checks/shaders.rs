@@ -24,7 +24,14 @@ fn with_shader(shader: Shader, targets: usize) -> Value {
         "rgba8unorm"
     };
     let names = &["a", "b", "c", "d", "e", "f", "g", "h"][..targets];
-    let textures = &["s", "t"][..shader.textures()];
+    let samples = if shader.reads_sample() { 4 } else { 1 };
+    let (textures, tested) = if shader.reads_stencil() {
+        (&["depth"][..], "depth24plus-stencil8")
+    } else if shader.reads_sample() {
+        (&["a"][..], "depth32float")
+    } else {
+        (&["s", "t"][..shader.textures()], "depth32float")
+    };
     let texture = if shader.writes_mask() || shader.writes_reference() {
         json!({ "format": "rgba32float", "size": [4, 4], "texels":
             { "kind": "rows", "values": [[1, 0.5, 1, 1], [1, 0, 1, 0], [0, 1, 1, 1], [65535, 1, 0, 0]] } })
@@ -32,9 +39,9 @@ fn with_shader(shader: Shader, targets: usize) -> Value {
         json!({ "format": "rgba8unorm", "size": [4, 4] })
     };
     let mut attachments =
-        json!({ "depth": { "format": "depth32float" }, "s": texture, "t": texture });
+        json!({ "depth": { "format": tested, "samples": samples }, "s": texture, "t": texture });
     for name in names {
-        attachments[*name] = json!({ "format": format });
+        attachments[*name] = json!({ "format": format, "samples": samples });
     }
     let mut draw = json!({
         "mesh": { "kind": "cover", "uv": [0.5, 0.5, 1, 1] }, "shader": shader.name(), "textures": textures,

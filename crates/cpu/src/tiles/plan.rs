@@ -187,6 +187,9 @@ impl PassKernels {
         if !pass.clears.is_empty() {
             return Err("clear commands");
         }
+        if pass.reads_itself() {
+            return Err("an attachment of the pass as texture");
+        }
         let color = pass.color.first().copied();
         let size = scene.pass_size(pass);
         let positions = standard_sample_positions(scene.pass_samples(pass));

@@ -68,6 +68,9 @@ functions! {
     glBindTexture(target: Enum, texture: Texture);
     glBindVertexArray(array: VertexArray);
     glBlendBarrier();
+    glFramebufferFetchBarrierEXT();
+    glTextureBarrier();
+    glTextureBarrierNV();
     glBlendBarrierKHR();
     glBlendColor(r: Float, g: Float, b: Float, a: Float);
     glBlendEquation(mode: Enum);

@@ -60,6 +60,7 @@ classes! {
     interpolation = "interpolation",
     invariance = "invariance",
     logic = "logic",
+    own_pass = "own-pass",
     provoking = "provoking",
     read_only = "read-only",
     readback = "readback",

@@ -69,6 +69,8 @@ mod texel_color_all;
 mod texel_color_eight;
 mod texel_discard;
 mod texel_dual_source;
+mod texel_sample;
+mod texel_stencil;
 mod uint_color;
 mod uniform_color;
 mod vertex_only;
@@ -157,6 +159,8 @@ pub fn fragment<A: Arithmetic>(
         Shader::TexelColorEight => texel_color_eight::fragment::<A>(input),
         Shader::TexelDiscard => texel_discard::fragment(a, input),
         Shader::TexelDualSource => texel_dual_source::fragment::<A>(input),
+        Shader::TexelSample => texel_sample::fragment::<A>(input),
+        Shader::TexelStencil => texel_stencil::fragment(a, input),
         Shader::UintColor => uint_color::fragment(a, input),
         Shader::UniformColor => uniform_color::fragment(a, input),
         Shader::VertexOnly => vertex_only::fragment(a),

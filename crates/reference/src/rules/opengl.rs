@@ -659,6 +659,11 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "OpenGL 4.5: 14.6.1 Basic Polygon Rasterization: front by the sign of the area",
             "OpenGL 4.6: 14.6.1 Basic Polygon Rasterization: front by the sign of the area",
         ]),
+        own_pass: text.cite([
+            "OpenGL 3.3: ARB_texture_barrier: TextureBarrier",
+            "OpenGL 4.5: 9.3.1 Rendering Feedback Loops: TextureBarrier",
+            "OpenGL 4.6: 9.3.1 Rendering Feedback Loops: TextureBarrier",
+        ]),
         stencil: text.cite([
             "OpenGL 3.3: 4.1.4 Stencil Test: integer operations",
             "OpenGL 4.5: 17.3.3 Stencil Test: integer operations",

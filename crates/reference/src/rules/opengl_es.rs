@@ -594,6 +594,11 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             "OpenGL ES 3.1: 13.5.1 Basic Polygon Rasterization: front by the sign of the area",
             "OpenGL ES 3.2: 13.7.1 Basic Polygon Rasterization: front by the sign of the area",
         ]),
+        own_pass: text.cite([
+            "OpenGL ES 3.0: EXT_shader_framebuffer_fetch: 3.9.2 Shader Outputs",
+            "OpenGL ES 3.1: EXT_shader_framebuffer_fetch: 3.9.2 Shader Outputs",
+            "OpenGL ES 3.2: EXT_shader_framebuffer_fetch: 3.9.2 Shader Outputs",
+        ]),
         stencil: text.cite([
             "OpenGL ES 3.0: 4.1.4 Stencil Test: integer operations",
             "OpenGL ES 3.1: 15.1.2 Stencil Test: integer operations",

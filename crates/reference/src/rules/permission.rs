@@ -421,6 +421,8 @@ macro_rules! rules {
             pub facing: &'static str,
             /// The clause that makes stencil values exact.
             pub stencil: &'static str,
+            /// The clause of reads of attachments of the own pass.
+            pub own_pass: &'static str,
             /// The clause that makes unwritten channels exact.
             pub write_mask: &'static str,
         }

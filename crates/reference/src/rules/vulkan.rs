@@ -446,6 +446,8 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         ),
         facing: "Vulkan: Basic Polygon Rasterization: front by the sign of the area; zero area is \
                  not front",
+        own_pass: "Vulkan: Render Pass, Synchronization Options: a barrier within a subpass, a dependency between two, or \
+            rasterization order puts earlier attachment writes before the reads of the same sample",
         stencil: "Vulkan: Stencil Test: integer operations",
         write_mask: "Vulkan: Color Write Mask: components not written keep their value",
     }

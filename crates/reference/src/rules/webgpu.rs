@@ -340,6 +340,7 @@ pub(super) fn rules(limits: &Limits) -> Rules {
         ),
         facing: "WebGPU: 23.2.5.4 Polygon Rasterization: front by the sign of the area; zero area \
                  is back",
+        own_pass: "WebGPU: Resource Usages: no pass reads what it writes",
         stencil: "WebGPU: 23.2.7 Output Merging: integer operations",
         write_mask: "WebGPU: GPUColorWrite: channels not written keep their value",
     }

@@ -239,6 +239,7 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             "Yardstick: as the API's text says",
         ),
         facing: "Direct3D 11.3: 15.10 Facing: after snapping, zero area is back",
+        own_pass: "Direct3D 11.3: Rasterizer Ordered Views: reads follow the writes of earlier primitives",
         stencil: "Direct3D 11.3: 17.12 Stencil: integer operations",
         write_mask: "Direct3D 11.3: 17.8 Write Masks",
     }

@@ -6,7 +6,7 @@
 use ash::vk;
 use etalon_backend::{Argument, RecordedCall, VulkanNeeds};
 use etalon_frame::{
-    Feature, PathDraws, PathLayers, PathState, PathViewport, Requirement, TextureFormat,
+    Feature, PathDraws, PathLayers, PathReads, PathState, PathViewport, Requirement, TextureFormat,
 };
 use etalon_scene::Scene;
 
@@ -28,6 +28,7 @@ impl Needed {
             all: scene.path.state != PathState::default()
                 || scene.path.viewport != PathViewport::default()
                 || scene.path.layers != PathLayers::default()
+                || scene.path.reads != PathReads::default()
                 || scene.path.draws == PathDraws::IndirectCount,
             ..Self::default()
         };
@@ -102,6 +103,15 @@ impl Needed {
             "VkPhysicalDeviceExtendedDynamicState2FeaturesEXT" => "VK_EXT_extended_dynamic_state2",
             "VkPhysicalDeviceDepthClipEnableFeaturesEXT" => "VK_EXT_depth_clip_enable",
             "VkPhysicalDeviceProvokingVertexFeaturesEXT" => "VK_EXT_provoking_vertex",
+            "VkPhysicalDeviceDynamicRenderingLocalReadFeaturesKHR" => {
+                "VK_KHR_dynamic_rendering_local_read"
+            }
+            "VkPhysicalDeviceAttachmentFeedbackLoopLayoutFeaturesEXT" => {
+                "VK_EXT_attachment_feedback_loop_layout"
+            }
+            "VkPhysicalDeviceRasterizationOrderAttachmentAccessFeaturesEXT" => {
+                "VK_EXT_rasterization_order_attachment_access"
+            }
             "VkPhysicalDeviceVulkan11Features" => "VK_KHR_multiview",
             "VkPhysicalDeviceVulkan12Features" => "VK_KHR_draw_indirect_count",
             "VkPhysicalDeviceBlendOperationAdvancedFeaturesEXT" => {
@@ -169,6 +179,7 @@ fn extension(feature: Feature) -> Option<&'static str> {
             "VK_EXT_blend_operation_advanced"
         }
         Feature::LastProvokingVertex | Feature::MixedProvokingVertices => "VK_EXT_provoking_vertex",
+        Feature::OwnPassReadsInOrder => "VK_EXT_rasterization_order_attachment_access",
         Feature::StencilExport => "VK_EXT_shader_stencil_export",
         _ => return None,
     })

@@ -1,6 +1,6 @@
 //! The functions of Vulkan that are recorded, and the structures that they take, as the registry declares them.
 //!
-//! Made by `generate` from `vk.xml` 1.3.239. Do not edit.
+//! Made by `generate` from `vk.xml` 1.3.281. Do not edit.
 
 #![expect(
     deprecated,
@@ -1390,6 +1390,23 @@ structures! {
         provokingVertexLast = provoking_vertex_last: U32,
         transformFeedbackPreservesProvokingVertex = transform_feedback_preserves_provoking_vertex: U32,
     }
+    VkPhysicalDeviceDynamicRenderingLocalReadFeaturesKHR: vk::PhysicalDeviceDynamicRenderingLocalReadFeaturesKHR {
+        sType = s_type: named!(vk::StructureType),
+        pNext = p_next: Next(chained),
+        dynamicRenderingLocalRead = dynamic_rendering_local_read: U32,
+    }
+    VkPhysicalDeviceAttachmentFeedbackLoopLayoutFeaturesEXT: vk::PhysicalDeviceAttachmentFeedbackLoopLayoutFeaturesEXT {
+        sType = s_type: named!(vk::StructureType),
+        pNext = p_next: Next(chained),
+        attachmentFeedbackLoopLayout = attachment_feedback_loop_layout: U32,
+    }
+    VkPhysicalDeviceRasterizationOrderAttachmentAccessFeaturesEXT: vk::PhysicalDeviceRasterizationOrderAttachmentAccessFeaturesEXT {
+        sType = s_type: named!(vk::StructureType),
+        pNext = p_next: Next(chained),
+        rasterizationOrderColorAttachmentAccess = rasterization_order_color_attachment_access: U32,
+        rasterizationOrderDepthAttachmentAccess = rasterization_order_depth_attachment_access: U32,
+        rasterizationOrderStencilAttachmentAccess = rasterization_order_stencil_attachment_access: U32,
+    }
     VkPhysicalDeviceExtendedDynamicState3FeaturesEXT: vk::PhysicalDeviceExtendedDynamicState3FeaturesEXT {
         sType = s_type: named!(vk::StructureType),
         pNext = p_next: Next(chained),
@@ -1521,6 +1538,9 @@ chained! {
     VkPhysicalDeviceVulkan12Features: PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
     VkPhysicalDeviceVulkan13Features: PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
     VkPhysicalDeviceProvokingVertexFeaturesEXT: PHYSICAL_DEVICE_PROVOKING_VERTEX_FEATURES_EXT,
+    VkPhysicalDeviceDynamicRenderingLocalReadFeaturesKHR: PHYSICAL_DEVICE_DYNAMIC_RENDERING_LOCAL_READ_FEATURES_KHR,
+    VkPhysicalDeviceAttachmentFeedbackLoopLayoutFeaturesEXT: PHYSICAL_DEVICE_ATTACHMENT_FEEDBACK_LOOP_LAYOUT_FEATURES_EXT,
+    VkPhysicalDeviceRasterizationOrderAttachmentAccessFeaturesEXT: PHYSICAL_DEVICE_RASTERIZATION_ORDER_ATTACHMENT_ACCESS_FEATURES_EXT,
     VkPhysicalDeviceExtendedDynamicState3FeaturesEXT: PHYSICAL_DEVICE_EXTENDED_DYNAMIC_STATE_3_FEATURES_EXT,
     VkPhysicalDeviceExtendedDynamicState2FeaturesEXT: PHYSICAL_DEVICE_EXTENDED_DYNAMIC_STATE_2_FEATURES_EXT,
     VkPhysicalDeviceBlendOperationAdvancedFeaturesEXT: PHYSICAL_DEVICE_BLEND_OPERATION_ADVANCED_FEATURES_EXT,
