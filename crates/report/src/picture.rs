@@ -1,6 +1,7 @@
 //! Images of frames as PNG data URIs: the allowed codes, the actual codes, and their difference.
 
 mod strip;
+mod window;
 
 pub(crate) use strip::Strip;
 
@@ -12,7 +13,8 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 use std::collections::HashMap;
 use std::sync::Mutex;
-use strip::{StripPlace, StripValues};
+use strip::{PagePicture, StripPlace, StripValues};
+use window::TexelWindow;
 
 /// The largest width and height of a picture, in texels. Larger images are cut around the first wrong texel.
 const WINDOW: u32 = 128;
@@ -26,46 +28,6 @@ const WIDEST: u32 = 512;
 const FAIL: [u8; 3] = [0xd5, 0x5e, 0x00];
 const IMPRECISE: [u8; 3] = [0x56, 0xb4, 0xe9];
 const FINE: [u8; 3] = [0x20, 0x24, 0x2a];
-
-/// One picture.
-pub(crate) struct PagePicture {
-    pub(crate) label: String,
-    /// A `data:` URL.
-    pub(crate) uri: String,
-    /// Width and height on the page, in pixels.
-    pub(crate) size: [u32; 2],
-}
-
-/// The part of an image that is shown.
-#[derive(Clone, Copy)]
-struct TexelWindow {
-    x: u32,
-    y: u32,
-    width: u32,
-    height: u32,
-}
-
-impl TexelWindow {
-    /// Returns the indices of the samples in the window, row by row.
-    fn samples(self, image: &FrameImage) -> impl Iterator<Item = usize> {
-        let (samples, wide) = (image.samples as usize, image.size[0] as usize);
-        let rows = self.y as usize..(self.y + self.height) as usize;
-        let columns = self.x as usize..(self.x + self.width) as usize;
-        let texels = rows.flat_map(move |y| columns.clone().map(move |x| y * wide + x));
-        texels.flat_map(move |texel| (0..samples).map(move |sample| texel * samples + sample))
-    }
-
-    /// Returns the column, row and sample of the first wrong sample within the window: one that fails, else any.
-    fn first_wrong(self, image: &FrameImage) -> Option<[u32; 3]> {
-        let wrong = |index: &usize| image.wrong[*index] != FrameImage::FINE;
-        let fails = |index: &usize| wrong(index) && image.wrong[*index] != FrameImage::IMPRECISE;
-        let found = self.samples(image).find(fails);
-        let index = found.or_else(|| self.samples(image).find(wrong))? as u32;
-        let (texel, sample) = (index / image.samples, index % image.samples);
-        let (x, y) = (texel % image.size[0], texel / image.size[0]);
-        Some([x - self.x, y - self.y, sample])
-    }
-}
 
 struct PictureView<'a> {
     image: &'a FrameImage,

@@ -3,7 +3,7 @@
 //! The figure works without a script. `page/compare.js` adds a slider between the first two pictures, and the values
 //! under the pointer.
 
-use super::{PagePicture, TexelWindow};
+use super::window::TexelWindow;
 use crate::lists::Interner;
 use crate::words::texel_values;
 use etalon_record::FrameImage;
@@ -11,6 +11,15 @@ use maud::{Markup, Render, html};
 
 /// The maximum number of bytes of the values of an image. Beyond it, only wrong texels have values.
 const VALUE_BYTES: usize = 100_000;
+
+/// One picture.
+pub(crate) struct PagePicture {
+    pub(crate) label: String,
+    /// A `data:` URL.
+    pub(crate) uri: String,
+    /// Width and height on the page, in pixels.
+    pub(crate) size: [u32; 2],
+}
 
 /// All pictures of one image of a frame.
 pub(crate) struct Strip {

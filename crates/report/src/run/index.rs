@@ -17,13 +17,14 @@ mod details;
 mod facts;
 mod matrix;
 mod overview;
+mod parts;
 
 pub(crate) use data::RECORDS;
-pub(crate) use details::DETAILS;
+pub(crate) use parts::{INDEX, PageParts};
 
 use crate::error::ReportError;
 use crate::files::Destination;
-use crate::methods::{self, Methods};
+use crate::methods;
 use crate::news::RunNews;
 use crate::numbers::count;
 use crate::page::{self, Page, link};
@@ -31,11 +32,11 @@ use crate::run::beside;
 use crate::run::grid::{RunGrid, VerdictTally};
 use crate::run::reasons::{PageReasons, total};
 use crate::words;
-use etalon_record::{Bench, Dead, Run, Verdict};
+use etalon_record::{Dead, Run, Verdict};
 use maud::{Markup, html};
+use parts::DETAILS;
 use std::path::Path;
 
-pub(crate) const INDEX: &str = "index.html";
 const STYLE: &str = concat!(
     include_str!("index/matrix.css"),
     include_str!("index/cases.css"),
@@ -56,18 +57,6 @@ const SCRIPT: &str = concat!(
     include_str!("index/script/route.js"),
     "})();\n"
 );
-
-/// What the pages show beside the records.
-#[derive(Clone, Copy)]
-pub(crate) struct PageParts<'a> {
-    /// The scripts of the case files, by file.
-    pub(crate) scripts: &'a [(String, String)],
-    pub(crate) dead: &'a [Dead],
-    pub(crate) methods: Option<&'a Methods<'a>>,
-    pub(crate) news: Option<&'a RunNews>,
-    /// The frame times.
-    pub(crate) timed: Option<&'a Bench>,
-}
 
 /// Writes the pages and the scripts with the records. Returns their paths. Frame files are read from the folder when
 /// they are needed.

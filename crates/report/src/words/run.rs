@@ -4,7 +4,7 @@ use super::record::headline;
 use super::verdict::{Tone, name};
 use crate::command;
 use crate::numbers::thousands;
-use etalon_record::{Record, Run, Verdict};
+use etalon_record::{Record, Run};
 use std::cmp::Reverse;
 use std::collections::HashSet;
 
@@ -83,7 +83,7 @@ pub(crate) fn counted(n: u64, noun: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use etalon_record::{Expected, Header};
+    use etalon_record::{Expected, Header, Verdict};
 
     fn run(records: Vec<Record>, cases: u64) -> Run {
         let mut header = Header::new(Vec::new(), cases);

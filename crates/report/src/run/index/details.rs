@@ -1,6 +1,7 @@
 //! `details.html`: what is known about the run as a whole.
 
-use super::{INDEX, PageParts, assertions, matrix, overview};
+use super::parts::{INDEX, PageParts};
+use super::{assertions, matrix, overview};
 use crate::bench;
 use crate::chart;
 use crate::mark::class;
@@ -13,8 +14,6 @@ use crate::words::{self, Tone};
 use etalon_record::{Run, Verdict};
 use maud::{Markup, html};
 
-/// The name of the page.
-pub(crate) const DETAILS: &str = "details.html";
 const STYLE: &str = include_str!("matrix.css");
 
 /// Returns the page.

@@ -11,8 +11,9 @@ use maud::{Markup, html};
 /// reason.
 const LONGEST: usize = 4000;
 
-/// The words, the form, and true if the record's page shows the same fact with its pictures. Forms: `text`, `lead` for
-/// text before the pictures, `pre` for text from a driver, `case` for an id that becomes a link, `code`.
+/// The words, the form, and true if the record's page shows the same fact with its pictures. Forms: `text`; `lead`
+/// and `known`, what is wrong and the expectation, which come before the pictures; `pre` for text from a driver; `case`
+/// and `example` for ids that become links; `code`.
 pub(crate) type Label = (&'static str, &'static str, bool);
 
 /// Returns the note that replaces the facts of a record if there is no room for them.
@@ -34,7 +35,7 @@ pub(crate) fn of(record: &Record) -> Vec<(Label, String)> {
         add("Message", "pre", true, end(&reasons));
     }
     if let Some(expected) = &record.expected {
-        add("Known", "lead", true, end(&expected.reason));
+        add("Known", "known", true, end(&expected.reason));
     }
     if let Some(case) = &record.look {
         let text =
@@ -92,7 +93,7 @@ pub(crate) fn of(record: &Record) -> Vec<(Label, String)> {
     // Selftests of a file that fail as due differ in nothing that matters.
     let example = record.example.as_ref().filter(|_| !record.due_fail);
     if let Some(case) = example {
-        add("Shown in full by", "case", true, case.clone());
+        add("Shown in full by", "example", true, case.clone());
     }
     if let Some(frame) = &record.frame {
         add("Frame", "code", true, frame.clone());
@@ -103,7 +104,7 @@ pub(crate) fn of(record: &Record) -> Vec<(Label, String)> {
 /// Returns the facts that belong to a record's pictures, as a list.
 pub(crate) fn list(record: &Record) -> Markup {
     let facts = of(record).into_iter();
-    let listed = |(_, form, in_body): Label| in_body && form != "lead";
+    let listed = |(_, form, in_body): Label| in_body && !["lead", "known"].contains(&form);
     let facts: Vec<_> = facts.filter(|(label, _)| listed(*label)).collect();
     html! {
         @if !facts.is_empty() {
@@ -112,7 +113,7 @@ pub(crate) fn list(record: &Record) -> Markup {
                 dd { @match *form {
                     "pre" => pre { (text) },
                     "code" => code { (text) },
-                    "case" => a href=(link::case(text)) { code { (text) } },
+                    "case" | "example" => a href=(link::case(text)) { code { (text) } },
                     _ => (text),
                 } }
             } }

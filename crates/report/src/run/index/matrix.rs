@@ -1,6 +1,6 @@
 //! Areas against adapters: a cell is a number and a bar, its words are its title and the list that it leads to.
 
-use super::INDEX;
+use super::parts::{INDEX, SAME_PAGE};
 use crate::lists::grouped;
 use crate::mark::class;
 use crate::page::adapter::breakable;
@@ -29,7 +29,7 @@ pub(crate) fn section(grid: &RunGrid<'_>) -> Markup {
         section id="matrix" {
             h2 { "Areas and adapters" }
             (legend())
-            (table(grid, &by_api, "Verdicts by area and adapter, adapters by API", INDEX_LINKS))
+            (table(grid, &by_api, "Verdicts by area and adapter, adapters by API", SAME_PAGE))
         }
     }
 }
@@ -58,9 +58,6 @@ fn legend() -> Markup {
         }
     }
 }
-
-/// Links within `index.html`.
-const INDEX_LINKS: &str = "";
 
 /// Returns a table. `page` is the page that lists the cases.
 fn table(grid: &RunGrid<'_>, groups: &[ColumnGroup<'_>], caption: &str, page: &str) -> Markup {

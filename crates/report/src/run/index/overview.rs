@@ -1,6 +1,6 @@
 //! The sections without news: known failures, cases that were not drawn, dead expectations.
 
-use super::{DETAILS, INDEX};
+use super::parts::{DETAILS, INDEX, SAME_PAGE};
 use crate::numbers::count;
 use crate::run::blind::blind_spots;
 use crate::run::dead::meaning;
@@ -27,14 +27,14 @@ pub(super) fn known(run: &Run, reasons: &PageReasons) -> Markup {
                     (count(total(known), "bad verdict")) " of " (count(known.len() as u64, "reason"))
                     " that the expectations or the triage name. They do not count against the run."
                 }
-                (first_rows(&table("Known failures by reason", INDEX_LINKS), known, 0))
+                (first_rows(&table("Known failures by reason", SAME_PAGE), known, 0))
                 @if !hidden.is_empty() {
                     p {
                         b { "Hidden: " } "an adapter draws every case of " (count(hidden.len() as u64, "kind"))
                         " wrong as expected, so that no other bug can show there."
                     }
                     @let rows: Vec<NumberedReason<'_>> = hidden.iter().take(FIRST).map(|spot| (None, spot)).collect();
-                    (table("Cases that an adapter draws wrong throughout", INDEX_LINKS).folded(&rows))
+                    (table("Cases that an adapter draws wrong throughout", SAME_PAGE).folded(&rows))
                 }
             }
         }
@@ -52,7 +52,7 @@ pub(super) fn not_drawn(run: &Run, reasons: &PageReasons) -> Markup {
                     b { (total(undrawn)) } " of " (count(run.records.len() as u64, "record"))
                     " are of cases that were not drawn. Nothing is known about them."
                 }
-                (first_rows(&table("Reasons why cases were not drawn", INDEX_LINKS), undrawn, reasons.known.len()))
+                (first_rows(&table("Reasons why cases were not drawn", SAME_PAGE), undrawn, reasons.known.len()))
             }
         }
     }
@@ -77,9 +77,6 @@ pub(super) fn reasons(reasons: &PageReasons) -> Markup {
 
 /// A reason, and its number if its cases can be listed.
 type NumberedReason<'a> = (Option<usize>, &'a ReasonRecords);
-
-/// Links within `index.html`.
-const INDEX_LINKS: &str = "";
 
 /// Returns a table of reasons. `page` is the page that lists the cases.
 fn table<'a>(caption: &str, page: &'static str) -> Table<'a, NumberedReason<'a>> {

@@ -109,12 +109,11 @@ function onAdapter(one, i, held, bodies) {
     const others = told.filter(fact => !fact.inBody);
     if (others.length) section.append(facts(others.map(fact => [fact.label, shownFact(fact)])));
   } else {
-    for (const { label, text } of told.filter(fact => fact.form === "lead")) {
-      section.append(label === "In short" ? make("p", { class: "violation" }, make("b", {}, text)) : make("p", { class: "known" }, make("b", {}, label + ": "), text));
-    }
-    const example = told.find(fact => fact.label === "Shown in full by");
+    const [lead, known, example] = ["lead", "known", "example"].map(form => told.find(fact => fact.form === form));
+    if (lead) section.append(make("p", { class: "violation" }, make("b", {}, lead.text)));
+    if (known) section.append(make("p", { class: "known" }, make("b", {}, known.label + ": "), known.text));
     if (example) section.append(alike(example.text, i));
-    const others = told.filter(fact => fact.form !== "lead" && fact !== example);
+    const others = told.filter(fact => ![lead, known, example].includes(fact));
     if (others.length) section.append(facts(others.map(fact => [fact.label, shownFact(fact)])));
     section.append(make("details", { class: "again" }, make("summary", {}, "Commands"),
       make("p", {}, "Draw it again: ", make("code", {}, "etalon run " + quoted(one.id) + " --adapter " + quoted(data.adapters[i])))));

@@ -61,7 +61,7 @@ function drawHead() {
   const names = columns.map(i => data.adapters[i]);
   $("case-table").classList.toggle("upright", columns.length > 4);
   for (const name of columns.length === 1 ? [...names, "What is wrong"] : names) {
-    row.append(make("th", { scope: "col" }, make("span", {}, ...name.split(/(?<=:)/).flatMap((part, i) => i ? [make("wbr", {}), part] : [part]))));
+    row.append(make("th", { scope: "col" }, make("span", {}, ...breakable(name))));
   }
   $("only").hidden = !state.reason;
   $("only").replaceChildren(make("b", {}, "With the reason: "), data.reasons[state.reason] ?? "", " ",
@@ -148,8 +148,9 @@ function verdictCell(one, adapter) {
 function reasonCell(one, adapter) {
   const cell = make("td", { class: "says why" });
   withFacts(one.file.area).then(held => {
-    const told = recordOf(held, one, adapter)?.facts.find(fact => fact.form === "lead");
-    cell.textContent = told?.text ?? "";
+    const told = recordOf(held, one, adapter).facts;
+    const [lead, known] = ["lead", "known"].map(form => told.find(fact => fact.form === form));
+    cell.textContent = (lead ?? known)?.text ?? "";
   });
   return cell;
 }
