@@ -18,6 +18,8 @@ use window::TexelWindow;
 
 /// The largest width and height of a picture, in texels. Larger images are cut around the first wrong texel.
 const WINDOW: u32 = 128;
+/// The difference of the lowest and highest allowed value above which a texel is striped, of 255.
+const STRIPED: u8 = 16;
 /// The largest side of a texel in the file of a picture, in pixels.
 const BLOCK: u32 = 8;
 /// The least height to which images are enlarged on the page, in pixels.
@@ -118,7 +120,7 @@ pub(crate) fn named(image: &FrameImage, names: [&str; 2], bounds: bool) -> Optio
     };
     let nearest = nearest(image);
     let pictures = [
-        view.plain(allowed.to_owned(), &nearest, color),
+        view.allowed(allowed.to_owned(), &nearest, color),
         view.plain(actual.to_owned(), &image.actual, color),
         view.difference(),
     ];
@@ -303,6 +305,28 @@ impl<'a> PictureView<'a> {
             0.0
         };
         (t.clamp(0.0, 1.0) * 255.0).round() as u8
+    }
+
+    /// Draws the allowed codes, and stripes of the lowest and the highest ones where they differ much.
+    fn allowed(&self, label: String, nearest: &[u32], look: ShownChannels) -> Option<PagePicture> {
+        let image = self.image;
+        let ends = |sample| [&image.low, &image.high].map(|codes| self.texel(codes, sample, look));
+        let is_wide = |sample| {
+            let [low, high] = ends(sample);
+            let wide = low
+                .iter()
+                .zip(high)
+                .any(|(low, high)| low.abs_diff(high) > STRIPED);
+            wide.then_some([low, high])
+        };
+        if !(0..image.wrong.len()).any(|sample| is_wide(sample).is_some()) {
+            return self.plain(label, nearest, look);
+        }
+        self.draw(label, self.scale.min(BLOCK), |sample, x, y| {
+            let stripe = ((x + y) / 2 % 2) as usize;
+            let striped = is_wide(sample).map(|ends| ends[stripe]);
+            striped.unwrap_or_else(|| self.texel(nearest, sample, look))
+        })
     }
 
     /// Draws one pixel per sample. Each sample of the texels has a separate tile, side by side.
@@ -626,9 +650,9 @@ mod tests {
         let pixel = |picture: &PagePicture, x, y| decode(picture).get_pixel(x, y).0;
         assert_eq!(pixel(&strip.more[0], 0, 0), [0, 0, 0, 255]);
         assert_eq!(pixel(&strip.more[1], 0, 0), [255, 255, 255, 255]);
-        for same in &strip.pictures[..2] {
-            assert_eq!(pixel(same, 0, 0), [128, 128, 128, 255], "the nearest code");
-        }
+        assert_eq!(pixel(&strip.pictures[0], 0, 0), [0, 0, 0, 255], "a stripe");
+        assert_eq!(pixel(&strip.pictures[0], 2, 0), [255, 255, 255, 255]);
+        assert_eq!(pixel(&strip.pictures[1], 0, 0), [128, 128, 128, 255]);
         let difference = |x, y| pixel(&strip.pictures[2], x, y);
         assert_eq!(difference(0, 0)[..3], FINE);
         assert_eq!(difference(124, 124)[..3], [255; 3], "the cross's middle");

@@ -23,9 +23,23 @@ pub fn conclusion(run: &Run) -> String {
 
 /// Returns the number of unexpected records in words, and the gravest of them; `None` if nothing is unexpected.
 pub(crate) fn new_failures(run: &Run) -> Option<(String, &Record)> {
-    let bad = || run.all_records().filter(|record| record.unexpected());
-    let first = bad().min_by_key(|r| (Reverse(r.verdict.severity()), &r.case, &r.adapter))?;
-    Some((counted(bad().count() as u64, "new failure"), first))
+    let bad = run.all_records().filter(|record| record.unexpected());
+    let selected = run.records.iter().filter(|record| record.unexpected());
+    let gravest = |r: &&Record| {
+        (
+            Reverse(r.verdict.severity()),
+            r.case.clone(),
+            r.adapter.clone(),
+        )
+    };
+    let first = selected.min_by_key(gravest);
+    let first = first.or_else(|| {
+        run.beside
+            .iter()
+            .filter(|r| r.unexpected())
+            .min_by_key(gravest)
+    })?;
+    Some((counted(bad.count() as u64, "new failure"), first))
 }
 
 /// Returns the conclusion of a run without new failures.
@@ -71,7 +85,7 @@ pub(crate) fn nothing_unexpected(run: &Run) -> String {
 /// Returns the verdict and the reason of a record.
 pub(crate) fn why(record: &Record) -> String {
     let text = format!("{}: {}", name(record.verdict), headline(record));
-    super::plain(&text, 200)
+    super::plain(&text, 160)
 }
 
 /// Returns a count with separators: `2,723 cases`.

@@ -137,8 +137,8 @@ fn pictures(strips: &[Option<Strip>], budget: &mut DetailBudget) -> Markup {
             "Difference: " span.cross { "✗" } " outside the legal set, " span.dot { "•" }
             " legal but outside the yardstick; the brighter, the farther outside the allowed range, "
             "in codes (for floats units in the last place) on a logarithmic scale. The allowed picture has the "
-            "allowed codes that are nearest to the drawn ones. Allowed low and high enclose all allowed outcomes, "
-            "so a wrong texel may lie between them."
+            "allowed codes that are nearest to the drawn ones, and stripes if they span a wide range. Allowed low "
+            "and high enclose all allowed outcomes, so a wrong texel may lie between them."
         }
     }
 }
