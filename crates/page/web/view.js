@@ -246,8 +246,6 @@ async function showCase(run, suite, id) {
     // The suite escapes all texts.
     const body = make("div", { class: "record" });
     body.innerHTML = new TextDecoder().decode(html);
-    // A run of the page has one adapter.
-    body.querySelectorAll(".all").forEach((link) => link.remove());
     const link = make("a", { href: `#run=${encoded(id)}&profile=full` }, "Draw this case alone");
     content.append(make("p", {}, make("code", {}, run.opened.adapter), " ", chip), body, make("p", { class: "again" }, link, ". The link works on any device."));
   }

@@ -63,6 +63,6 @@ pub use staged::WrittenFolder;
 pub use terminal::TableOptions;
 pub use versions::{VERSIONS_PAGE, versions_table, write_versions};
 pub use words::{
-    ReducedCase, api_name, judged_by, message, operations_text, plain, reasons_text, sentence,
-    story_text,
+    ReducedCase, api_name, conclusion, judged_by, message, operations_text, plain, reasons_text,
+    sentence, story_text,
 };

@@ -14,7 +14,7 @@ pub(crate) fn class(verdict: Verdict, tone: Tone) -> &'static str {
     let (_, [plain, excused]) = words::signs(verdict);
     match tone {
         Tone::Missed => "f",
-        Tone::Excused => excused,
+        Tone::Excused | Tone::Due => excused,
         Tone::Plain => plain,
     }
 }

@@ -84,7 +84,7 @@ pub(crate) fn totals<N: Render>(
     items: impl IntoIterator<Item = (&'static str, u64, N, &'static str)>,
 ) -> Markup {
     html! {
-        section {
+        section id="totals" {
             h2 { "Totals" }
             ul.totals {
                 @for (class, n, name, about) in items {

@@ -1,74 +1,35 @@
 //! Images of frames as PNG data URIs: the allowed codes, the actual codes, and their difference.
 
+mod strip;
+mod window;
+
+pub(crate) use strip::Strip;
+
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use etalon_frame::{Aspect, ChannelEncoding, Image};
 use etalon_record::FrameImage;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
-use maud::{Markup, Render, html};
 use std::collections::HashMap;
 use std::sync::Mutex;
+use strip::{PagePicture, StripPlace, StripValues};
+use window::TexelWindow;
 
 /// The largest width and height of a picture, in texels. Larger images are cut around the first wrong texel.
 const WINDOW: u32 = 128;
-/// The largest side of a texel on the page, in pixels. Images of up to 20 texels use it.
-const ENLARGED: u32 = 8;
-/// The approximate width to which images are enlarged on the page, in pixels.
-const TARGET: u32 = 160;
+/// The difference of the lowest and highest allowed value above which a texel is striped, of 255.
+const STRIPED: u8 = 16;
+/// The largest side of a texel in the file of a picture, in pixels.
+const BLOCK: u32 = 8;
+/// The least height to which images are enlarged on the page, in pixels.
+const TARGET: u32 = 256;
+/// The width above which the samples of a texel are not enlarged further, in pixels.
+const WIDEST: u32 = 512;
 
 const FAIL: [u8; 3] = [0xd5, 0x5e, 0x00];
 const IMPRECISE: [u8; 3] = [0x56, 0xb4, 0xe9];
 const FINE: [u8; 3] = [0x20, 0x24, 0x2a];
-
-/// One picture.
-pub(crate) struct PagePicture {
-    pub(crate) label: String,
-    /// A `data:` URL.
-    pub(crate) uri: String,
-    /// Width and height on the page, in pixels.
-    pub(crate) size: [u32; 2],
-}
-
-/// All pictures of one image of a frame.
-pub(crate) struct Strip {
-    pub(crate) title: String,
-    pub(crate) pictures: Vec<PagePicture>,
-    pub(crate) caption: String,
-}
-
-impl Strip {
-    /// Returns the bytes of the pictures on a page.
-    pub(crate) fn bytes(&self) -> usize {
-        self.pictures.iter().map(|p| p.uri.len()).sum()
-    }
-}
-
-impl Render for Strip {
-    fn render(&self) -> Markup {
-        html! {
-            div.strip {
-                h5 { (self.title) }
-                @for p in &self.pictures {
-                    figure {
-                        img src=(p.uri) width=(p.size[0]) height=(p.size[1]) alt={ (p.label) " of " (self.title) };
-                        figcaption { (p.label) }
-                    }
-                }
-                p.cap { (self.caption) }
-            }
-        }
-    }
-}
-
-/// The part of an image that is shown.
-#[derive(Clone, Copy)]
-struct TexelWindow {
-    x: u32,
-    y: u32,
-    width: u32,
-    height: u32,
-}
 
 struct PictureView<'a> {
     image: &'a FrameImage,
@@ -145,50 +106,70 @@ pub fn ringed_pictures(image: &FrameImage, sample: [u32; 3]) -> Option<Ringed> {
 
 /// Returns the pictures of an image, or `None` if its lists do not fit its size.
 pub(crate) fn strip(image: &FrameImage) -> Option<Strip> {
-    named(image, ["allowed", "actual"], true)
+    named(image, ["allowed", "drawn"], true)
 }
 
-/// Returns the pictures of an image, with these names for the allowed and the actual codes.
-pub(crate) fn named(
-    image: &FrameImage,
-    [allowed, actual]: [&str; 2],
-    bounds: bool,
-) -> Option<Strip> {
+/// Returns the pictures of an image, with these names for the allowed and the actual codes. The allowed picture has the
+/// allowed codes that are nearest to the actual ones.
+pub(crate) fn named(image: &FrameImage, names: [&str; 2], bounds: bool) -> Option<Strip> {
     let view = PictureView::of(image)?;
-    let mut pictures = Vec::new();
-    let same = image.low == image.high;
-    let mut add = |channels: &str, look: ShownChannels| {
-        let ends = [
-            ("", &image.low),
-            (" low", &image.low),
-            (" high", &image.high),
-        ];
-        let ends = if same { &ends[..1] } else { &ends[1..] };
-        for (end, codes) in ends {
-            pictures.push(view.plain(format!("{allowed}{end}{channels}"), codes, look));
-        }
-        pictures.push(view.plain(format!("{actual}{channels}"), &image.actual, look));
+    let [allowed, actual] = names;
+    let color = match image.aspect {
+        Aspect::Color => ShownChannels::Rgb,
+        _ => ShownChannels::Grey(0),
     };
-    let color = image.aspect == Aspect::Color;
-    add(
-        "",
-        if color {
-            ShownChannels::Rgb
-        } else {
-            ShownChannels::Grey(0)
-        },
-    );
+    let nearest = nearest(image);
+    let pictures = [
+        view.allowed(allowed.to_owned(), &nearest, color),
+        view.plain(actual.to_owned(), &image.actual, color),
+        view.difference(),
+    ];
+    let mut more = Vec::new();
+    let mut add = |name: String, codes: &[u32], look| more.push(view.plain(name, codes, look));
     let alpha = alpha(image);
     if alpha == Alpha::Varies {
-        add(" alpha", ShownChannels::Grey(3));
+        add(format!("{allowed} alpha"), &nearest, ShownChannels::Grey(3));
+        add(
+            format!("{actual} alpha"),
+            &image.actual,
+            ShownChannels::Grey(3),
+        );
     }
-    pictures.push(view.difference());
-    let pictures = pictures.into_iter().collect::<Option<Vec<_>>>()?;
+    let same = image.low == image.high;
+    if !same {
+        add(format!("{allowed} low"), &image.low, color);
+        add(format!("{allowed} high"), &image.high, color);
+    }
     Some(Strip {
         title: title(image),
-        pictures,
+        pictures: pictures.into_iter().collect::<Option<_>>()?,
+        more: more.into_iter().collect::<Option<_>>()?,
         caption: view.caption(same && bounds, alpha),
+        place: StripPlace {
+            window: view.window,
+            samples: image.samples,
+            wrong: view.window.first_wrong(image),
+        },
+        values: StripValues::of(image, view.window, names),
     })
+}
+
+/// Returns the actual codes, moved into the allowed range.
+fn nearest(image: &FrameImage) -> Vec<u32> {
+    let bounds = image.low.iter().zip(&image.high);
+    let encodings = image.channels.iter().cycle();
+    let codes = image.actual.iter().zip(bounds).zip(encodings);
+    let clamped = |((actual, (low, high)), encoding): ((&u32, (&u32, &u32)), &ChannelEncoding)| {
+        let order = |code: &u32| encoding.order_of_code(*code);
+        if encoding.is_nan(*actual) || order(actual) < order(low) {
+            *low
+        } else if order(actual) > order(high) {
+            *high
+        } else {
+            *actual
+        }
+    };
+    codes.map(clamped).collect()
 }
 
 fn title(image: &FrameImage) -> String {
@@ -204,6 +185,21 @@ fn title(image: &FrameImage) -> String {
         format!("{} ({aspect})", image.attachment)
     };
     format!("{name}: {width}×{height}{samples}, {}", image.channels[0])
+}
+
+/// Returns the side of a texel on the page, in pixels: a multiple of [`BLOCK`] if it is larger than a block.
+fn scale(window: TexelWindow, samples: u32) -> u32 {
+    let longest = window.width.max(window.height).max(1);
+    let wide = (window.width * samples).max(1);
+    let scale = match samples {
+        1 => TARGET.div_ceil(longest),
+        _ => (WIDEST / wide).clamp(1, TARGET.div_ceil(longest)),
+    };
+    if scale > BLOCK {
+        scale.next_multiple_of(BLOCK)
+    } else {
+        scale
+    }
 }
 
 fn window(image: &FrameImage) -> TexelWindow {
@@ -285,11 +281,10 @@ impl<'a> PictureView<'a> {
             return None;
         }
         let window = window(image);
-        let longest = window.width.max(window.height).max(1);
         Some(Self {
             image,
             window,
-            scale: (TARGET / longest).clamp(1, ENLARGED),
+            scale: scale(window, image.samples),
             range: range(image),
         })
     }
@@ -312,6 +307,28 @@ impl<'a> PictureView<'a> {
         (t.clamp(0.0, 1.0) * 255.0).round() as u8
     }
 
+    /// Draws the allowed codes, and stripes of the lowest and the highest ones where they differ much.
+    fn allowed(&self, label: String, nearest: &[u32], look: ShownChannels) -> Option<PagePicture> {
+        let image = self.image;
+        let ends = |sample| [&image.low, &image.high].map(|codes| self.texel(codes, sample, look));
+        let is_wide = |sample| {
+            let [low, high] = ends(sample);
+            let wide = low
+                .iter()
+                .zip(high)
+                .any(|(low, high)| low.abs_diff(high) > STRIPED);
+            wide.then_some([low, high])
+        };
+        if !(0..image.wrong.len()).any(|sample| is_wide(sample).is_some()) {
+            return self.plain(label, nearest, look);
+        }
+        self.draw(label, self.scale.min(BLOCK), |sample, x, y| {
+            let stripe = ((x + y) / 2 % 2) as usize;
+            let striped = is_wide(sample).map(|ends| ends[stripe]);
+            striped.unwrap_or_else(|| self.texel(nearest, sample, look))
+        })
+    }
+
     /// Draws one pixel per sample. Each sample of the texels has a separate tile, side by side.
     fn plain(&self, label: String, codes: &[u32], look: ShownChannels) -> Option<PagePicture> {
         self.draw(label, 1, |sample, _, _| self.texel(codes, sample, look))
@@ -326,7 +343,7 @@ impl<'a> PictureView<'a> {
 
     /// Draws blocks of pixels, so that a wrong texel can show a mark.
     fn difference(&self) -> Option<PagePicture> {
-        let block = self.scale;
+        let block = self.scale.min(BLOCK);
         // The pixels of a row come sample by sample, so the last distance can be reused.
         let mut last = (usize::MAX, 0.0);
         self.draw("difference".to_owned(), block, |sample, x, y| {
@@ -596,6 +613,7 @@ fn png(pixels: &[[u8; 4]], width: u32, height: u32) -> Option<Vec<u8>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use maud::Render;
 
     fn image(samples: u32, size: [u32; 2]) -> FrameImage {
         let n = (size[0] * size[1] * samples) as usize;
@@ -624,26 +642,42 @@ mod tests {
     fn pictures_show_codes_and_mark_wrong_texels() {
         let strip = strip(&image(1, [16, 16])).unwrap();
         let labels: Vec<_> = strip.pictures.iter().map(|p| &*p.label).collect();
-        let names = ["allowed low", "allowed high", "actual", "difference"];
-        assert_eq!(labels, names);
-        assert!(strip.pictures.iter().all(|p| p.size == [128, 128]));
-        let pixel = |i: usize, x, y| decode(&strip.pictures[i]).get_pixel(x, y).0;
-        assert_eq!(pixel(0, 0, 0), [0, 0, 0, 255]);
-        assert_eq!(pixel(1, 0, 0), [255, 255, 255, 255]);
-        assert_eq!(pixel(2, 0, 0), [128, 128, 128, 255]);
-        assert_eq!(pixel(3, 0, 0)[..3], FINE);
-        assert_eq!(pixel(3, 124, 124)[..3], [255; 3], "the cross's middle");
-        assert_ne!(pixel(3, 127, 127)[..3], FINE);
+        assert_eq!(labels, ["allowed", "drawn", "difference"]);
+        let bounds: Vec<_> = strip.more.iter().map(|p| &*p.label).collect();
+        assert_eq!(bounds, ["allowed low", "allowed high"]);
+        let mut all = strip.pictures.iter().chain(&strip.more);
+        assert!(all.all(|p| p.size == [256, 256]));
+        let pixel = |picture: &PagePicture, x, y| decode(picture).get_pixel(x, y).0;
+        assert_eq!(pixel(&strip.more[0], 0, 0), [0, 0, 0, 255]);
+        assert_eq!(pixel(&strip.more[1], 0, 0), [255, 255, 255, 255]);
+        assert_eq!(pixel(&strip.pictures[0], 0, 0), [0, 0, 0, 255], "a stripe");
+        assert_eq!(pixel(&strip.pictures[0], 2, 0), [255, 255, 255, 255]);
+        assert_eq!(pixel(&strip.pictures[1], 0, 0), [128, 128, 128, 255]);
+        let difference = |x, y| pixel(&strip.pictures[2], x, y);
+        assert_eq!(difference(0, 0)[..3], FINE);
+        assert_eq!(difference(124, 124)[..3], [255; 3], "the cross's middle");
+        assert_ne!(difference(127, 127)[..3], FINE);
+    }
+
+    #[test]
+    fn the_wrong_texel_is_marked_and_every_texel_has_its_values() {
+        let html = strip(&image(1, [16, 16])).unwrap().render().into_string();
+        let ring = "left:93.7500%;top:93.7500%;width:6.2500%;height:6.2500%";
+        assert_eq!(html.matches(ring).count(), 5);
+        assert!(html.contains("data-window=\"0 0 16 16 1\" data-wrong=\"15 15 0\""));
+        assert!(html.contains("data-runs=\"0 255 1 1\""), "{html}");
     }
 
     #[test]
     fn samples_are_shown_side_by_side_and_large_images_are_cut() {
         let four = strip(&image(4, [16, 16])).unwrap();
         assert_eq!(four.pictures[0].size, [(4 * 17 - 1) * 8, 128]);
+        let small = strip(&image(1, [1, 1])).unwrap();
+        assert_eq!(small.pictures[2].size, [256, 256]);
         let large = strip(&image(1, [1280, 720])).unwrap();
-        assert_eq!(large.pictures[0].size, [WINDOW, WINDOW]);
+        assert_eq!(large.pictures[0].size, [2 * WINDOW, 2 * WINDOW]);
         assert!(large.caption.contains("(1152, 592)"), "{}", large.caption);
-        let last = decode(&large.pictures[3]).get_pixel(127, 127).0;
+        let last = decode(&large.pictures[2]).get_pixel(255, 255).0;
         assert_ne!(last[..3], FINE, "the wrong texel is in sight");
     }
 

@@ -6,6 +6,7 @@ mod plain;
 mod reason;
 mod record;
 mod reduced;
+mod run;
 mod story;
 mod subject;
 mod texel;
@@ -18,9 +19,11 @@ pub use plain::plain;
 pub use reason::{message, reasons_text};
 pub(crate) use record::{headline, process_end};
 pub use reduced::ReducedCase;
-pub(crate) use story::operations;
+pub use run::conclusion;
+pub(crate) use run::{counted, new_failures, nothing_unexpected, why};
+pub(crate) use story::{clause, operations};
 pub use story::{judged_by, operations_text, sentence, story_text};
 pub(crate) use texel::{
-    allowed, channel_of, code_and_value, code_text, multisampled, place, value_text,
+    allowed, channel_of, code_and_value, code_text, multisampled, place, texel_values, value_text,
 };
 pub(crate) use verdict::{Tone, meaning, name, repetitions, signs, symbol};

@@ -136,6 +136,7 @@ fn print(
     }
     summarize(&etalon_report::table(&shown, table_options()));
     summarize(&format!("\nReport: {}\n", written.html.display()));
+    summarize(&format!("{}\n", etalon_report::conclusion(&shown)));
     Ok(())
 }
 

@@ -524,6 +524,7 @@ impl<'a> Results<'a> {
         if let Some(page) = &self.timed {
             summarize(&format!("Frame times: {}\n", page.display()));
         }
+        summarize(&format!("{}\n", etalon_report::conclusion(&shown)));
         Ok(())
     }
 

@@ -446,7 +446,7 @@ fn a_run_can_time_each_kind_of_work_too() {
         let mut command = etalon(&["run", "depth/compare", "--adapter", "cpu", "--force"]);
         command.args(arguments).arg("--out").arg(out.path());
         let output = command.assert().success().get_output().stdout.clone();
-        let page = fs::read_to_string(out.path().join("index.html")).unwrap();
+        let page = fs::read_to_string(out.path().join("details.html")).unwrap();
         (String::from_utf8(output).unwrap(), page)
     };
     let timed = out.path().join("timed");

@@ -55,9 +55,9 @@ fn one_record_of_a_finding_is_kept_in_full_and_the_others_name_it() {
         assert!(other.story.is_none() && other.frame.is_none());
     }
     // The page has the pictures of one case, and links to it from the others.
-    let page = fs::read_to_string(out.join("index.html")).unwrap();
-    assert_eq!(page.matches("<ol class=\"story\">").count(), 1);
-    assert!(page.contains("Shown in full by"));
+    let read = |name: &str| fs::read_to_string(out.join("records").join(name)).unwrap();
+    assert_eq!(read("0-pictures.js").matches("<ol class=").count(), 1);
+    assert!(read("0.js").contains("Shown in full by"));
     let again = work.path().join("again");
     run(&again, &["--jobs", "2"]);
     etalon(&["diff"]).arg(&out).arg(&again).assert().success();

@@ -204,7 +204,7 @@ fn reports_made_anew_say_what_the_run_said_and_agree_with_the_exit_code() {
             let message = format!("expected: triage {state}: looked &lt;at&gt; it");
             assert!(junit.contains(&message), "{message}: {junit}");
         }
-        assert!(read("index.html").contains("Nothing unexpected."));
+        assert!(read("index.html").contains("nothing unexpected"));
         assert!(read("summary.md").contains("Nothing unexpected."));
         // The record itself stays unchanged.
         assert!(!read("run.jsonl").contains("looked"));

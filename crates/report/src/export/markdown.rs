@@ -205,8 +205,11 @@ fn adapters(text: &mut MarkdownText, run: &Run) {
             table = table.number(title, move |(_, tally)| some(tally.plain(verdict)));
         }
     }
-    if any(&VerdictTally::excused) {
-        table = table.number("expected", |(_, tally)| some(tally.excused()));
+    if any(&|tally| tally.known) {
+        table = table.number("expected", |(_, tally)| some(tally.known));
+    }
+    if any(&|tally| tally.due) {
+        table = table.number("selftests", |(_, tally)| some(tally.due));
     }
     table = table.number("unexpected", |(_, tally)| {
         some(tally.unexpected).map(|n| format!("**{n}**"))

@@ -95,5 +95,6 @@ impl Looks {
 }
 
 fn tone(outcome: &Outcome) -> Tone {
-    Tone::new(outcome.verdict, outcome.due_fail, outcome.unexpected())
+    let due = outcome.due_fail && outcome.expected.is_none();
+    Tone::new(outcome.verdict, due, outcome.unexpected())
 }

@@ -13,6 +13,9 @@ function filled(element, attributes, children) {
   return element;
 }
 
+// Returns a name as nodes with a possible line break after each of its parts.
+const breakable = name => name.split(/(?<=[:\/,+])/).flatMap((part, i) => i ? [make("wbr", {}), part] : [part]);
+
 const whole = n => n.toLocaleString("en");
 const counted = (n, noun) => whole(n) + " " + noun + (n === 1 ? "" : "s");
 

@@ -6,10 +6,13 @@ use crate::words::{Tone, headline, plain};
 use etalon_record::{Record, Run};
 use maud::{Markup, html};
 
+/// The maximum number of rows.
+const LISTED: usize = 60;
+
 /// Returns the table of the unexpected records beside the selected cases.
 pub(super) fn section(run: &Run) -> Markup {
     let unexpected = run.beside.iter().filter(|r| r.unexpected());
-    let records: Vec<&Record> = unexpected.collect();
+    let records: Vec<&Record> = unexpected.take(LISTED).collect();
     let table = Table::<&Record>::new("stacked")
         .spoken("Records beside the selected cases")
         .text("Adapter", |record| record.adapter.clone())

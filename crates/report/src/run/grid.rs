@@ -16,7 +16,7 @@ pub(crate) struct RunGrid<'a> {
     pub(crate) run: &'a Run,
     /// Adapter names: the header's, then any that only records name.
     pub(crate) adapters: Vec<&'a str>,
-    /// Areas by name.
+    /// Areas by name, selftests last.
     pub(crate) areas: Vec<AreaFiles<'a>>,
 }
 
@@ -74,7 +74,7 @@ impl<'a> RunGrid<'a> {
                 *place = Some(index);
             }
         }
-        let areas = sorted
+        let mut areas: Vec<AreaFiles<'_>> = sorted
             .into_iter()
             .map(|(name, files)| AreaFiles {
                 name,
@@ -90,6 +90,8 @@ impl<'a> RunGrid<'a> {
                     .collect(),
             })
             .collect();
+        // Selftests say nothing about a driver.
+        areas.sort_by_key(|area| area.is_selftest(run));
         Self {
             run,
             adapters,
@@ -119,6 +121,16 @@ impl<'a> RunGrid<'a> {
 }
 
 impl AreaFiles<'_> {
+    /// Returns true if most drawn cases of the area are selftests.
+    pub(crate) fn is_selftest(&self, run: &Run) -> bool {
+        let cases = self.files.iter().flat_map(|file| &file.cases);
+        let records = cases.flat_map(|case| case.records.iter().flatten());
+        let records = records.map(|index| &run.records[*index]);
+        let (due, others): (Vec<&Record>, Vec<&Record>) =
+            records.filter(|r| r.is_drawn()).partition(|r| r.due_fail);
+        due.len() > others.len()
+    }
+
     /// Returns the records on one adapter, in the order of case files and cases.
     pub(crate) fn on(&self, adapter: usize) -> impl Iterator<Item = usize> {
         self.files.iter().flat_map(move |f| f.on(adapter))
@@ -143,13 +155,15 @@ pub(crate) fn rate(records: &[&Record]) -> Option<f64> {
 #[derive(Default)]
 pub(crate) struct VerdictTally {
     /// Counts, the most serious first: unexpected verdicts before expected ones.
-    counts: BTreeMap<(u8, u8, Verdict, Tone), u64>,
+    counts: BTreeMap<(bool, u8, Verdict, Tone), u64>,
     /// The number of unexpected records.
     pub(crate) unexpected: u64,
     /// The worst unexpected verdict. A missed selftest counts as a Fail.
     pub(crate) worst: Option<Verdict>,
-    /// Bad verdicts that were expected. Selftests that fail as they are due to are not among them.
+    /// Bad verdicts that were expected.
     pub(crate) known: u64,
+    /// Selftests that failed, as they are due to.
+    pub(crate) due: u64,
     /// Records that say that the driver, or the selftest, does what it should.
     pub(crate) right: u64,
     /// Records in all.
@@ -162,19 +176,14 @@ impl VerdictTally {
         for record in records {
             tally.total += 1;
             let tone = Tone::of(record);
-            match (tone, record.verdict) {
-                (Tone::Excused, _) if record.expected.is_none() => tally.right += 1,
-                (Tone::Excused, _) => tally.known += 1,
-                (Tone::Plain, Verdict::Pass | Verdict::Imprecise | Verdict::Measured) => {
-                    tally.right += 1;
-                }
-                _ => {}
-            }
+            tally.due += u64::from(tone == Tone::Due);
+            tally.known += u64::from(tone == Tone::Excused);
+            tally.right += u64::from(tone.is_right(record.verdict));
             let weight = match tone {
                 Tone::Missed => Verdict::Fail,
                 _ => record.verdict,
             };
-            let excused = u8::from(tone == Tone::Excused);
+            let excused = matches!(tone, Tone::Excused | Tone::Due);
             let key = (excused, u8::MAX - weight.severity(), record.verdict, tone);
             *tally.counts.entry(key).or_default() += 1;
             if record.unexpected() {
@@ -196,15 +205,7 @@ impl VerdictTally {
     /// Returns the number of records of one verdict that were neither expected nor due.
     pub(crate) fn plain(&self, verdict: Verdict) -> u64 {
         self.entries()
-            .filter(|(v, t, _)| *v == verdict && *t != Tone::Excused)
-            .map(|(_, _, n)| n)
-            .sum()
-    }
-
-    /// Returns the number of bad verdicts that were expected or due.
-    pub(crate) fn excused(&self) -> u64 {
-        self.entries()
-            .filter(|(_, t, _)| *t == Tone::Excused)
+            .filter(|(v, t, _)| *v == verdict && !matches!(t, Tone::Excused | Tone::Due))
             .map(|(_, _, n)| n)
             .sum()
     }

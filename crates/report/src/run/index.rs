@@ -1,125 +1,121 @@
-//! `index.html` of a run.
+//! The pages of a run: `index.html`, `details.html`, and the scripts with the records.
 //!
-//! The page tells what changed since the last run, what is new, what is known and what was not drawn, in this
-//! order; then come the matrix and everything else. All parts but two work without a script; the script adds the
-//! table of all cases, with search and filters, and the view of one case. Every view has an address:
-//! `index.html#q=less&on=cpu`, `index.html#case=depth/compare/compare=less`.
+//! `index.html` tells the verdict, what is new, the matrix, what is known and what was not drawn, and works without a
+//! script. Its script adds the search, the table of cases and the view of one case, which load the records of an area
+//! when they need them. Every view has an address: `index.html#q=less&on=cpu`, `index.html#case=depth/compare/compare=less`.
+//! `details.html` has everything about the run as a whole.
 
 mod assertions;
+mod bodies;
 mod cases;
 mod causes;
 mod changed;
 mod consensus;
 mod data;
 pub(crate) mod detail;
+mod details;
 mod facts;
-mod findings;
 mod matrix;
 mod overview;
+mod parts;
 
-use crate::bench;
-use crate::chart;
-use crate::mark::class;
-use crate::methods::{self, Methods};
+pub(crate) use data::RECORDS;
+pub(crate) use parts::{INDEX, PageParts};
+
+use crate::error::ReportError;
+use crate::files::Destination;
+use crate::methods;
 use crate::news::RunNews;
 use crate::numbers::count;
-use crate::page::origin::origin;
-use crate::page::{self, Page};
+use crate::page::{self, Page, link};
 use crate::run::beside;
 use crate::run::grid::{RunGrid, VerdictTally};
-use crate::run::reasons::{total, undrawn};
-use crate::words::{self, Tone};
-use etalon_record::{Bench, Dead, Run, Verdict};
+use crate::run::reasons::{PageReasons, total};
+use crate::words;
+use etalon_record::{Dead, Run, Verdict};
 use maud::{Markup, html};
+use parts::DETAILS;
 use std::path::Path;
 
 const STYLE: &str = concat!(
     include_str!("index/matrix.css"),
-    include_str!("index/cases.css")
+    include_str!("index/cases.css"),
+    include_str!("index/case.css")
 );
 /// In one function, so that the page has no global names but the browser's.
 const SCRIPT: &str = concat!(
     "(() => {\n\"use strict\";\n",
     include_str!("../page/base.js"),
+    include_str!("../page/compare.js"),
     include_str!("index/script/data.js"),
     include_str!("index/script/state.js"),
     include_str!("index/script/table.js"),
     include_str!("index/script/case.js"),
     include_str!("index/script/scene.js"),
+    include_str!("index/script/matrix.js"),
     include_str!("index/script/keys.js"),
     include_str!("index/script/route.js"),
     "})();\n"
 );
 
-/// What the page shows beside the records.
-#[derive(Clone, Copy)]
-pub(crate) struct PageParts<'a> {
-    /// The scripts of the case files, by file.
-    pub(crate) scripts: &'a [(String, String)],
-    pub(crate) dead: &'a [Dead],
-    pub(crate) methods: Option<&'a Methods<'a>>,
-    pub(crate) news: Option<&'a RunNews>,
-    /// The frame times.
-    pub(crate) timed: Option<&'a Bench>,
+/// Writes the pages and the scripts with the records. Returns their paths. Frame files are read from the folder when
+/// they are needed.
+///
+/// # Errors
+/// Returns an error if a file cannot be written.
+pub(crate) fn write(
+    to: &dyn Destination,
+    folder: &Path,
+    run: &Run,
+    parts: &PageParts<'_>,
+) -> Result<Vec<String>, ReportError> {
+    let grid = RunGrid::new(run);
+    let reasons = PageReasons::new(run);
+    let mut written = match run.records.is_empty() {
+        true => Vec::new(),
+        false => data::write(to, folder, &grid, &reasons)?,
+    };
+    to.write(DETAILS, details::page(&grid, &reasons, parts).as_bytes())?;
+    to.write(INDEX, page(&grid, &reasons, parts).as_bytes())?;
+    written.extend([DETAILS, INDEX].map(str::to_owned));
+    Ok(written)
 }
 
-/// Returns the page. Frame files are read from the folder when they are needed.
-pub(crate) fn page(folder: &Path, run: &Run, beside: &PageParts<'_>) -> String {
+fn page(grid: &RunGrid<'_>, reasons: &PageReasons, parts: &PageParts<'_>) -> String {
     let PageParts {
         scripts,
         dead,
         methods,
         news,
-        timed,
-    } = *beside;
-    let grid = RunGrid::new(run);
-    let plan = findings::FindingPlan::new(&grid);
-    let drivers = methods::driver_section(&grid);
-    let speed = timed.and_then(bench::of_run);
-    let charts = drivers
-        .as_ref()
-        .or(speed.as_ref())
-        .map(|_| chart::style() + bench::STYLE);
-    let links = [
-        ("methods", "Methods", methods.is_some()),
-        ("speed", "Speed and accuracy of drivers", speed.is_some()),
-        ("accuracy", "Accuracy of drivers", drivers.is_some()),
-    ];
+        ..
+    } = *parts;
+    let run = grid.run;
     let main = html! {
         (cases::view())
+        @if !run.records.is_empty() { (cases::section(grid, scripts)) }
         div id="report" {
-            (head(run, dead, news, &links))
+            (head(run, reasons, news))
             @if run.records.is_empty() {
                 p { "No case was run." }
             } @else {
                 @if let Some(news) = news { (changed::section(news)) }
-                (causes::section(&grid, news))
+                (causes::section(grid, news))
                 (beside::section(run))
-                (overview::known(run))
-                (overview::not_drawn(run))
-                (matrix::section(&grid))
-                (totals(run))
-                (overview::dead(dead))
+                (matrix::section(grid))
                 @if let Some(methods) = methods { (methods::section(methods)) }
-                @if let Some(speed) = speed { (speed) }
-                @if let Some(drivers) = drivers { (drivers) }
-                (cases::section(&grid, scripts))
+                (overview::known(run, reasons))
+                (overview::not_drawn(run, reasons))
             }
-            // Before the long sections, so that the table works while the rest is still read.
-            (data::block(&grid, &plan, scripts))
+            (rest(run, dead))
+        }
+        @if !run.records.is_empty() {
+            (data::block(grid, scripts))
             (page::script(SCRIPT))
-            @if !run.records.is_empty() {
-                (findings::section(folder, &grid, &plan))
-                (assertions::section(&grid))
-            }
-            (page::adapter::section(&run.header.adapters, &run.header.absent))
-            (about(run))
         }
     };
     Page::new(&title(run), "run.jsonl and frames/ in this folder", &main)
         .style(STYLE)
-        .style(&charts.unwrap_or_default())
-        .script(SCRIPT, !scripts.is_empty())
+        .script(SCRIPT, true)
         .html()
 }
 
@@ -130,39 +126,60 @@ fn title(run: &Run) -> String {
     }
 }
 
-fn head(run: &Run, dead: &[Dead], news: Option<&RunNews>, links: &[(&str, &str, bool)]) -> Markup {
+fn head(run: &Run, reasons: &PageReasons, news: Option<&RunNews>) -> Markup {
     let h = &run.header;
     html! {
         header {
-            h1 { "etalon" }
-            p.lead {
-                (count(h.cases, "case")) " on " (count(h.adapters.len() as u64, "adapter"))
-                ", " (count(run.records.len() as u64, "record")) ", started " (h.provenance.started)
-            }
-            (state(run, dead, news))
-            @if !run.records.is_empty() {
-            nav aria-label="Parts of the page" {
-                a href="#matrix" { "Matrix" } " "
-                @for (place, name, is_there) in links {
-                    @if *is_there { a href={ "#" (place) } { (name) } " " }
-                }
-                a href="#cases" { "All cases" } " "
-                a href="#findings" { "Findings" } " "
-                a href="#asserted" { "What was asserted" } " "
-                a href="#adapters" { "Adapters" } " "
-                a href="#about" { "About the run" }
-            }
+            h1 { "etalon: " (words::counted(h.cases, "case")) " on " (words::counted(h.adapters.len() as u64, "adapter")) }
+            p.lead { "Started " (h.provenance.started) }
+            (state(run, reasons, news))
+            @if !run.records.is_empty() { (search()) }
+        }
+    }
+}
+
+/// Returns the search of the first page. The table of cases answers it.
+fn search() -> Markup {
+    html! {
+        form.find id="find" role="search" aria-label="Cases" hidden {
+            input id="find-q" type="search" autocomplete="off" spellcheck="false" enterkeyhint="search"
+                aria-label="Search cases" placeholder="Search cases and adapters: blend softpipe" aria-keyshortcuts="/";
+            button type="submit" { "Search" }
+            a href="#cases" { "All cases" }
+        }
+        noscript {
+            p.note {
+                "The search, the table of all cases and the view of a case need scripts, which are disabled here. "
+                "The rest of this page does not."
             }
         }
     }
 }
 
+/// Returns the links to everything else.
+fn rest(run: &Run, dead: &[Dead]) -> Markup {
+    let link = |place: &str, name: &str| html! { a href={ (DETAILS) "#" (place) } { (name) } " " };
+    html! {
+        nav aria-label="Details" {
+            @if !run.records.is_empty() {
+                (link("totals", "Totals"))
+                (link("asserted", "What was asserted"))
+                (link("by-driver", "The matrix by driver"))
+            }
+            @if !dead.is_empty() { (link("dead", "Dead expectations")) }
+            (link("adapters", "Adapters"))
+            (link("about", "About the run"))
+        }
+    }
+}
+
 /// Returns the state of the run, in the order of the page: what is missing, changed, new, known and not drawn.
-fn state(run: &Run, dead: &[Dead], news: Option<&RunNews>) -> Markup {
+fn state(run: &Run, reasons: &PageReasons, news: Option<&RunNews>) -> Markup {
     let tally = VerdictTally::of(run.all_records());
     let beside = run.unexpected_beside();
     let improvements = run.records.iter().filter(|r| r.improvement()).count() as u64;
-    let undrawn = total(&undrawn(run));
+    let undrawn = total(&reasons.undrawn);
+    let imprecise = tally.plain(Verdict::Imprecise);
     let missing = run.missing();
     html! {
         @if run.truncated || missing > 0 {
@@ -180,19 +197,18 @@ fn state(run: &Run, dead: &[Dead], news: Option<&RunNews>) -> Markup {
                 a href="#changed" { (news.broken.len()) " broken, " (news.fixed.len()) " fixed" } "."
             }
         }
-        @if tally.unexpected > 0 {
-            p.state.bad {
-                b { (words::symbol(Verdict::Fail)) " " (count(tally.unexpected, "unexpected record")) }
-                ", by " a href="#causes" { "cause" } " and under " a href="#findings" { "Findings" } "."
-                @if beside > 0 {
-                    " " a href="#beside" { (beside) " beside the selected cases" } "."
+        @if !run.records.is_empty() {
+            @if let Some((failures, first)) = words::new_failures(run) {
+                p.state.bad {
+                    b { "✗ " a href="#unexpected=1" { (failures) } } ": first "
+                    a href=(link::case(&first.case)) { code { (first.case) } } " on " (first.adapter) ", " (words::why(first))
                 }
+            } @else {
+                p.state.good[run.missing() == 0] { b { (words::nothing_unexpected(run)) } }
             }
-        } @else if !run.records.is_empty() {
-            p.state.good { b { (words::symbol(Verdict::Pass)) " Nothing unexpected." } }
         }
-        @if tally.known > 0 {
-            p.soft { b { "Known: " } a href="#known" { (count(tally.known, "bad verdict")) } "." }
+        @if beside > 0 {
+            p.state.bad { a href="#beside" { (count(beside, "failure")) " beside the selected cases" } "." }
         }
         @if improvements > 0 {
             p.state.good {
@@ -200,48 +216,18 @@ fn state(run: &Run, dead: &[Dead], news: Option<&RunNews>) -> Markup {
                 ": their expectations can be removed."
             }
         }
-        @if undrawn > 0 {
-            p.soft {
-                b { "Not drawn: " }
-                a href="#undrawn" { (undrawn) " of " (count(run.records.len() as u64, "record")) } "."
+        p.soft {
+            @if tally.known > 0 {
+                a href="#known" { "Known: " (words::counted(tally.known, "bad verdict")) } " "
+                "of " (words::counted(reasons.known.len() as u64, "reason")) ". "
+            }
+            @if undrawn > 0 {
+                a href="#undrawn" { "Not drawn: " (words::counted(undrawn, "record")) } ". "
+            }
+            @if imprecise > 0 {
+                a href="#verdict=imprecise" { "Imprecise: " (words::counted(imprecise, "record")) }
+                ", legal but outside the yardstick, a tighter band of quality."
             }
         }
-        @if !dead.is_empty() {
-            p.soft { a href="#dead" { (count(dead.len() as u64, "dead expectation")) } "." }
-        }
-    }
-}
-
-/// Returns the section on the origin of the run.
-fn about(run: &Run) -> Markup {
-    let settings = words::settings(&run.header.settings);
-    html! {
-        section id="about" {
-            h2 { "About the run" }
-            dl.facts {
-                (origin(&run.header.provenance))
-                @if !settings.is_empty() { dt { "Settings" } dd { (settings.join(", ")) } }
-            }
-        }
-    }
-}
-
-/// Counts over the whole run, which also serve as the legend.
-fn totals(run: &Run) -> Markup {
-    let tally = VerdictTally::of(&run.records);
-    page::totals(tally.entries().map(|(verdict, tone, n)| {
-        let name =
-            html! { i { (words::symbol(verdict)) } " " (words::name(verdict)) (tone.suffix()) };
-        (class(verdict, tone), n, name, sentence(verdict, tone))
-    }))
-}
-
-fn sentence(verdict: Verdict, tone: Tone) -> &'static str {
-    match tone {
-        Tone::Plain => words::meaning(verdict),
-        Tone::Excused => {
-            "Named by the expectations or settled by triage, or a selftest that is due to fail."
-        }
-        Tone::Missed => "A selftest that is due to fail, and did not: the suite missed a bug.",
     }
 }

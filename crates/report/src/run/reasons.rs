@@ -3,7 +3,7 @@
 use crate::words::{Tone, headline, name};
 use etalon_record::{Record, Run, Verdict};
 use std::cmp::Reverse;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// The verdicts of cases that were not drawn, the gravest first.
 const UNDRAWN: [Verdict; 3] = [Verdict::Blocked, Verdict::Skipped, Verdict::NotSupported];
@@ -48,23 +48,63 @@ pub(crate) fn total(reasons: &[ReasonRecords]) -> u64 {
 /// Returns the reasons why cases of a run were not drawn, by verdict, the most frequent first.
 pub(crate) fn undrawn(run: &Run) -> Vec<ReasonRecords> {
     let place = |verdict| UNDRAWN.iter().position(|v| *v == verdict);
-    let mut reasons = reasons(run, |record| {
-        place(record.verdict).map(|_| headline(record))
-    });
+    let mut reasons = reasons(run, why_undrawn);
     reasons.sort_by_key(|reason| (place(reason.verdict), Reverse(reason.records())));
     reasons
+}
+
+/// Returns the reason why a case was not drawn; `None` if it was.
+pub(crate) fn why_undrawn(record: &Record) -> Option<String> {
+    let undrawn = UNDRAWN.contains(&record.verdict);
+    undrawn.then(|| headline(record))
 }
 
 /// Returns the expectations that failures of a run met, the most frequent first. Selftests that are due to fail
 /// are not among them.
 pub(crate) fn known(run: &Run) -> Vec<ReasonRecords> {
-    let mut reasons = reasons(run, |record| {
-        let expected = record.expected.as_ref();
-        let expected = expected.filter(|_| Tone::of(record) == Tone::Excused);
-        expected.map(|expected| expected.reason.clone())
-    });
+    let mut reasons = reasons(run, why_known);
     reasons.sort_by_key(|reason| Reverse(reason.records()));
     reasons
+}
+
+/// Returns the expectation that a failure met; `None` if it met none.
+pub(crate) fn why_known(record: &Record) -> Option<String> {
+    let expected = record.expected.as_ref();
+    let expected = expected.filter(|_| Tone::of(record) == Tone::Excused);
+    expected.map(|expected| expected.reason.clone())
+}
+
+/// The reasons on a run's page, each with a number: the known failures, then the cases that were not drawn.
+pub(crate) struct PageReasons {
+    pub(crate) known: Vec<ReasonRecords>,
+    pub(crate) undrawn: Vec<ReasonRecords>,
+    numbers: HashMap<(Verdict, String), usize>,
+}
+
+impl PageReasons {
+    pub(crate) fn new(run: &Run) -> Self {
+        let (known, undrawn) = (known(run), undrawn(run));
+        let all = known.iter().chain(&undrawn).enumerate();
+        let key = |reason: &ReasonRecords| (reason.verdict, reason.text.clone());
+        Self {
+            numbers: all.map(|(number, reason)| (key(reason), number)).collect(),
+            known,
+            undrawn,
+        }
+    }
+
+    /// Returns the reasons by number.
+    pub(crate) fn texts(&self) -> Vec<&str> {
+        let all = self.known.iter().chain(&self.undrawn);
+        all.map(|reason| reason.text.as_str()).collect()
+    }
+
+    /// Returns the numbers of a record's reasons.
+    pub(crate) fn of(&self, record: &Record) -> impl Iterator<Item = usize> {
+        let texts = [why_known(record), why_undrawn(record)];
+        let numbers = texts.map(|text| self.numbers.get(&(record.verdict, text?)).copied());
+        numbers.into_iter().flatten()
+    }
 }
 
 /// Returns the records that have a reason, by verdict and reason.

@@ -30,8 +30,8 @@ const BROKEN: [Verdict; 7] = [
 ];
 
 /// Returns a table with a row per adapter, then the reasons why cases were not drawn, then a line per unexpected
-/// record (20 at most), then what is missing. A bad verdict that was expected or due is counted under `expected`
-/// only, so that a row's counts add up to its records; the rate counts records per second of drawing and judging.
+/// record (20 at most), then what is missing. A bad verdict that was expected is counted under `expected`
+/// only, a selftest that failed as due under `selftests`, so that a row's counts add up to its records; the rate counts records per second of drawing and judging.
 /// Always ends in a newline.
 pub fn table(run: &Run, options: TableOptions) -> String {
     if run.records.is_empty() {
@@ -103,6 +103,7 @@ fn adapters(rows: &[(&str, Vec<&Record>)], options: TableOptions) -> String {
     }
     optional.extend([
         "cases/s",
+        "selftests",
         "imprecise",
         "skipped",
         "measured",
@@ -110,7 +111,8 @@ fn adapters(rows: &[(&str, Vec<&Record>)], options: TableOptions) -> String {
         "open",
     ]);
     let table = table
-        .number("expected", |(_, tally, _)| some(tally.excused()))
+        .number("expected", |(_, tally, _)| some(tally.known))
+        .number("selftests", |(_, tally, _)| some(tally.due))
         .number("cases/s", |(_, _, rate)| rate.clone());
     let rows = rows.iter().map(|(adapter, records)| {
         (

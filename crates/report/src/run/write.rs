@@ -1,7 +1,7 @@
 //! Writing the reports of a run.
 
 use super::grid::RunGrid;
-use super::index::{self, PageParts};
+use super::index::{self, INDEX, PageParts, RECORDS};
 use crate::catalogue::{CATALOGUE, Catalogue, write_scripts};
 use crate::error::ReportError;
 use crate::export::{deqp, junit, markdown};
@@ -12,7 +12,6 @@ use etalon_frame::threads::join;
 use etalon_record::{Bench, Dead, FolderKind, OutputFolder, Run, TIMED_FOLDER};
 use std::path::{Path, PathBuf};
 
-const HTML: &str = "index.html";
 const JUNIT: &str = "junit.xml";
 const SUMMARY: &str = "summary.md";
 
@@ -79,7 +78,7 @@ pub fn write(folder: &Path) -> Result<RunReports, ReportError> {
 }
 
 impl RunReport<'_> {
-    /// Writes the reports into the run folder: `index.html`, `junit.xml`, `summary.md`, `methods.html` if the run
+    /// Writes the reports into the run folder: `index.html`, `details.html`, scripts of the records, `junit.xml`, `summary.md`, `methods.html` if the run
     /// has records of methods, scripts of the cases, and deqp-runner's lists if they are asked for or already there.
     /// Pages and scripts of earlier reports are removed.
     ///
@@ -92,8 +91,11 @@ impl RunReport<'_> {
         out.check_reports(FolderKind::Run)?;
         let written = self.write_to(&out)?;
         let is_view = |name: &str| {
-            let in_catalogue = name.strip_prefix(CATALOGUE);
-            name.ends_with(".html") || in_catalogue.is_some_and(|rest| rest.starts_with('/'))
+            let within = |folder| {
+                name.strip_prefix(folder)
+                    .is_some_and(|rest: &str| rest.starts_with('/'))
+            };
+            name.ends_with(".html") || within(CATALOGUE) || within(RECORDS)
         };
         out.retain(|name| !is_view(name) || written.views.iter().any(|view| view == name))?;
         Ok(written)
@@ -112,8 +114,8 @@ impl RunReport<'_> {
             Some(catalogue) => write_scripts(to, catalogue)?,
             None => Vec::new(),
         };
-        // The page reads frames and takes as long as all others together.
-        let (html, others) = join(
+        // The pages read frames and take as long as all others together.
+        let (pages, others) = join(
             || {
                 let parts = PageParts {
                     scripts: &scripts,
@@ -122,20 +124,19 @@ impl RunReport<'_> {
                     news: self.news,
                     timed: timed.as_ref(),
                 };
-                let page = index::page(self.folder, self.run, &parts);
-                to.write(HTML, page.as_bytes())
+                index::write(to, self.folder, self.run, &parts)
             },
             || self.others(to, found.as_ref()),
         );
-        let (html, mut others) = (html?, others?);
-        others.views.push(HTML.to_owned());
+        let (pages, mut others) = (pages?, others?);
+        others.views.extend(pages);
         others
             .views
             .extend(scripts.into_iter().map(|(_, path)| path));
-        Ok(RunReports { html, ..others })
+        Ok(others)
     }
 
-    /// Writes all reports except the page.
+    /// Writes all reports except the pages and their scripts.
     fn others(
         &self,
         to: &dyn Destination,
@@ -170,7 +171,7 @@ impl RunReport<'_> {
             Vec::new()
         };
         Ok(RunReports {
-            html: folder.join(HTML),
+            html: folder.join(INDEX),
             methods,
             junit,
             summary,

@@ -57,6 +57,7 @@ fn reports(runs: &[RecordedFolder]) -> Markup {
 fn title<'a>(page: &'a str, facts: &FolderFacts) -> &'a str {
     match page {
         "index.html" => facts.index,
+        "details.html" => "details",
         "methods.html" => "accuracy against speed",
         "versions.html" => "releases",
         "mutants.html" => "planted bugs",

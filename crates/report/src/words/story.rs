@@ -27,6 +27,25 @@ pub fn judged_by(story: &Story) -> Option<String> {
     }
 }
 
+/// Returns the clause behind a story's ruling: that of the first operation that decides it.
+pub(crate) fn clause(story: &Story) -> Option<&str> {
+    let Demand::Values(values) = &story.ruling.as_ref()?.demand else {
+        return None;
+    };
+    fn event(step: &DecidingStep) -> Option<&str> {
+        match step {
+            DecidingStep::Open(event)
+            | DecidingStep::Stored { store: event, .. }
+            | DecidingStep::Cleared(event)
+            | DecidingStep::Resolved(event)
+            | DecidingStep::Kept(event)
+            | DecidingStep::Ended { by: event, .. } => event.citation.as_deref(),
+            DecidingStep::Unwritten { .. } => None,
+        }
+    }
+    values.reasons.iter().find_map(event)
+}
+
 /// Returns the operations of a story in words.
 pub(crate) fn operations(story: &Story) -> Vec<ToldLine> {
     let mut lines = story.told[usize::from(told_verdict(story).is_some())..].to_vec();

@@ -1,8 +1,9 @@
 //! Codes and texels in words.
 
+use super::value::codes_list;
 use crate::numbers::{count, trimmed};
-use etalon_frame::{Band, ChannelEncoding, ChannelMismatch, WrongTexel};
-use etalon_record::Record;
+use etalon_frame::{Band, ChannelEncoding, ChannelMismatch, CodeInterval, Codes, WrongTexel};
+use etalon_record::{FrameImage, Record};
 
 /// Returns the attachment and the channel, or one word if they have the same name.
 pub(crate) fn channel_of(m: &ChannelMismatch) -> String {
@@ -73,6 +74,34 @@ pub(crate) fn place(texel: &WrongTexel, multisampled: bool) -> String {
 /// Returns true if a wrong texel has a sample other than the first.
 pub(crate) fn multisampled(record: &Record) -> bool {
     record.wrong.iter().any(|t| t.sample > 0)
+}
+
+/// Returns the values of a sample of an image: `allowed [0, 255, 0, 255], drawn [255, 0, 0, 255]: outside`.
+pub(crate) fn texel_values(
+    image: &FrameImage,
+    sample: usize,
+    [allowed, actual]: [&str; 2],
+) -> String {
+    let first = sample * image.channels.len();
+    let text = |low: &[u32], high: &[u32]| {
+        let codes = image.channels.iter().enumerate().map(|(i, encoding)| {
+            let order = |codes: &[u32]| encoding.order_of_code(codes[first + i]);
+            let ends = [order(low), order(high)];
+            let interval = CodeInterval::new(ends[0].min(ends[1]), ends[0].max(ends[1]));
+            Codes::new(*encoding, interval)
+        });
+        codes_list(&codes.collect::<Vec<_>>())
+    };
+    let outcome = match image.wrong.get(sample).copied() {
+        None | Some(FrameImage::FINE) => "",
+        Some(FrameImage::IMPRECISE) => ": legal, outside the yardstick",
+        Some(_) => ": ✗",
+    };
+    format!(
+        "{allowed} [{}], {actual} [{}]{outcome}",
+        text(&image.low, &image.high),
+        text(&image.actual, &image.actual)
+    )
 }
 
 /// Returns a wrong texel in one line.

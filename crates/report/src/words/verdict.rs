@@ -7,25 +7,36 @@ use etalon_record::{Record, Verdict};
 pub(crate) enum Tone {
     /// The verdict as it is.
     Plain,
-    /// Bad, but expected or due.
+    /// Bad, but expected.
     Excused,
+    /// A selftest that failed, as it is due to.
+    Due,
     /// A selftest that was due to fail and did not.
     Missed,
 }
 
 impl Tone {
     pub(crate) fn of(record: &Record) -> Self {
-        Self::new(record.verdict, record.due_fail, record.unexpected())
+        let due = record.due_fail && record.expected.is_none();
+        Self::new(record.verdict, due, record.unexpected())
     }
 
     pub(crate) fn new(verdict: Verdict, due_fail: bool, unexpected: bool) -> Self {
-        if verdict.is_bad() && !unexpected {
-            Self::Excused
-        } else if due_fail && unexpected && !verdict.is_bad() {
-            Self::Missed
-        } else {
-            Self::Plain
+        match (verdict.is_bad(), unexpected) {
+            (true, false) if due_fail => Self::Due,
+            (true, false) => Self::Excused,
+            (false, true) if due_fail => Self::Missed,
+            _ => Self::Plain,
         }
+    }
+
+    /// Returns true if the verdict says that the driver, or the selftest, does what it should.
+    pub(crate) fn is_right(self, verdict: Verdict) -> bool {
+        let good = matches!(
+            verdict,
+            Verdict::Pass | Verdict::Imprecise | Verdict::Measured
+        );
+        self == Self::Due || self == Self::Plain && good
     }
 
     /// Returns the suffix of the verdict in reports.
@@ -33,6 +44,7 @@ impl Tone {
         match self {
             Self::Plain => "",
             Self::Excused => " (expected)",
+            Self::Due => " (due)",
             Self::Missed => " (due to fail)",
         }
     }

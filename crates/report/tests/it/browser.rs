@@ -4,6 +4,7 @@
 mod areas;
 mod cdp;
 mod driver;
+mod failures;
 mod history;
 mod hostile;
 mod index;
@@ -47,7 +48,10 @@ fn pages_work_in_a_browser() {
         history::news_lead_to_cases_runs_and_back(&chromium)
     });
     check("areas of twenty adapters", &|| {
-        areas::twenty_adapters_fit_and_rows_open(&chromium)
+        areas::twenty_adapters_fit_and_areas_open(&chromium)
+    });
+    check("failures", &|| {
+        failures::a_failing_case_is_its_picture(&chromium);
     });
     check("large run", &|| {
         large::eighty_thousand_records_open_and_are_searched(&chromium);

@@ -33,10 +33,11 @@ fn page(path: &Path) -> String {
         }
     }
     // The digest of the script, which changes with the script.
-    if let Some((before, rest)) = html.split_once("'sha256-") {
-        let (_, after) = rest.split_once('\'').unwrap();
-        html = format!("{before}'sha256-…'{after}");
-    }
+    let mut parts = html.split("'sha256-");
+    let first = parts.next().unwrap_or_default().to_owned();
+    let html = parts.fold(first, |before, rest| {
+        format!("{before}'sha256-…'{}", rest.split_once('\'').unwrap().1)
+    });
     html.replace("><", ">\n<")
 }
 

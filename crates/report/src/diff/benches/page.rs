@@ -29,7 +29,6 @@ fn page(diff: &BenchDiff) -> String {
             h1 { "etalon diff" }
             p.lead { "Changes of " (diff.time) " times between two benches." }
             p class={ "state " (look.class) } { b { (look.sign) " " (diff.conclusion()) "." } }
-            dl.facts { (identity("Before", &diff.before)) (identity("After", &diff.after)) }
             @for note in &diff.notes { p.state.bad { "! " (note) } }
         }
         @for (kind, title) in KINDS {
@@ -70,6 +69,10 @@ fn page(diff: &BenchDiff) -> String {
                 " per comparison. Visible is the smallest change that would have been found with a "
                 "probability of 0.9."
             }
+        }
+        section {
+            h2 { "About the benches" }
+            dl.facts { (identity("Before", &diff.before)) (identity("After", &diff.after)) }
         }
     };
     Page::new("etalon diff", "two recorded benches", &main)

@@ -44,12 +44,13 @@ fn page(diff: &RunDiff, folders: &[&Path; 2]) -> String {
     let mut budget = PICTURE_BYTES;
     let main = html! {
         (head(diff))
-        (pairs(diff))
         @for direction in ChangeDirection::ALL { (section(diff, direction, folders, &mut budget)) }
         (only(diff))
         (times(diff))
         (methods(diff))
+        (pairs(diff))
         (reading())
+        (about(diff))
     };
     Page::new(
         &format!("etalon diff: {}", headline(diff)),
@@ -88,7 +89,6 @@ fn head(diff: &RunDiff) -> Markup {
             } @else {
                 p.state.good { b { "✓ Nothing is worse: " (headline(diff)) } "; " (same) " the same." }
             }
-            (facts(&diff.facts))
             nav {
                 @for direction in ChangeDirection::ALL {
                     @if diff.count(direction) > 0 {
@@ -308,6 +308,20 @@ fn methods(diff: &RunDiff) -> Markup {
                 p { "Medians while nothing else was drawn or judged, of one process each. " (STATEMENT) }
                 (method_table().page(diff.methods.iter().take(ROWS)))
                 @if diff.methods.len() > ROWS { p.note { "and " (diff.methods.len() - ROWS) " more" } }
+            }
+        }
+    }
+}
+
+/// Returns the facts about both runs.
+fn about(diff: &RunDiff) -> Markup {
+    let differ = diff.facts.iter().filter(|fact| fact.differs()).count() as u64;
+    html! {
+        section id="about" {
+            h2 { "About the runs" }
+            details {
+                summary { (count(differ, "fact")) " differ" @if differ == 1 { "s" } }
+                (facts(&diff.facts))
             }
         }
     }

@@ -1,8 +1,7 @@
-//! Every case on every adapter, to be searched, and the view of one case. The script fills both.
+//! The search over all cases, and the view of one case. The script shows and fills both.
 
 use super::consensus::{Consensus, Votes};
 use crate::numbers::count;
-use crate::page::adapter::breakable;
 use crate::run::grid::{RunGrid, VerdictTally};
 use crate::words;
 use etalon_record::Verdict;
@@ -10,19 +9,46 @@ use maud::{Markup, html};
 
 pub(crate) fn section(grid: &RunGrid<'_>, scripts: &[(String, String)]) -> Markup {
     html! {
-        section id="cases" aria-labelledby="cases-title" {
-            h2 id="cases-title" { "All cases" }
-            p {
-                "One group per case file, one row per case, one column per adapter. The consensus is what "
-                "more than half of the adapters that drew a case agree on: that it is right (pass, "
-                "imprecise, measured) or that it is not. Not supported and skipped have no vote, and "
-                "selftests that are due to fail are left out."
-            }
-            p {
-                @for verdict in Verdict::ALL {
-                    span.key { i { (words::symbol(verdict)) } " " (words::name(verdict)) } " "
+        section id="cases" aria-labelledby="cases-title" hidden {
+            nav aria-label="Report" { a href="#" id="cases-back" { "Report" } }
+            h1 id="cases-title" { "Cases" }
+            (controls(grid))
+            p id="only" hidden {}
+            p.count id="count" role="status" aria-live="polite" {}
+            div.wide id="rows" {
+                table.cases id="case-table" aria-describedby="keys" {
+                    caption.vh { "Cases, what the adapters agree on, and the verdict on each adapter" }
+                    thead { tr {
+                        th scope="col" aria-sort="ascending" { button type="button" data-sort="case" { "Case" } }
+                        th scope="col" aria-sort="none" { button type="button" data-sort="consensus" { "Consensus" } }
+                    } }
                 }
-                "A verdict in parentheses was expected or due."
+            }
+            nav.pages id="pages" aria-label="Pages of cases" hidden {
+                button type="button" id="page-back" { "Previous page" }
+                span id="page-at" {}
+                button type="button" id="page-on" { "Next page" }
+            }
+            p.note id="keys" {
+                "Keys: " kbd { "/" } " searches; in the table " kbd { "↓" } " " kbd { "↑" } " or " kbd { "j" } " "
+                kbd { "k" } " move over rows, " kbd { "Enter" } " opens a case or a group, " kbd { "Esc" }
+                " leads back."
+            }
+            details {
+                summary { "What the words mean" }
+                p {
+                    @for verdict in Verdict::ALL {
+                        span.key { i { (words::symbol(verdict)) } " " (words::name(verdict)) } " "
+                    }
+                    "A verdict in parentheses was expected, or due in a selftest. " b { "Imprecise" }
+                    " is legal, but outside the yardstick, a tighter band of quality."
+                }
+                p {
+                    "One group per case file, one row per case, one column per adapter. The consensus is what "
+                    "more than half of the adapters that drew a case agree on: that it is right (pass, "
+                    "imprecise, measured) or that it is not. Not supported and skipped have no vote, and "
+                    "selftests that are due to fail are left out."
+                }
             }
             @if !scripts.is_empty() {
                 p id="galleries" {
@@ -32,36 +58,6 @@ pub(crate) fn section(grid: &RunGrid<'_>, scripts: &[(String, String)]) -> Marku
                         a href={ "#gallery=" (area) } { (area) }
                     }
                 }
-            }
-            noscript {
-                p.note {
-                    "The table of all cases, its search and the view of a case need scripts, which are disabled here. "
-                    "The rest of this page does not."
-                }
-            }
-            (controls(grid))
-            p.count id="count" role="status" aria-live="polite" {}
-            div.wide id="rows" hidden {
-                table.cases id="case-table" aria-describedby="keys" {
-                    caption.vh { "Cases, what the adapters agree on, and the verdict on each adapter" }
-                    thead { tr {
-                        th scope="col" aria-sort="ascending" { button type="button" data-sort="case" { "Case" } }
-                        th scope="col" aria-sort="none" { button type="button" data-sort="consensus" { "Consensus" } }
-                        @for adapter in &grid.adapters {
-                            th scope="col" { (breakable(adapter)) }
-                        }
-                    } }
-                }
-            }
-            nav.pages id="pages" aria-label="Pages of cases" hidden {
-                button type="button" id="page-back" { "Previous page" }
-                span id="page-at" {}
-                button type="button" id="page-on" { "Next page" }
-            }
-            p.note id="keys" hidden {
-                "Keys: " kbd { "/" } " searches; in the table " kbd { "↓" } " " kbd { "↑" } " or " kbd { "j" } " "
-                kbd { "k" } " move over rows, " kbd { "Enter" } " opens a case or a group, " kbd { "Esc" }
-                " leads back."
             }
         }
     }
@@ -96,12 +92,12 @@ fn controls(grid: &RunGrid<'_>) -> Markup {
     let mut differs = vec![("any".to_owned(), any)];
     differs.extend((0..).map(|i: usize| i.to_string()).zip(names));
     html! {
-        form.filter id="filter" role="search" aria-labelledby="cases-title" hidden {
+        form.filter id="filter" role="search" aria-labelledby="cases-title" {
             div.search {
                 label for="f-q" { "Search" }
                 input id="f-q" type="search" autocomplete="off" spellcheck="false"
                     aria-describedby="f-q-help" aria-keyshortcuts="/" enterkeyhint="search";
-                small id="f-q-help" { "The id contains all words; * matches anything." }
+                small id="f-q-help" { "All words must occur in the id, or in the name of an adapter; * matches anything." }
             }
             label.check { input id="f-messages" type="checkbox"; "search messages too" }
             (select("verdict", "Verdict", "any", verdicts))

@@ -18,9 +18,9 @@ use std::collections::BTreeMap;
 /// The maximum number of causes that are shown before a summary.
 const FIRST: usize = 12;
 /// The maximum number of causes behind that summary.
-const LISTED: usize = 60;
+const LISTED: usize = 24;
 /// The maximum number of listed case files of a cause.
-const FILES: usize = 12;
+const FILES: usize = 6;
 
 /// The unexpected records with one symptom on one adapter.
 struct ListedCause<'a> {
@@ -41,8 +41,7 @@ pub(crate) fn section(grid: &RunGrid<'_>, news: Option<&RunNews>) -> Markup {
                 h2 { "New" }
                 p {
                     (count(verdicts as u64, "unexpected verdict")) " in " (count(causes.len() as u64, "group"))
-                    ", one for each adapter and kind of violation, worst first. An entry states the axis values that set its cases "
-                    "apart from the others of their file."
+                    ", by adapter and kind of violation, worst first."
                     @if let Some(old @ 1..) = news.map(|news| news.old.len()) { " In the last run, " (old) " were unexpected already." }
                 }
                 @let (first, others) = causes.split_at(causes.len().min(FIRST));
@@ -52,7 +51,7 @@ pub(crate) fn section(grid: &RunGrid<'_>, news: Option<&RunNews>) -> Markup {
                         summary { (others.len()) " more" }
                         @for cause in others.iter().take(LISTED) { (entry(cause)) }
                         @if others.len() > LISTED {
-                            p.note { "and " (others.len() - LISTED) " more, under " a href="#findings" { "Findings" } "." }
+                            p.note { "and " (others.len() - LISTED) " more, among " a href="#unexpected=1" { "all unexpected cases" } "." }
                         }
                     }
                 }
@@ -67,25 +66,23 @@ fn entry(cause: &ListedCause<'_>) -> Markup {
         text if text.is_empty() => words::name(cause.kind.verdict).to_owned(),
         text => text,
     };
+    let files = cause.files.iter().take(FILES);
     html! {
-        details.d {
-            summary {
+        div.cause {
+            p {
                 span class={ "chip " (class(cause.kind.verdict, tone)) } { (cause.records) " " (mark(cause.kind.verdict, tone)) }
                 " " code { (cause.adapter) } " " b { (kind) }
-                @if let Some((file, condition, _)) = cause.files.first() {
-                    span.h { code { (file) } " " (condition.text()) @if cause.files.len() > 1 { ", and " (count(cause.files.len() as u64 - 1, "more file")) } }
-                }
             }
-            div.body {
-                ul {
-                    @for (file, condition, first) in cause.files.iter().take(FILES) {
-                        li {
-                            a href=(link::filter(file, cause.adapter)) { code { (file) } } " " (condition.text()) ": "
-                            a href=(link::case(&first.case)) { "the first" } ", " (words::headline(first))
+            ul {
+                @for (file, condition, first) in files {
+                    li {
+                        a href=(link::case(&first.case)) { code { (first.case) } } ": " (words::headline(first))
+                        @if condition.failing > 1 {
+                            " · " a href=(link::filter(file, cause.adapter)) { (count(condition.failing as u64, "case")) " of " (file) } " " (condition.text())
                         }
                     }
-                    @if cause.files.len() > FILES { li { "and " (count((cause.files.len() - FILES) as u64, "more file")) } }
                 }
+                @if cause.files.len() > FILES { li { "and " (count((cause.files.len() - FILES) as u64, "more file")) } }
             }
         }
     }

@@ -11,7 +11,7 @@ use etalon_frame::CaseId;
 use maud::{Markup, html};
 
 /// The most rows of each kind.
-const ROWS: usize = 500;
+const ROWS: usize = 60;
 
 /// Returns the section: what broke, what was fixed, and the runs that this one was compared with.
 pub(super) fn section(news: &RunNews) -> Markup {
@@ -62,7 +62,7 @@ fn kind(name: &str, entries: &[NewsEntry]) -> Markup {
         @if !entries.is_empty() {
             h3 { (entries.len()) " " (name) }
             (table.folded(&shown))
-            @if entries.len() > ROWS { p.note { "and " (entries.len() - ROWS) " more" } }
+            @if entries.len() > ROWS { p.note { "and " (entries.len() - ROWS) " more; summary.md and the history have them" } }
         }
     }
 }

@@ -1,45 +1,55 @@
-//! The data of the page's script: one JSON block with every case on every adapter.
+//! The data of the page's script: a list of all cases, and for each area the facts and the pictures of its records.
 //!
-//! The data is in the page and not in a separate file, since a browser lets no page that was opened from the
-//! file system read its neighbours. Names and texts are strings of JSON, in which `<` is escaped, so none of
-//! them can end the block.
+//! A browser lets a page from the file system read its neighbours only by running them as scripts, so each file is a
+//! call of one function with one value. The page loads them when a view needs them. Names and texts are strings of
+//! JSON.
 
+use super::bodies;
 use super::consensus::Consensus;
 use super::facts::{self, Label};
-use super::findings::{FindingPlan, kind};
+use crate::error::ReportError;
+use crate::files::Destination;
 use crate::lists::Interner;
 use crate::mark::class;
-use crate::run::grid::{RunGrid, VerdictTally};
+use crate::run::grid::{AreaFiles, RunGrid, VerdictTally};
+use crate::run::reasons::PageReasons;
+use crate::threads::on_threads;
 use crate::words::{self, Tone};
-use etalon_record::Verdict;
+use etalon_record::{Record, Verdict};
 use maud::{Markup, PreEscaped, html};
 use serde::Serialize;
 use std::collections::HashMap;
+use std::path::Path;
 
-/// The maximum number of bytes that messages and other texts take together.
+/// The folder of the scripts in a run folder.
+pub(crate) const RECORDS: &str = "records";
+/// The maximum number of bytes that the messages and other texts of an area take together.
 const TEXT_BYTES: usize = 8 << 20;
 /// Signs for the kinds of cells; more than there are verdicts and tones.
 const SIGNS: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789";
 /// The sign of a cell without a record.
 const NO_RECORD: char = '.';
 
+/// What the page's script needs at once.
 #[derive(Serialize)]
 struct Data<'a> {
     adapters: &'a [&'a str],
+    areas: Vec<&'a str>,
+    /// Area and path of the scripts with the cases as intended.
+    scripts: &'a [(String, String)],
+}
+
+#[derive(Serialize)]
+struct CaseList<'a> {
     /// The meaning of each sign, the most serious first.
     cells: Vec<CellLook>,
     /// Text, distribution of votes, odd adapters.
     consensus: Interner<(String, &'static str, Vec<usize>)>,
-    /// The labels of facts: words, form, and true if an entry under Findings has the same.
-    labels: Interner<Label>,
-    texts: Interner<String>,
-    /// The facts of a record: label, text, label, text, …; the first list is empty.
-    facts: Interner<Vec<usize>>,
+    /// The rows of cases.
+    rows: Interner<CaseLook>,
+    /// The reasons for which records count for nothing.
+    reasons: Vec<&'a str>,
     files: Vec<ListedFile<'a>>,
-    /// Case, adapter and record of entries under Findings with all facts.
-    bodies: Vec<[usize; 3]>,
-    /// Area and path of the scripts with the cases as intended.
-    scripts: &'a [(String, String)],
 }
 
 #[derive(Serialize)]
@@ -51,85 +61,185 @@ struct CellLook {
     symbol: &'static str,
     class: &'static str,
     bad: bool,
+    due: bool,
     excused: bool,
     unexpected: bool,
+    right: bool,
 }
+
+/// A sign per adapter, the consensus, and pairs of an adapter and the reason of its record.
+#[derive(Serialize, Clone, PartialEq, Eq, Hash)]
+struct CaseLook(String, usize, Vec<usize>);
 
 #[derive(Serialize)]
 struct ListedFile<'a> {
     name: &'a str,
     area: usize,
-    cases: Vec<ListedCase<'a>>,
+    /// The id behind the file's name, and the row.
+    cases: Vec<(&'a str, usize)>,
 }
 
-/// The id behind the file's name, a sign per adapter, the consensus; for each record in turn the
-/// microseconds of drawing and judging; for each record the facts.
-#[derive(Serialize)]
-struct ListedCase<'a>(&'a str, String, usize, Vec<u64>, Vec<usize>);
+/// The facts of an area's records.
+#[derive(Serialize, Default)]
+struct AreaFacts {
+    /// The labels of facts: words, form, and true if the record's pictures come with the same.
+    labels: Interner<Label>,
+    texts: Interner<String>,
+    /// Lists of label, text, label, text, …; the first list is empty.
+    facts: Interner<Vec<usize>>,
+    /// By case, for each record in turn: the microseconds of drawing and judging, and its list.
+    cases: Vec<(Vec<u64>, Vec<usize>)>,
+}
 
-/// Returns the block, ready to be put into a page.
-pub(crate) fn block(
-    grid: &RunGrid<'_>,
-    plan: &FindingPlan,
-    scripts: &[(String, String)],
-) -> Markup {
-    let mut data = data(grid, plan);
-    data.scripts = scripts;
-    let json = serde_json::to_string(&data);
-    // All data can be written as JSON, so this cannot fail. The script would report an empty block.
-    let json = json.unwrap_or_else(|_| "null".to_owned());
-    let json = json.replace('<', "\\u003c");
+/// Returns the block for the page.
+pub(crate) fn block(grid: &RunGrid<'_>, scripts: &[(String, String)]) -> Markup {
+    let data = Data {
+        adapters: &grid.adapters,
+        areas: grid.areas.iter().map(|area| area.name).collect(),
+        scripts,
+    };
+    // Hostile names do not end the block.
+    let json = json(&data).replace('<', "\\u003c");
     html! { script type="application/json" id="data" { (PreEscaped(json)) } }
 }
 
-fn data<'a>(grid: &'a RunGrid<'_>, plan: &FindingPlan) -> Data<'a> {
-    let (facts, facts_of, texts, labels) = facts_of_all(grid);
+/// Returns the text. All data can be written as JSON, so this cannot fail; the script would report an empty value.
+fn json(data: &impl Serialize) -> String {
+    serde_json::to_string(data).unwrap_or_else(|_| "null".to_owned())
+}
+
+/// Writes the scripts, and returns their paths.
+///
+/// # Errors
+/// Returns an error if a script cannot be written.
+pub(crate) fn write(
+    to: &dyn Destination,
+    folder: &Path,
+    grid: &RunGrid<'_>,
+    reasons: &PageReasons,
+) -> Result<Vec<String>, ReportError> {
+    let write = |name: &str, call: &str, json: &str| {
+        let (path, key) = (
+            format!("{RECORDS}/{name}.js"),
+            name.trim_end_matches("-pictures"),
+        );
+        let text = format!("{call}({key:?}, {json});\n");
+        to.write(&path, text.as_bytes()).map(|_| path)
+    };
+    let mut paths = vec![write("cases", "etalonCases", &json(&cases(grid, reasons)))?];
+    let areas: Vec<usize> = (0..grid.areas.len()).collect();
+    let written = on_threads(&areas, |number| -> Result<_, ReportError> {
+        let area = &grid.areas[*number];
+        let facts = json(&area_facts(grid, area));
+        let bodies = json(&bodies::of_area(folder, grid, area));
+        let name = number.to_string();
+        Ok([
+            write(&name, "etalonFacts", &facts)?,
+            write(&format!("{name}-pictures"), "etalonPictures", &bodies)?,
+        ])
+    });
+    for written in written {
+        paths.extend(written?);
+    }
+    Ok(paths)
+}
+
+fn cases<'a>(grid: &'a RunGrid<'_>, reasons: &'a PageReasons) -> CaseList<'a> {
     let (cells, signs) = cells(grid);
     let mut consensus = Interner::default();
-    let mut bodies = Vec::new();
-    let mut number = 0;
+    let mut rows = Interner::default();
     let mut files = Vec::new();
-    for (a, area) in grid.areas.iter().enumerate() {
-        for file in &area.files {
-            let mut cases = Vec::new();
-            for case in &file.cases {
+    for (area, files_of) in grid.areas.iter().enumerate() {
+        for file in &files_of.files {
+            let cases = file.cases.iter().map(|case| {
                 let found = Consensus::of(grid, case);
                 let found = consensus.place((found.text, found.votes.name(), found.odd));
-                let id = case.id.strip_prefix(file.name).unwrap_or(case.id);
-                let mut row = ListedCase(id, String::new(), found, Vec::new(), Vec::new());
+                let mut look = CaseLook(String::new(), found, Vec::new());
                 for (column, index) in case.records.iter().enumerate() {
-                    let Some(index) = *index else {
-                        row.1.push(NO_RECORD);
-                        continue;
-                    };
-                    let record = grid.record(index);
-                    let key = (record.verdict, Tone::of(record));
-                    row.1.push(signs.get(&key).copied().unwrap_or(NO_RECORD));
-                    let micros = |s: f64| (s * 1e6).round() as u64;
-                    row.3.push(micros(record.seconds.draw));
-                    row.3.push(micros(record.seconds.judge));
-                    row.4.push(facts_of[index]);
-                    if plan.whole(index) {
-                        bodies.push([number, column, index]);
-                    }
+                    let record = index.map(|index| grid.record(index));
+                    let key = record.map(|record| (record.verdict, Tone::of(record)));
+                    let sign = key.and_then(|key| signs.get(&key).copied());
+                    look.0.push(sign.unwrap_or(NO_RECORD));
+                    let reasons = record.into_iter().flat_map(|record| reasons.of(record));
+                    look.2.extend(reasons.flat_map(|reason| [column, reason]));
                 }
-                cases.push(row);
-                number += 1;
-            }
-            let (name, area) = (file.name, a);
-            files.push(ListedFile { name, area, cases });
+                (
+                    case.id.strip_prefix(file.name).unwrap_or(case.id),
+                    rows.place(look),
+                )
+            });
+            files.push(ListedFile {
+                cases: cases.collect(),
+                name: file.name,
+                area,
+            });
         }
     }
-    Data {
-        adapters: &grid.adapters,
+    CaseList {
         cells,
         consensus,
-        labels,
-        texts,
-        facts,
+        rows,
+        reasons: reasons.texts(),
         files,
-        bodies,
-        scripts: &[],
+    }
+}
+
+fn area_facts(grid: &RunGrid<'_>, area: &AreaFiles<'_>) -> AreaFacts {
+    let cases = || area.files.iter().flat_map(|file| &file.cases);
+    let mut found = AreaFacts::default();
+    let lists = facts_of_all(
+        grid,
+        cases().flat_map(|c| c.records.iter().flatten()),
+        &mut found,
+    );
+    for case in cases() {
+        let (mut times, mut facts) = (Vec::new(), Vec::new());
+        for index in case.records.iter().flatten() {
+            let micros = |s: f64| (s * 1e6).round() as u64;
+            let seconds = &grid.record(*index).seconds;
+            times.extend([micros(seconds.draw), micros(seconds.judge)]);
+            facts.push(lists[index]);
+        }
+        found.cases.push((times, facts));
+    }
+    found
+}
+
+/// Returns the list of facts of each record. Unexpected records get their texts first, while there is room.
+fn facts_of_all<'i>(
+    grid: &RunGrid<'_>,
+    records: impl Iterator<Item = &'i usize>,
+    found: &mut AreaFacts,
+) -> HashMap<usize, usize> {
+    found.facts.place(Vec::new());
+    let mut order: Vec<usize> = records.copied().collect();
+    order.sort_by_key(|index| kind(grid.record(*index)));
+    let mut lists = HashMap::new();
+    let mut bytes = 0;
+    for index in order {
+        let mut facts = facts::of(grid.record(index));
+        let new = facts.iter().filter(|(_, text)| !found.texts.has(text));
+        let cost: usize = new.map(|(_, text)| escaped(text)).sum();
+        if cost > TEXT_BYTES.saturating_sub(bytes) {
+            facts = vec![facts::no_room()];
+        } else {
+            bytes += cost;
+        }
+        let mut list = Vec::new();
+        for (label, text) in facts {
+            list.extend([found.labels.place(label), found.texts.place(text)]);
+        }
+        lists.insert(index, found.facts.place(list));
+    }
+    lists
+}
+
+/// Returns 0 for unexpected records, 1 for expected or due ones, 2 for imprecise and all others.
+fn kind(record: &Record) -> usize {
+    match (record.unexpected(), record.verdict.is_bad()) {
+        (true, _) => 0,
+        (false, true) => 1,
+        (false, false) => 2,
     }
 }
 
@@ -151,49 +261,16 @@ fn cells(grid: &RunGrid<'_>) -> (Vec<CellLook>, HashMap<(Verdict, Tone), char>) 
                 symbol: words::symbol(verdict),
                 class: class(verdict, tone),
                 bad: verdict.is_bad(),
-                excused: tone == Tone::Excused,
+                due: tone == Tone::Due,
+                excused: matches!(tone, Tone::Excused | Tone::Due),
                 unexpected: tone == Tone::Missed || plain && verdict.is_bad(),
+                right: tone.is_right(verdict),
             }
         });
     (cells.collect(), signs)
 }
 
-/// All lists of facts, the list of every record by its position in the run, all texts, and all labels.
-type FactLists = (
-    Interner<Vec<usize>>,
-    Vec<usize>,
-    Interner<String>,
-    Interner<Label>,
-);
-
-fn facts_of_all(grid: &RunGrid<'_>) -> FactLists {
-    let records = &grid.run.records;
-    let mut texts: Interner<String> = Interner::default();
-    let mut labels = Interner::default();
-    let mut lists: Interner<Vec<usize>> = Interner::default();
-    lists.place(Vec::new());
-    let mut group_of = vec![0; records.len()];
-    // Unexpected records get their texts first, while there is room.
-    let mut order: Vec<usize> = (0..records.len()).collect();
-    order.sort_by_key(|i| kind(&records[*i]));
-    let mut bytes = 0;
-    for index in order {
-        let mut facts = facts::of(&records[index]);
-        let new = facts.iter().filter(|(_, text)| !texts.has(text));
-        let cost: usize = new.map(|(_, text)| escaped(text)).sum();
-        if cost > TEXT_BYTES.saturating_sub(bytes) {
-            facts = vec![facts::no_room()];
-        } else {
-            bytes += cost;
-        }
-        let facts = facts.into_iter();
-        let list = facts.flat_map(|(label, text)| [labels.place(label), texts.place(text)]);
-        group_of[index] = lists.place(list.collect());
-    }
-    (lists, group_of, texts, labels)
-}
-
-/// Returns the number of bytes that a text takes in the block.
+/// Returns the number of bytes that a text takes in a script.
 fn escaped(text: &str) -> usize {
     let escaped = |c: char| match c {
         '<' => 6,
@@ -219,46 +296,42 @@ mod tests {
         }
     }
 
-    fn block_of(records: Vec<Record>) -> String {
-        let run = run(records);
-        let grid = RunGrid::new(&run);
-        block(&grid, &FindingPlan::new(&grid), &[]).into_string()
-    }
-
     #[test]
-    fn hostile_texts_do_not_end_the_data_block() {
+    fn hostile_names_do_not_end_the_data_block() {
         let hostile = "</script><!--<script>\u{0}\u{2028}\"\\";
-        let mut record = Record::new(format!("a/{hostile}"), hostile, Verdict::Crash);
-        record.reasons = vec![Reason::Text(hostile.to_owned())];
-        let block = block_of(vec![record]);
+        let run = run(vec![Record::new(
+            format!("{hostile}/b"),
+            hostile,
+            Verdict::Crash,
+        )]);
+        let grid = RunGrid::new(&run);
+        let block = block(&grid, &[]).into_string();
         let inner = block.split_once('>').unwrap().1;
         let inner = inner.strip_suffix("</script>").unwrap();
         assert!(!inner.contains('<'));
         let json: serde_json::Value = serde_json::from_str(inner).unwrap();
         assert_eq!(json["adapters"][0], hostile);
-        let id = json["files"][0]["name"].as_str().unwrap().to_owned()
-            + json["files"][0]["cases"][0][0].as_str().unwrap();
-        assert_eq!(id, format!("a/{hostile}"));
-        let texts = json["texts"].as_array().unwrap();
-        assert!(texts.iter().any(|t| t == hostile));
+        assert!(hostile.starts_with(json["areas"][0].as_str().unwrap()));
     }
 
     #[test]
     fn texts_fill_the_room_and_unexpected_records_go_first() {
-        let mut records: Vec<Record> = (0..4000)
+        let mut records: Vec<Record> = (0..5000)
             .map(|i| {
                 let mut r = Record::new(format!("a/{i}"), "b", Verdict::Pass);
-                let text = format!("{i} {}", "<".repeat(1000));
+                let text = format!("{i} {}", "\n".repeat(1000));
                 r.reasons = vec![Reason::Text(text)];
                 r
             })
             .collect();
-        records[3999].verdict = Verdict::Crash;
-        let block = block_of(records);
-        assert!(block.len() < TEXT_BYTES + (1 << 20), "{}", block.len());
-        assert!(block.contains("\"3999 \\u003c"));
-        assert!(block.contains("\"0 \\u003c") && !block.contains("\"3998 \\u003c"));
-        assert!(block.contains("left out to keep the page small"));
+        records[4999].verdict = Verdict::Crash;
+        let run = run(records);
+        let grid = RunGrid::new(&run);
+        let facts = json(&area_facts(&grid, &grid.areas[0]));
+        assert!(facts.len() < TEXT_BYTES + (1 << 20), "{}", facts.len());
+        assert!(facts.contains("\"4999 \\n"));
+        assert!(facts.contains("\"0 \\n") && !facts.contains("\"4998 \\n"));
+        assert!(facts.contains("left out to keep the page small"));
     }
 
     #[test]

@@ -3,12 +3,11 @@
 use super::facts;
 use crate::command;
 use crate::numbers::count;
-use crate::page::link;
 use crate::picture::{self, Strip};
 use crate::table::Table;
 use crate::words::{
-    allowed, channel_of, code_and_value, code_text, judged_by, multisampled, operations, place,
-    sentence, value_text,
+    allowed, channel_of, clause, code_and_value, code_text, headline, judged_by, multisampled,
+    operations, place, value_text,
 };
 use etalon_frame::{Band, ChannelMismatch, Story, WrongTexel};
 use etalon_record::{FrameFile, Record, RecordError, Run};
@@ -17,7 +16,7 @@ use std::path::Path;
 
 /// The maximum number of wrong texels in a table.
 const TEXELS: usize = 6;
-/// The maximum number of bytes that all pictures of a page take together.
+/// The maximum number of bytes that all pictures of a file take together.
 const PICTURE_BYTES: usize = 2 << 20;
 
 /// The room that pictures take.
@@ -54,6 +53,7 @@ impl DrawnFrame {
     }
 }
 
+/// Returns a record from its picture to its commands: the subject of the case, the violation, pictures, operations, tables.
 pub(crate) fn body(
     record: &Record,
     drawn: Option<&DrawnFrame>,
@@ -62,33 +62,50 @@ pub(crate) fn body(
     let path = record.frame.as_deref();
     let frame = path.zip(drawn.map(|drawn| &drawn.frame));
     html! {
-        @if let Some((_, Ok(frame))) = &frame { (about(frame)) }
-        (facts::list(record))
+        @if let Some((_, Ok(frame))) = &frame { p.about { (frame.about) } }
+        (violation(record))
+        @if let Some(expected) = &record.expected { p.known { b { "Known: " } (expected.reason) } }
         @match &frame {
             Some((_, Ok(_))) => (pictures(drawn.map_or(&[], |drawn| &drawn.strips), budget)),
             Some((path, Err(error))) => p.note { "No pictures: " (path) ": " (error) },
             None => {},
         }
-        @if !record.wrong.is_empty() { (texels(record)) }
         @if let Some(story) = &record.story { (story_section(story, record)) }
-        @if !record.wrong.is_empty() {
-            p.again { "Explain it: " code { (command::explain(record)) } }
-            @if record.adapter != "cpu" {
-                @for (gives, line) in command::onward(record) { p.again { (gives) ": " code { (line) } } }
-            }
+        @if !record.wrong.is_empty() { (texels(record)) }
+        (facts::list(record))
+        @if let Some((_, Ok(frame))) = &frame {
+            @if !frame.spec.is_empty() { p.spec { "Specifications: " (frame.spec.join("; ")) } }
         }
-        p.again {
-            "Draw it again: "
-            code { (command::run(&record.case, &record.adapter)) }
-            span.all { ". " a href=(link::case(&record.case)) { "This case on all adapters" } "." }
-        }
+        (commands(record))
     }
 }
 
-fn about(frame: &FrameFile) -> Markup {
+/// Returns what is wrong in one sentence, with its clause and the strength of the evidence.
+fn violation(record: &Record) -> Markup {
+    let story = record.story.as_ref();
     html! {
-        p.about { (frame.about) }
-        @if !frame.spec.is_empty() { p.spec { "Specifications: " (frame.spec.join("; ")) } }
+        @if record.verdict.is_bad() || record.unexpected() || !record.wrong.is_empty() {
+            p.violation {
+                b { (headline(record)) }
+                @if let Some(clause) = story.and_then(clause) { " " cite { "[" (clause) "]" } }
+            }
+        }
+        @if let Some(judged_by) = story.and_then(judged_by) { p.note { (judged_by) } }
+    }
+}
+
+fn commands(record: &Record) -> Markup {
+    html! {
+        details.again {
+            summary { "Commands" }
+            @if !record.wrong.is_empty() {
+                p { "Explain it: " code { (command::explain(record)) } }
+                @if record.adapter != "cpu" {
+                    @for (gives, line) in command::onward(record) { p { (gives) ": " code { (line) } } }
+                }
+            }
+            p { "Draw it again: " code { (command::run(&record.case, &record.adapter)) } }
+        }
     }
 }
 
@@ -98,19 +115,30 @@ fn pictures(strips: &[Option<Strip>], budget: &mut DetailBudget) -> Markup {
         return html! { p.note { "These pictures were left out to keep the page small." } };
     }
     budget.bytes += strips.iter().flatten().map(|s| s.bytes()).sum::<usize>();
+    let readable = strips.iter().flatten();
+    let (wrong, right): (Vec<&Strip>, Vec<&Strip>) = readable.partition(|s| s.has_wrong());
+    let (first, others) = if wrong.is_empty() {
+        (right, wrong)
+    } else {
+        (wrong, right)
+    };
     html! {
-        @for strip in strips {
-            @if let Some(strip) = strip {
-                (strip)
-            } @else {
-                p.note { "An image of this frame has more or fewer codes than its size needs." }
+        @for strip in first { (strip) }
+        @if !others.is_empty() {
+            details {
+                summary { (count(others.len() as u64, "image")) " without a wrong texel" }
+                @for strip in others { (strip) }
             }
+        }
+        @if strips.iter().any(Option::is_none) {
+            p.note { "An image of this frame has more or fewer codes than its size needs." }
         }
         p.cap {
             "Difference: " span.cross { "✗" } " outside the legal set, " span.dot { "•" }
             " legal but outside the yardstick; the brighter, the farther outside the allowed range, "
-            "in codes (for floats units in the last place) on a logarithmic scale. Allowed low and "
-            "high enclose all allowed outcomes, so a wrong texel may lie between them."
+            "in codes (for floats units in the last place) on a logarithmic scale. The allowed picture has the "
+            "allowed codes that are nearest to the drawn ones, and stripes if they span a wide range. Allowed low "
+            "and high enclose all allowed outcomes, so a wrong texel may lie between them."
         }
     }
 }
@@ -165,17 +193,13 @@ fn off(m: &ChannelMismatch) -> String {
     count(codes.max(0).unsigned_abs(), "code")
 }
 
-/// Returns the ruling as a heading, the rules behind it, and the operations.
+/// Returns the operations at the first wrong texel.
 fn story_section(story: &Story, record: &Record) -> Markup {
     let lines = operations(story);
     html! {
-        @match (sentence(story), record.wrong.first()) {
-            (Some(sentence), _) => h5 { (sentence) },
-            (None, Some(texel)) => h5 { "Expected operations at " (place(texel, multisampled(record))) },
-            (None, None) => h5 { "Expected operations" },
-        }
-        @if let Some(judged_by) = judged_by(story) {
-            p.note { (judged_by) }
+        h4 {
+            "Operations"
+            @if let Some(texel) = record.wrong.first() { " at " (place(texel, multisampled(record))) }
         }
         ol.story {
             @for group in lines.chunk_by(|a, b| a.at == b.at) {

@@ -11,8 +11,9 @@ use maud::{Markup, html};
 /// reason.
 const LONGEST: usize = 4000;
 
-/// The words, the form, and true if an entry under Findings shows the same fact. Forms: `text`, `pre` for text
-/// from a driver, `case` for an id that becomes a link, `code`.
+/// The words, the form, and true if the record's page shows the same fact with its pictures. Forms: `text`; `lead`
+/// and `known`, what is wrong and the expectation, which come before the pictures; `pre` for text from a driver; `case`
+/// and `example` for ids that become links; `code`.
 pub(crate) type Label = (&'static str, &'static str, bool);
 
 /// Returns the note that replaces the facts of a record if there is no room for them.
@@ -26,15 +27,15 @@ pub(crate) fn of(record: &Record) -> Vec<(Label, String)> {
     let mut facts = Vec::new();
     let mut add = |name, form, in_body, text: String| facts.push(((name, form, in_body), text));
     let headline = words::headline(record);
-    if headline != words::meaning(record.verdict) && headline != words::message(record) {
-        add("In short", "text", false, headline);
+    if headline != words::meaning(record.verdict) {
+        add("In short", "lead", true, headline.clone());
     }
     let reasons = words::reasons_text(&record.reasons);
-    if !reasons.is_empty() {
+    if !reasons.is_empty() && reasons != headline {
         add("Message", "pre", true, end(&reasons));
     }
     if let Some(expected) = &record.expected {
-        add("Expected", "text", true, end(&expected.reason));
+        add("Known", "known", true, end(&expected.reason));
     }
     if let Some(case) = &record.look {
         let text =
@@ -89,8 +90,10 @@ pub(crate) fn of(record: &Record) -> Vec<(Label, String)> {
         }
         add("Measured", "text", false, text);
     }
-    if let Some(case) = &record.example {
-        add("Shown in full by", "case", true, case.clone());
+    // Selftests of a file that fail as due differ in nothing that matters.
+    let example = record.example.as_ref().filter(|_| !record.due_fail);
+    if let Some(case) = example {
+        add("Shown in full by", "example", true, case.clone());
     }
     if let Some(frame) = &record.frame {
         add("Frame", "code", true, frame.clone());
@@ -98,10 +101,11 @@ pub(crate) fn of(record: &Record) -> Vec<(Label, String)> {
     facts
 }
 
-/// Returns the facts that an entry under Findings has, as a list.
+/// Returns the facts that belong to a record's pictures, as a list.
 pub(crate) fn list(record: &Record) -> Markup {
     let facts = of(record).into_iter();
-    let facts: Vec<_> = facts.filter(|((.., in_body), _)| *in_body).collect();
+    let listed = |(_, form, in_body): Label| in_body && !["lead", "known"].contains(&form);
+    let facts: Vec<_> = facts.filter(|(label, _)| listed(*label)).collect();
     html! {
         @if !facts.is_empty() {
             dl.facts { @for ((name, form, _), text) in &facts {
@@ -109,7 +113,7 @@ pub(crate) fn list(record: &Record) -> Markup {
                 dd { @match *form {
                     "pre" => pre { (text) },
                     "code" => code { (text) },
-                    "case" => a href=(link::case(text)) { code { (text) } },
+                    "case" | "example" => a href=(link::case(text)) { code { (text) } },
                     _ => (text),
                 } }
             } }
@@ -202,6 +206,7 @@ mod tests {
         let facts = of(&record);
         let labels: Vec<&str> = facts.iter().map(|((label, ..), _)| *label).collect();
         let expected = [
+            "In short",
             "Process",
             "Standard error",
             "Validation",

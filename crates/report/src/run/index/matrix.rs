@@ -1,5 +1,6 @@
 //! Areas against adapters: a cell is a number and a bar, its words are its title and the list that it leads to.
 
+use super::parts::{INDEX, SAME_PAGE};
 use crate::lists::grouped;
 use crate::mark::class;
 use crate::page::adapter::breakable;
@@ -10,49 +11,56 @@ use etalon_frame::AdapterName;
 use etalon_record::Record;
 use maud::{Markup, html};
 
-/// The most cells of case files; a page with more shows areas alone.
-const FILE_CELLS: usize = 40_000;
 /// A table with more columns than this has upright names.
-const LYING: usize = 8;
+const LYING: usize = 14;
 
 /// Columns under one head.
 type ColumnGroup<'a> = (&'a str, Vec<usize>);
 
-/// Returns the section: areas and their case files by API, then areas by driver.
+/// Returns the section: areas by API. The page's script opens areas into case files.
 pub(crate) fn section(grid: &RunGrid<'_>) -> Markup {
-    let columns = || grid.adapters.iter().enumerate();
+    let columns = grid.adapters.iter().enumerate();
     let api_of = |name: &str| match grid.run.header.adapter(name) {
         Some(adapter) => api_name(adapter.limits.api),
         None => "unknown",
     };
-    let by_api = grouped(columns().map(|(column, name)| (api_of(name), column)));
-    let by_driver =
-        grouped(columns().map(|(column, name)| (AdapterName::new(name).driver(), column)));
-    let files = grid.files().count() * grid.adapters.len() <= FILE_CELLS;
+    let by_api = grouped(columns.map(|(column, name)| (api_of(name), column)));
     html! {
         section id="matrix" {
             h2 { "Areas and adapters" }
-            p {
-                "A bold number on colour counts bad verdicts that nothing expected; any other number counts known ones. "
-                "A dash means that nothing was drawn. An area opens into its case files, a cell leads to its list."
-            }
-            p aria-hidden="true" {
-                @for (style, meaning) in [("--x:100%", "unexpected"), ("--y:100%", "known"), ("--z:100%", "right"), ("", "not drawn, or nothing asserted")] {
-                    span.key { i.bar style=(style) {} " " (meaning) }
-                }
-            }
-            (table(grid, &by_api, "Verdicts by area and adapter, adapters by API", files))
-            @if by_driver.len() < grid.adapters.len() {
-                details {
-                    summary { "The same by driver" }
-                    (table(grid, &by_driver, "Verdicts by area and adapter, adapters by driver", false))
-                }
-            }
+            (legend())
+            (table(grid, &by_api, "Verdicts by area and adapter, adapters by API", SAME_PAGE))
         }
     }
 }
 
-fn table(grid: &RunGrid<'_>, groups: &[ColumnGroup<'_>], caption: &str, files: bool) -> Markup {
+/// Returns the same section by driver, for another page.
+pub(crate) fn by_driver(grid: &RunGrid<'_>) -> Markup {
+    let columns = grid.adapters.iter().enumerate();
+    let driver = |name| AdapterName::new(name).driver();
+    let groups = grouped(columns.map(|(column, name)| (driver(name), column)));
+    html! {
+        section id="by-driver" {
+            h2 { "The matrix by driver" }
+            (legend())
+            (table(grid, &groups, "Verdicts by area and adapter, adapters by driver", INDEX))
+        }
+    }
+}
+
+fn legend() -> Markup {
+    html! {
+        p.legend {
+            @for (style, meaning) in [("--x:100%", "unexpected"), ("--y:100%", "known"), ("--z:100%", "right"), ("", "not drawn, or nothing asserted")] {
+                span.key { i.bar style=(style) {} " " (meaning) }
+            }
+            "A bold number counts bad verdicts that nothing expected, any other number known ones. A cell leads to its cases."
+        }
+    }
+}
+
+/// Returns a table. `page` is the page that lists the cases.
+fn table(grid: &RunGrid<'_>, groups: &[ColumnGroup<'_>], caption: &str, page: &str) -> Markup {
     let columns: Vec<usize> = groups.iter().flat_map(|(_, c)| c).copied().collect();
     // The first column of each group has an edge.
     let edges: Vec<usize> = groups
@@ -62,66 +70,49 @@ fn table(grid: &RunGrid<'_>, groups: &[ColumnGroup<'_>], caption: &str, files: b
     let edge = |column: &usize| edges.contains(column);
     let upright = columns.len() > LYING;
     html! {
-        div.pane {
-            table.matrix.upright[upright] {
-                caption.vh { (caption) }
-                thead {
-                    tr {
-                        th scope="col" rowspan="2" { "Area" }
-                        @for (group, columns) in groups {
-                            th.edge scope="colgroup" colspan=(columns.len()) { (group) }
-                        }
-                    }
-                    tr { @for column in &columns {
-                        th.edge[edge(column)] scope="col" { span { (breakable(grid.adapters[*column])) } }
-                    } }
-                }
-                @for (a, area) in grid.areas.iter().enumerate() {
-                    tbody {
-                        tr {
-                            th scope="row" {
-                                @if files { details { summary { (area.name) } a href={ "#a" (a) } { "list" } } }
-                                @else { a href={ "#a" (a) } { (area.name) } }
-                            }
-                            @for column in &columns {
-                                (cell(area.on(*column).map(|i| grid.record(i)), edge(column), |_| Some(format!("#l{a}-{column}"))))
-                            }
-                        }
-                        @if files { @for file in &area.files {
-                            tr.file {
-                                th scope="row" { (within(area.name, file.name)) }
-                                @for column in &columns {
-                                    (cell(file.on(*column).map(|i| grid.record(i)), edge(column), |tally| {
-                                        let bad = tally.unexpected + tally.known > 0;
-                                        bad.then(|| link::filter(file.name, grid.adapters[*column]))
-                                    }))
-                                }
-                            }
-                        } }
+        table.matrix.upright[upright] {
+            caption.vh { (caption) }
+            thead {
+                tr {
+                    th scope="col" rowspan="2" { "Area" }
+                    @for (group, columns) in groups {
+                        th.edge scope="colgroup" colspan=(columns.len()) { (group) }
                     }
                 }
-                tbody { tr.sum {
-                    th scope="row" { "all" }
-                    @for column in &columns { (cell(grid.on(*column), edge(column), |_| Some("#findings".to_owned()))) }
+                tr { @for column in &columns {
+                    th.edge[edge(column)] scope="col" { span { (breakable(grid.adapters[*column])) } }
                 } }
             }
+            @for (number, area) in grid.areas.iter().enumerate() {
+                tbody data-area=(number) {
+                    tr {
+                        th scope="row" { a href={ (page) (link::area(area.name)) } { (area.name) } }
+                        @for column in &columns {
+                            (cell(grid, *column, area.on(*column).map(|i| grid.record(i)), edge(column), |adapter, bad| {
+                                format!("{page}{}", link::cell(Some(area.name), adapter, bad))
+                            }))
+                        }
+                    }
+                }
+            }
+            tbody { tr.sum {
+                th scope="row" { "all" }
+                @for column in &columns {
+                    (cell(grid, *column, grid.on(*column), edge(column), |adapter, bad| format!("{page}{}", link::cell(None, adapter, bad))))
+                }
+            } }
         }
     }
 }
 
-/// Returns the name of a case file within its area.
-fn within<'a>(area: &str, file: &'a str) -> &'a str {
-    let name = file
-        .strip_prefix(area)
-        .and_then(|rest| rest.strip_prefix('/'));
-    name.unwrap_or(file)
-}
-
-/// Returns the cell of some records: a number and a bar. `edge` is true in the first column of a group.
+/// Returns the cell of some records of a column: a number and a bar. `edge` is true in the first column of a group.
+/// `list` returns the link to the records of an adapter, or to the bad ones among them.
 fn cell<'r>(
+    grid: &RunGrid<'_>,
+    column: usize,
     records: impl Iterator<Item = &'r Record>,
     edge: bool,
-    list: impl FnOnce(&VerdictTally) -> Option<String>,
+    list: impl FnOnce(&str, bool) -> String,
 ) -> Markup {
     let tally = VerdictTally::of(records);
     let (number, kind) = match (tally.unexpected, tally.known, tally.right) {
@@ -133,13 +124,12 @@ fn cell<'r>(
     let worst = tally.worst.map(|worst| class(worst, Tone::Plain));
     let classes = [worst, kind, edge.then_some("edge")];
     let classes: Vec<&str> = classes.into_iter().flatten().collect();
-    let content = html! { (number) @if tally.total > 0 { i.bar style=(bar(&tally)) {} } };
+    let adapter = grid.adapters[column];
     html! {
-        td class=[(!classes.is_empty()).then(|| classes.join(" "))] title=(words(&tally)) {
-            @match list(&tally).filter(|_| tally.total > 0) {
-                Some(list) => a href=(list) { (content) },
-                None => (content),
-            }
+        td class=[(!classes.is_empty()).then(|| classes.join(" "))] data-column=(column) data-head=(adapter) title=(words(&tally)) {
+            @if tally.total > 0 {
+                a href=(list(adapter, kind.is_some())) { (number) i.bar style=(bar(&tally)) {} }
+            } @else { (number) }
         }
     }
 }

@@ -1,8 +1,8 @@
 // The handlers of the controls, the table and the keyboard.
 function onKey(event) {
-  if (foreign(event) || !data) return;
+  if (foreign(event)) return;
   const target = event.target instanceof Element ? event.target : document.body;
-  const handled = current !== null ? keyInCase(event.key) : keyInReport(event.key, target);
+  const handled = current !== null ? keyInCase(event.key) : $("cases").hidden ? keyInReport(event.key, target) : keyInCases(event.key, target);
   if (handled) event.preventDefault();
 }
 
@@ -23,6 +23,12 @@ function keyInCase(key) {
 }
 
 function keyInReport(key, target) {
+  if (key !== "/" || typing(target)) return false;
+  $("find-q").focus();
+  return true;
+}
+
+function keyInCases(key, target) {
   if (target === $("f-q")) {
     if (key === "Escape" && $("f-q").value) return change({ q: "" }, true), true;
     if (key === "Escape") return moveTo(0), true;
@@ -75,6 +81,10 @@ function listen() {
     control.addEventListener(isTyped ? "input" : "change", () => change({ [key]: CHECKS.includes(key) ? control.checked : control.value }, isTyped));
   }
   $("filter").addEventListener("submit", event => event.preventDefault());
+  $("find").addEventListener("submit", event => {
+    event.preventDefault();
+    location.hash = hashOf({ ...INITIAL, q: $("find-q").value.trim() });
+  });
   $("f-clear").addEventListener("click", () => change({ ...INITIAL, sort: state.sort }, false));
   $("f-groups").addEventListener("click", () => {
     const open = items.some(item => !item.one && !isOpen(item.group));

@@ -1,31 +1,47 @@
-// The view of an address: an element of the page, a filter of its cases, or one case.
+// The view of an address: the report, a filter of its cases, or one case.
+const LOST = "A file of this report cannot be loaded: is the folder “records” next to the page?";
 let routed = false;
 let fromReport = false;
 let afterRoute = null;
 
-const route = router($("report"), $("case"), data ? { case: showCase, gallery: showGallery } : {}, () => {
-  const found = data ? parameters() : new Map();
+const views = router($("report"), $("case"), { case: showCase, gallery: showGallery }, () => {
   const left = current;
   current = null;
   typed = false;
-  // The section's own URL means the whole table.
-  if (data && (found.size || !location.hash || location.hash === "#cases")) {
+  const wasAway = $("cases").hidden;
+  const listed = isList();
+  $("cases").hidden = !listed;
+  $("report").hidden = listed;
+  if (listed) {
     const before = hashOf(state);
-    state = stateOf(found);
-    if (hashOf(state) !== before) {
+    state = stateOf(parameters());
+    if (hashOf(state) !== before || !items.length) {
       toggled.clear();
       showControls();
       refresh();
     }
+    const row = left === null ? -1 : placeOf(left);
+    if (row >= 0) moveTo(row);
+    else if (wasAway) scrollTo(0, 0);
+  } else if (location.hash) {
+    reveal(location.hash.slice(1));
   }
-  const row = left === null ? -1 : placeOf(left);
-  if (row >= 0) moveTo(row);
-  else if (left !== null || found.size && !routed) $("cases").scrollIntoView();
-  else reveal(location.hash.slice(1));
   routed = true;
   if (afterRoute) afterRoute();
   afterRoute = null;
 });
+
+// Without a filter, the section's own address means the whole table.
+const isList = () => location.hash === "#cases" || parameters().size > 0;
+
+async function route() {
+  if (isList() && !(await ready())) return lost();
+  await views();
+}
+
+function lost() {
+  if (!$("lost")) $("report").prepend(make("p", { id: "lost", class: "state bad", role: "alert" }, LOST));
+}
 
 // Returns the row of a case, or of the closed group around it; -1 if the filter leaves neither.
 function placeOf(id) {
@@ -39,11 +55,9 @@ function leaveCase() {
   else location.hash = hashOf(state);
 }
 
-if (data) {
-  for (const id of ["filter", "rows", "keys"]) $(id).hidden = false;
-  listen();
-  refresh();
-}
+$("find").hidden = false;
+listen();
+listenToMatrix();
 document.querySelector(".skip").addEventListener("click", event => {
   event.preventDefault();
   (current === null ? $("main") : $("case-title")).focus();
@@ -51,10 +65,7 @@ document.querySelector(".skip").addEventListener("click", event => {
 addEventListener("keydown", onKey);
 addEventListener("hashchange", route);
 route();
-// Elements after the script exist only now; views and links that need them are shown again.
-addEventListener("DOMContentLoaded", () => {
-  if (current === null) reveal(location.hash.slice(1));
-  else if (data && cases[numberOf.get(current)] && data.bodies.some(([number]) => number === numberOf.get(current))) route();
-});
-// A mark for measurements: the table can be used from here on.
+// The list is there before the first click.
+addEventListener("load", () => setTimeout(ready, 50));
+// A mark for measurements: the page can be used from here on.
 performance.mark("etalon-ready");

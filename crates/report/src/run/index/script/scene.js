@@ -1,5 +1,5 @@
 // Cases as intended: texts, scene, JSON, shaders and picture, from one script per area next to the page.
-const withArea = beside("etalonArea", name => data && data.scripts.find(([area]) => area === name)?.[1]);
+const withArea = beside("etalonArea", name => data.scripts.find(([area]) => area === name)?.[1]);
 
 const areaOf = id => id.split("/")[0];
 
@@ -58,7 +58,7 @@ function picture(held, place, id, width) {
 const foldedText = (title, content) => make("details", {}, make("summary", {}, title), make("pre", {}, content));
 
 // Returns what a case should draw; filled when its area's script has loaded.
-function meant(id) {
+function meant(id, tell) {
   const section = make("section", { id: "meant", hidden: true });
   withArea(areaOf(id)).then(held => {
     const one = cases[numberOf.get(id)];
@@ -67,7 +67,10 @@ function meant(id) {
     const [scene, place, used] = found;
     const template = held.files[one.file.name];
     section.append(make("h2", {}, "The case"));
-    if (template) section.append(make("p", { class: "about" }, template.about), make("p", { class: "soft" }, template.spec.join("; ")));
+    if (template) {
+      tell(template.about);
+      section.append(make("p", { class: "soft" }, template.spec.join("; ")));
+    }
     if (place >= 0) {
       section.append(make("figure", { class: "reference" }, picture(held, place, id, 160),
         make("figcaption", {}, "Reference: the rasterizer's picture of what is read back first")));

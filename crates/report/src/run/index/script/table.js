@@ -1,8 +1,10 @@
 // The table of all cases: a page of rows at a time, in groups that open and close.
-const ROWS = 100;
+const ROWS = 60;
 // The filtered cases in the order of the table; the rows of all pages.
 let shown = [];
 let items = [];
+// The adapters with a column.
+let columns = [];
 let cursor = null;
 const toggled = new Set();
 
@@ -18,9 +20,17 @@ function byConsensus(a, b) {
   return APART[a.consensus.votes] - APART[b.consensus.votes] || wrong(a) - wrong(b) || a.number - b.number;
 }
 
+// Cases that fail as nothing expected go before known failures, and these before selftests.
+const gravity = one => Math.min(...columns.map(i => cellOf(one, i)).map(cell => !cell ? 3 : cell.unexpected ? 0 : cell.bad && !cell.due ? 1 : 2));
+
 // Rebuilds the rows after a change of the filter, the order or the open groups.
 function refresh() {
-  shown = matching(state);
+  if (state.messages && !allFacts) {
+    Promise.all(data.areas.map((_, area) => withFacts(area))).then(all => { allFacts = all; refresh(); });
+  }
+  const search = searched(state);
+  columns = search.adapters;
+  shown = matching(state, search);
   items = [];
   if (state.sort === "consensus") {
     shown.sort(byConsensus);
@@ -32,18 +42,34 @@ function refresh() {
       groups.get(one.file).push(one);
     }
     const sorted = [...groups];
-    if (state.sort === "-case") sorted.reverse(), shown.reverse();
+    if (state.sort === "-case") sorted.reverse();
+    else if (state.verdict) sorted.sort(([, a], [, b]) => Math.min(...a.map(gravity)) - Math.min(...b.map(gravity)));
     for (const [group, members] of sorted) {
       items.push({ group, members });
       if (state.sort === "-case") members.reverse();
       if (isOpen(group)) for (const one of members) items.push({ one, group, members });
     }
+    shown = sorted.flatMap(([, members]) => members);
   }
   state.page = Math.min(state.page, pages());
   draw();
 }
 
+function drawHead() {
+  const row = $("case-table").tHead.rows[0];
+  for (const head of [...row.cells].slice(2)) head.remove();
+  const names = columns.map(i => data.adapters[i]);
+  $("case-table").classList.toggle("upright", columns.length > 4);
+  for (const name of columns.length === 1 ? [...names, "What is wrong"] : names) {
+    row.append(make("th", { scope: "col" }, make("span", {}, ...breakable(name))));
+  }
+  $("only").hidden = !state.reason;
+  $("only").replaceChildren(make("b", {}, "With the reason: "), data.reasons[state.reason] ?? "", " ",
+    make("a", { href: hashOf({ ...state, reason: "", page: 1 }) }, "All reasons"));
+}
+
 function draw() {
+  drawHead();
   const table = $("case-table");
   for (const body of [...table.tBodies]) body.remove();
   const first = (state.page - 1) * ROWS;
@@ -66,6 +92,7 @@ function draw() {
   }
   let text = whole(shown.length) + " of " + counted(cases.length, "case");
   if (!shown.length) text += ": no case fits the filters";
+  $("rows").hidden = !shown.length;
   if ($("count").textContent !== text) $("count").textContent = text;
   $("pages").hidden = pages() === 1;
   $("page-at").textContent = "Page " + state.page + " of " + pages();
@@ -82,7 +109,7 @@ function groupRow({ group, members }, again) {
   const key = "g" + group.number;
   const counts = new Map();
   for (const one of members) {
-    for (const sign of one.cells) counts.set(sign, (counts.get(sign) || 0) + 1);
+    for (const i of columns) counts.set(one.cells[i], (counts.get(one.cells[i]) || 0) + 1);
   }
   const chips = data.cells.filter(cell => counts.has(cell.sign)).map(cell =>
     make("span", { class: "chip " + cell.class },
@@ -92,7 +119,7 @@ function groupRow({ group, members }, again) {
       make("i", { "aria-hidden": "true" }, open ? "▾ " : "▸ "), group.name);
   const words = make("div", {}, button, " ", make("small", {}, counted(members.length, "case")), ...chips);
   return make("tr", { class: "group" },
-    make("th", { scope: "rowgroup", colspan: data.adapters.length + 2 }, words));
+    make("th", { scope: "rowgroup", colspan: columns.length + (columns.length === 1 ? 3 : 2) }, words));
 }
 
 function caseRow(one, group) {
@@ -100,19 +127,32 @@ function caseRow(one, group) {
   const text = group && one.id.length > group.name.length ? one.id.slice(group.name.length).replace(/^\//, "") : one.id;
   const link = make("a", { href: addressOf(one.id), "data-key": key, tabindex: key === cursor ? "0" : "-1" }, text || "(no name)");
   const row = make("tr", {}, make("th", { scope: "row" }, link), make("td", { class: "says " + one.consensus.votes }, one.consensus.text));
-  for (let i = 0; i < data.adapters.length; i++) row.append(verdictCell(one, i));
+  for (const i of columns) row.append(verdictCell(one, i));
+  if (columns.length === 1) row.append(reasonCell(one, columns[0]));
   return row;
 }
 
 function verdictCell(one, adapter) {
-  const cell = signs.get(one.cells[adapter]);
+  const cell = cellOf(one, adapter);
+  const head = data.adapters[adapter];
   if (!cell) return make("td", { class: "none" }, make("span", { class: "vh" }, "no record"));
   const odd = one.consensus.odd.includes(adapter);
   const symbol = cell.excused ? "(" + cell.symbol + ")" : cell.symbol;
   const seen = cell.bad && !cell.excused || cell.word.includes("(due");
-  return make("td", { class: cell.class + (odd ? " odd" : ""), title: cell.word },
+  return make("td", { class: cell.class + (odd ? " odd" : ""), title: cell.word, "data-head": head },
     make("i", { "aria-hidden": "true" }, symbol), seen ? " " : "",
     make("span", { class: seen ? "" : "vh" }, cell.word + (odd && !seen ? ", differs" : "")));
+}
+
+// Returns a cell that tells what is wrong when the area's facts have loaded.
+function reasonCell(one, adapter) {
+  const cell = make("td", { class: "says why" });
+  withFacts(one.file.area).then(held => {
+    const told = recordOf(held, one, adapter).facts;
+    const [lead, known] = ["lead", "known"].map(form => told.find(fact => fact.form === form));
+    cell.textContent = (lead ?? known)?.text ?? "";
+  });
+  return cell;
 }
 
 // Moves the one row that the Tab key can reach, across pages if necessary.
