@@ -319,17 +319,18 @@ fn of_path(value: PathValue) -> String {
 /// Returns the class of a colour format: the formats of a class have the same rules.
 fn color_class(format: TextureFormat) -> &'static str {
     match format {
-        TextureFormat::Rgba8UnormSrgb => "srgb",
         TextureFormat::Bgra8Unorm => "bgra",
         _ => match format.color_channels().first() {
+            Some(ChannelEncoding::Srgb8) => "srgb",
             Some(ChannelEncoding::Unorm(8)) => "unorm8",
+            Some(ChannelEncoding::Unorm(16)) => "unorm16",
             Some(ChannelEncoding::Unorm(1..8)) => "packed-16",
             Some(ChannelEncoding::Unorm(_)) => "packed",
             Some(ChannelEncoding::Ufloat(_)) => "packed-float",
             Some(ChannelEncoding::Snorm(_)) => "snorm",
             Some(ChannelEncoding::Float16) => "half-float",
             Some(ChannelEncoding::Float32) => "float",
-            _ => "uint",
+            Some(ChannelEncoding::Uint(_)) | None => "uint",
         },
     }
 }

@@ -237,22 +237,15 @@ pub fn standard_formats(level: Level, has: impl Fn(&str) -> bool) -> BTreeMap<Te
             | TextureFormat::R16Float
             | TextureFormat::Rg16Float
             | TextureFormat::Rgb10a2Unorm => every_use,
-            TextureFormat::R16Float | TextureFormat::Rg16Float | TextureFormat::Rgba16Float => {
-                Uses {
-                    multisampled: level == Level::Core,
-                    ..every_use
-                }
-            }
+            TextureFormat::Rgba16Float => Uses {
+                multisampled: level == Level::Core,
+                ..every_use
+            },
             TextureFormat::R8Snorm | TextureFormat::Rg8Snorm | TextureFormat::Rgba8Snorm => {
                 when("texture-formats-tier1")
             }
-            TextureFormat::R16Unorm | TextureFormat::Rg16Unorm | TextureFormat::Rgba16Unorm
-                if !has("texture-formats-tier1") =>
-            {
-                return None;
-            }
             TextureFormat::R16Unorm | TextureFormat::Rg16Unorm | TextureFormat::Rgba16Unorm => {
-                every_use
+                return has("texture-formats-tier1").then_some(every_use);
             }
             TextureFormat::Rg11b10Ufloat => when("rg11b10ufloat-renderable"),
             TextureFormat::R32Float | TextureFormat::Rg32Float | TextureFormat::Rgba32Float => {
