@@ -215,6 +215,31 @@ fn is_between_sides([x, y, _, w]: [f32; 4]) -> bool {
     x.abs() <= w && y.abs() <= w
 }
 
+/// Returns the interval that a depth bias may add to a point or a line: none, and their own if the rules let them have
+/// one. No text says what the slope of a line is, so the steepest between two sub-texels bounds it.
+fn line_bias(
+    context: &PassContext<'_>,
+    draw: &Draw,
+    z: [Interval; 3],
+    boxes: [SnapBox; 3],
+) -> Interval {
+    let none = Interval::exact(0.0);
+    if !context.rules.biases_lines.value() {
+        return none;
+    }
+    let all = z.into_iter().fold(z[0], Interval::hull);
+    let steepest = (all.high - all.low) * units_per_texel(context.limits) as f64;
+    let biased = Biased {
+        z: &z,
+        boxes: &boxes,
+        slope: &|| Interval {
+            low: 0.0,
+            high: steepest,
+        },
+    };
+    depth_bias(context, draw, &biased).hull(none)
+}
+
 /// Returns a primitive whose vertices are in front of the eye and are snapped.
 fn snapped(
     context: &PassContext<'_>,
@@ -232,7 +257,12 @@ fn snapped(
     }
     .map(|i| vertices.get(context, draw, i, grid));
     let boxes = v.map(|v| v.snapped);
-    let mut bias = Interval::exact(0.0);
+    let mut bias = match indices {
+        PrimitiveVertices::Triangle(_) => Interval::exact(0.0),
+        PrimitiveVertices::Point(_) | PrimitiveVertices::Line(_) => {
+            line_bias(context, draw, v.map(|v| v.window_z), boxes)
+        }
+    };
     let (shape, window_depth, clip_depth) = match indices {
         PrimitiveVertices::Point(i) => (
             Shape::Point {

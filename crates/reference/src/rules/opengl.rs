@@ -389,6 +389,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 14.5.1 Basic Line Segment Rasterization: the number of fragments differs by at most one from that of the diamond-exit rule",
             ]),
         ),
+        biases_lines: permit(
+            false,
+            text.cite([
+                "OpenGL 3.3: 3.6.5 Depth Offset: of polygons",
+                "OpenGL 4.5: 14.6.5 Depth Offset: of polygons",
+                "OpenGL 4.6: 14.6.5 Depth Offset: of polygons",
+            ]),
+        ),
         points_face_front: permit(
             true,
             text.cite([

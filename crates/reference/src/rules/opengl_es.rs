@@ -332,6 +332,14 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL ES 3.2: 13.6.1 Basic Line Segment Rasterization: the number of fragments differs by at most one from that of the diamond-exit rule",
             ]),
         ),
+        biases_lines: permit(
+            false,
+            text.cite([
+                "OpenGL ES 3.0: 3.6.2 Depth Offset: of polygons",
+                "OpenGL ES 3.1: 13.5.2 Depth Offset: of polygons",
+                "OpenGL ES 3.2: 13.7.2 Depth Offset: of polygons",
+            ]),
+        ),
         points_face_front: permit(
             true,
             text.cite([

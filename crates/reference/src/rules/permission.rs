@@ -560,6 +560,8 @@ rules! {
     /// The number of fragments that a line may lack, compared with the diamond-exit rule; `None` if no
     /// specification counts fragments.
     lines_lack: Option<usize>,
+    /// True if points and lines may have their own depth bias or none; otherwise they have none.
+    biases_lines: bool,
     /// True if points and lines face front; otherwise either is legal.
     points_face_front: bool,
     /// True if the edges of a polygon drawn as lines face like the polygon; otherwise either facing is legal.

@@ -260,6 +260,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             Some(1),
             "Vulkan: Bresenham Line Segment Rasterization: the number of fragments differs by at most one from that of the diamond-exit rule; rectangles and parallelograms have one in each column",
         ),
+        biases_lines: permit(
+            true,
+            "Vulkan: Depth Bias Computation: may also be applied to line and point topology primitives",
+        ),
         points_face_front: permit(
             true,
             "Vulkan: Fragment Shading, FrontFacing: fragments of other primitives than polygons are front-facing",

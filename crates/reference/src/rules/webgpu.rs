@@ -210,6 +210,10 @@ pub(super) fn rules(limits: &Limits) -> Rules {
             None,
             "WebGPU: 23.2.5.2 Line Rasterization: the algorithm is not defined",
         ),
+        biases_lines: permit(
+            false,
+            "WebGPU: GPUDepthStencilState: a bias needs a triangle topology",
+        ),
         points_face_front: permit(
             false,
             "WebGPU: 23.2.5: facing of points and lines is not asserted",

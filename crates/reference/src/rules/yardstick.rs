@@ -157,6 +157,10 @@ pub(super) fn rules(limits: &Limits, text: &Rules) -> Rules {
             "Direct3D 11.3: 3.4.3 aliased lines: the diamond-exit rule",
         ),
         lines_lack: permit(Some(0), "Yardstick: no gap in a line"),
+        biases_lines: permit(
+            false,
+            "Direct3D 11.3: 15.10: points and lines are not biased",
+        ),
         points_face_front: permit(
             api != Api::WebGpu,
             "Direct3D 11.3: 15.10: points and lines are front-facing",
