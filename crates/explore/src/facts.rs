@@ -323,7 +323,6 @@ fn color_class(format: TextureFormat) -> &'static str {
         _ => match format.color_channels().first() {
             Some(ChannelEncoding::Srgb8) => "srgb",
             Some(ChannelEncoding::Unorm(8)) => "unorm8",
-            Some(ChannelEncoding::Unorm(16)) => "unorm16",
             Some(ChannelEncoding::Unorm(1..8)) => "packed-16",
             Some(ChannelEncoding::Unorm(_)) => "packed",
             Some(ChannelEncoding::Ufloat(_)) => "packed-float",

@@ -216,7 +216,7 @@ fn is_between_sides([x, y, _, w]: [f32; 4]) -> bool {
 }
 
 /// Returns the interval that a depth bias may add to a point or a line: none, and their own if the rules let them have
-/// one. No text says what the slope of a line is, so the steepest between two sub-texels bounds it.
+/// one. No specification defines the slope of a line, so the steepest between two sub-texels bounds it.
 fn line_bias(
     context: &PassContext<'_>,
     draw: &Draw,
