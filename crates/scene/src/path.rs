@@ -51,13 +51,7 @@ pub struct Path {
     /// The format of the textures that color attachments are views of.
     pub views: PathViews,
     /// The way in which shaders read attachments of their own pass.
-    #[serde(skip_serializing_if = "is_default")]
     pub reads: PathReads,
-}
-
-/// Keys that are younger than the choice of faulty scenes by a hash of their text are left out of it.
-fn is_default(reads: &PathReads) -> bool {
-    *reads == PathReads::default()
 }
 
 impl Path {
