@@ -369,9 +369,7 @@ impl<'a> Walk<'a> {
         {
             return Err(Rejection::Coverage);
         }
-        let is_at_point = self.rules.covers_at_positions.value();
-        let samples = || self.scene.pass_samples(&self.scene.passes[p]);
-        let spread = (!is_at_point).then(samples).and_then(|n| self.anywhere(n));
+        let spread = self.anywhere(self.scene.pass_samples(&self.scene.passes[p]));
         let clip = self.setups[p].clip(d);
         let sample = SnapBox::of_sample(point, spread);
         let in_viewport = clip.holds(primitive, sample, self.rules, self.units);
