@@ -9,7 +9,7 @@ use crate::wire::{self, AxisValue, FileWire, QuickWire, SceneSource};
 use etalon_frame::without_mark;
 use etalon_methods::Model;
 use serde_json::{Value, json};
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::sync::Arc;
 
 /// The maximum number of cases of a file.
@@ -21,12 +21,14 @@ pub(crate) const METHOD: &str = "method";
 /// The part of each file's product of axes that is used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Profile {
+    /// The candidates, without the redundant ones that `redundant.txt` lists.
+    #[default]
+    Quick,
     /// The part that the file's `quick` selects. `"pairwise"`: enough cases that every two values of every
     /// two axes occur together. `{ "each": 2 }`: enough that every value occurs in two cases. `{ "where": …
     /// }`: the cases with these values. `{ "any": [ … ] }`: the cases with the values of any row. Without
     /// `quick`, everything. Files of methods keep all methods, at some values of the other axes.
-    #[default]
-    Quick,
+    Candidates,
     /// The whole product.
     Full,
 }
@@ -41,6 +43,8 @@ pub struct CaseFile {
     pub(crate) source: SceneSource,
     /// The scene of one's own that the methods draw, in place of one that the file names.
     pub(crate) model: Option<Arc<Model>>,
+    /// The ids of candidates that the quick profile leaves out.
+    pub(crate) redundant: BTreeSet<String>,
     count: usize,
 }
 
@@ -164,6 +168,7 @@ impl CaseFile {
             wire,
             source,
             model: None,
+            redundant: BTreeSet::new(),
             count,
         })
     }
@@ -208,6 +213,11 @@ impl CaseFile {
         matches!(self.source, SceneSource::Random(_))
     }
 
+    /// Returns true if the quick profile takes a covering array of every two axes.
+    pub fn is_covering(&self) -> bool {
+        self.wire.quick == Some(QuickWire::Pairwise)
+    }
+
     /// Returns true if the cases draw by methods.
     pub(crate) fn is_method(&self) -> bool {
         matches!(self.source, SceneSource::Method(_))
@@ -230,21 +240,31 @@ impl CaseFile {
 
     /// Returns the cases of a profile; the last axis (in alphabetical order) varies fastest.
     pub fn cases(&self, profile: Profile) -> impl Iterator<Item = CaseRef<'_>> {
-        let mut indices: Vec<usize> = match (profile, &self.wire.quick) {
-            (Profile::Quick, Some(QuickWire::Pairwise)) => self.covering(Cover::Pairs),
-            (Profile::Quick, Some(QuickWire::Each(n))) => self.covering(Cover::AtLeast(n.get())),
-            (Profile::Quick, Some(QuickWire::First(n))) => (0..self.count.min(n.get())).collect(),
-            (Profile::Quick, Some(QuickWire::Where(chosen))) => {
-                (0..self.count).filter(|i| self.has(*i, chosen)).collect()
-            }
-            (Profile::Quick, Some(QuickWire::Any(rows))) => (0..self.count)
+        let indices = match profile {
+            Profile::Full => (0..self.count).collect(),
+            Profile::Quick | Profile::Candidates => self.candidates(),
+        };
+        let case = move |index| CaseRef { file: self, index };
+        let leaves_out = profile == Profile::Quick && !self.redundant.is_empty();
+        let is_kept = move |case: &CaseRef| !leaves_out || !self.redundant.contains(&case.id());
+        indices.into_iter().map(case).filter(is_kept)
+    }
+
+    /// Returns the indices of the cases that `quick` selects, in ascending order.
+    fn candidates(&self) -> Vec<usize> {
+        let all = 0..self.count;
+        let mut indices: Vec<usize> = match &self.wire.quick {
+            None => all.collect(),
+            Some(QuickWire::Pairwise) => self.covering(Cover::Pairs),
+            Some(QuickWire::Each(n)) => self.covering(Cover::AtLeast(n.get())),
+            Some(QuickWire::First(n)) => all.take(n.get()).collect(),
+            Some(QuickWire::Where(chosen)) => all.filter(|i| self.has(*i, chosen)).collect(),
+            Some(QuickWire::Any(rows)) => all
                 .filter(|i| rows.iter().any(|chosen| self.has(*i, chosen)))
                 .collect(),
-            _ => (0..self.count).collect(),
         };
         indices.sort_unstable();
-        let case = move |index| CaseRef { file: self, index };
-        indices.into_iter().map(case)
+        indices
     }
 
     /// Returns true if the case at an index of the product has these values.

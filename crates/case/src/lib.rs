@@ -26,6 +26,7 @@ mod path;
 mod place;
 mod queries;
 mod random;
+mod redundant;
 mod relation;
 mod resolve;
 mod scene_json;

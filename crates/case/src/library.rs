@@ -2,6 +2,7 @@
 
 use crate::error::CaseError;
 use crate::file::{CaseFile, CaseRef, Profile};
+use crate::redundant::Redundant;
 use etalon_methods::Model;
 use std::collections::BTreeSet;
 use std::fs;
@@ -34,7 +35,8 @@ impl Entry {
     fn file(&self) -> &CaseFile {
         match self {
             Self::BuiltIn { name, text, parsed } => parsed.get_or_init(|| {
-                CaseFile::parse(name, text).expect("tests parse all built-in files")
+                let file = CaseFile::parse(name, text).expect("tests parse all built-in files");
+                Redundant::built_in().of(file)
             }),
             Self::Read(file) => file,
         }
@@ -98,11 +100,18 @@ impl Library {
             return vec![Err(error)];
         }
         names.sort();
+        let redundant = match Redundant::in_folder(folder) {
+            Ok(redundant) => redundant,
+            Err(error) => return vec![Err(error)],
+        };
         let read = |name: String| {
             let text = text_of(&folder.join(&name)).map_err(|e| unreadable(&name, &e))?;
-            CaseFile::parse(&name, &text)
+            CaseFile::parse(&name, &text).map(|file| redundant.of(file))
         };
-        names.into_iter().map(read).collect()
+        let mut files: Vec<_> = names.into_iter().map(read).collect();
+        let parsed = files.iter().filter_map(|file| file.as_ref().ok());
+        files.extend(redundant.check(parsed).err().map(Err));
+        files
     }
 
     /// Returns the paths of the files, without `.json`. No file is parsed for it.
@@ -151,14 +160,14 @@ impl Library {
 }
 
 /// Reads a regular file. Reading a pipe would block.
-fn text_of(path: &Path) -> io::Result<String> {
+pub(crate) fn text_of(path: &Path) -> io::Result<String> {
     if !fs::metadata(path)?.is_file() {
         return Err(io::Error::other("it is not a regular file"));
     }
     fs::read_to_string(path)
 }
 
-fn unreadable(name: &str, error: &std::io::Error) -> CaseError {
+pub(crate) fn unreadable(name: &str, error: &std::io::Error) -> CaseError {
     CaseError {
         file: name.to_owned(),
         line: 0,

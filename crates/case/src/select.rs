@@ -67,8 +67,8 @@ impl Globs {
     }
 }
 
-/// Returns the cases of a profile whose ids match any of the globs; all cases if the list is empty. See
-/// [`Globs`].
+/// Returns the cases of a profile whose ids match any of the globs; all cases if the list is empty. A glob that is an
+/// id selects its case from any profile. See [`Globs`].
 ///
 /// # Errors
 /// If a glob does not parse.
@@ -77,14 +77,24 @@ pub fn select<'a>(
     profile: Profile,
     globs: &[String],
 ) -> Result<Selection<'a>, SelectError> {
+    let named: BTreeSet<&str> = globs.iter().map(String::as_str).collect();
     let globs = Globs::new(globs)?;
-    let files = library.files_where(|stem| globs.can_begin_with(stem));
-    Ok(Selection {
-        cases: files
-            .flat_map(|file| file.cases(profile))
-            .filter(|c| globs.matches(&c.id()))
-            .collect(),
-    })
+    let mut cases = Vec::new();
+    for file in library.files_where(|stem| globs.can_begin_with(stem)) {
+        let matching = |c: &CaseRef<'_>| globs.matches(&c.id());
+        let mut selected: Vec<CaseRef<'_>> = file.cases(profile).filter(matching).collect();
+        let from = named.range(file.stem()..);
+        if from.into_iter().any(|id| id.starts_with(file.stem())) {
+            let ids: BTreeSet<String> = selected.iter().map(CaseRef::id).collect();
+            let is_one = |id: &String| ids.contains(id) || named.contains(id.as_str());
+            selected = file
+                .cases(Profile::Full)
+                .filter(|c| is_one(&c.id()))
+                .collect();
+        }
+        cases.extend(selected);
+    }
+    Ok(Selection { cases })
 }
 
 /// Returns the number of matching cases that the full profile has and a profile leaves out, given the ids
@@ -122,6 +132,26 @@ mod tests {
         assert!(globs(&["*write=true"]).matches("depth/compare/compare=less/write=true"));
         assert!(globs(&["depth"]).matches("depth/compare/compare=less"));
         assert!(!globs(&["depth"]).matches("depths/compare"));
+    }
+
+    #[test]
+    fn an_id_selects_its_case_from_any_profile() {
+        let library = Library::built_in();
+        let full: Vec<String> = library.cases_that_begin("depth/").map(|c| c.id()).collect();
+        let quick = |globs: &[String]| -> Vec<String> {
+            let selection = select(library, Profile::Quick, globs).expect("globs");
+            selection.cases.iter().map(CaseRef::id).collect()
+        };
+        let area = quick(&["depth".to_owned()]);
+        let other = full
+            .iter()
+            .find(|id| !area.contains(id))
+            .expect("quick is a part");
+        assert_eq!(quick(&[other.clone()]), [other.clone()]);
+        let both = quick(&["depth".to_owned(), other.clone()]);
+        let expected = full.iter().filter(|id| area.contains(id) || *id == other);
+        assert!(both.iter().eq(expected), "{other}");
+        assert_eq!(quick(&[format!("{other}/*")]), [""; 0]);
     }
 
     #[test]

@@ -41,6 +41,7 @@ mod output;
 mod processors;
 mod progress;
 mod provenance;
+mod quick_choice;
 mod recorded_frame;
 mod reducing;
 mod saved_recording;

@@ -67,6 +67,8 @@ pub(crate) enum Renewed {
     Page,
     /// A list of cases by their worth.
     Order,
+    /// A list of redundant cases.
+    Redundant,
     /// A picture.
     Picture,
 }
@@ -74,6 +76,10 @@ pub(crate) enum Renewed {
 /// The beginning of every list of cases by their worth.
 pub(crate) const ORDER_HEAD: &str =
     "# Cases by the planted bugs that each one catches beyond those before it, per second.\n";
+
+/// The beginning of every list of redundant cases.
+pub(crate) const REDUNDANT_HEAD: &str =
+    "# Candidates that the quick profile leaves out: others have their power.\n";
 
 impl Renewed {
     fn is_one(self, bytes: &[u8]) -> bool {
@@ -85,6 +91,7 @@ impl Renewed {
                 bytes.starts_with(b"<!DOCTYPE html>") && made
             }
             Self::Order => bytes.starts_with(ORDER_HEAD.as_bytes()),
+            Self::Redundant => bytes.starts_with(REDUNDANT_HEAD.as_bytes()),
             Self::Picture => bytes.starts_with(b"\x89PNG\r\n\x1a\n"),
         }
     }
@@ -104,6 +111,7 @@ impl Renewed {
         let kind = match self {
             Self::Page => "page of etalon",
             Self::Order => "order that etalon wrote",
+            Self::Redundant => "list of redundant cases that etalon wrote",
             Self::Picture => "PNG file",
         };
         Err(Failure::usage(format!(

@@ -39,9 +39,10 @@ pub(crate) fn sort_by_worth(cases: &mut [Case]) {
     cases.sort_by_key(|case| places.get(&case.id).copied());
 }
 
-/// Returns the file with the order that a hunt gives. The hunt must have drawn every case with every bug.
-pub(crate) fn order(cases: &[Case], hunted: &Hunted) -> String {
+/// Returns the file with the order that a hunt gives of its quick cases. It must have drawn every case with every bug.
+pub(crate) fn order(cases: &[Case], is_quick: &[bool], hunted: &Hunted) -> String {
     let mut left: HashSet<usize> = (0..hunted.records.len()).collect();
+    let quick: Vec<usize> = (0..cases.len()).filter(|n| is_quick[*n]).collect();
     let mut text =
         format!("{ORDER_HEAD}# Written by: etalon mutants --full --order cases/order.txt\n");
     loop {
@@ -50,7 +51,7 @@ pub(crate) fn order(cases: &[Case], hunted: &Hunted) -> String {
             let caught = catches.bugs.iter().filter(|bug| left.contains(bug)).count();
             caught as f64 / (OVERHEAD + catches.cost).as_secs_f64()
         };
-        let best = (0..cases.len()).map(|number| (number, worth(number)));
+        let best = quick.iter().map(|number| (*number, worth(*number)));
         let best = best.reduce(|best, other| if other.1 > best.1 { other } else { best });
         let Some((best, worth)) = best else { break };
         if worth == 0.0 {

@@ -323,6 +323,7 @@ fn color_class(format: TextureFormat) -> &'static str {
         _ => match format.color_channels().first() {
             Some(ChannelEncoding::Srgb8) => "srgb",
             Some(ChannelEncoding::Unorm(8)) => "unorm8",
+            Some(ChannelEncoding::Unorm(16)) => "unorm16",
             Some(ChannelEncoding::Unorm(1..8)) => "packed-16",
             Some(ChannelEncoding::Unorm(_)) => "packed",
             Some(ChannelEncoding::Ufloat(_)) => "packed-float",
@@ -542,7 +543,8 @@ impl FactPairs {
     }
 
     /// Returns the numbers of the pairs that a scene has, the greater one first.
-    fn met_in(&self, scene: &Scene) -> BTreeSet<(usize, usize)> {
+    /// Returns the pairs that a scene has, as the numbers of their facts, the greater one first.
+    pub fn met_in(&self, scene: &Scene) -> BTreeSet<(usize, usize)> {
         let mut met = BTreeSet::new();
         let discard = self.facts.numbers.get(RASTERIZER_DISCARD);
         for facts in self.facts.of(scene) {

@@ -9,10 +9,11 @@ use crate::output::{print, print_json, summarize, table_options};
 use crate::processors::processors;
 use crate::progress::progress;
 use crate::provenance;
+use crate::quick_choice::QuickChoice;
 use crate::worth::order;
 use clap::Args;
 use etalon_backend::Backend;
-use etalon_case::{Case, Globs};
+use etalon_case::{Case, Globs, Library, Profile};
 use etalon_cpu::CpuBackend;
 use etalon_explore::{Fuzzer, Space};
 use etalon_frame::Limits;
@@ -44,7 +45,7 @@ pub(crate) struct Arguments {
     #[arg(long)]
     pub(crate) list: bool,
     /// Draw with the innocents alone: behaviours that some specification permits, and that no case may fail there
-    #[arg(long, conflicts_with_all = ["full", "order", "fuzz"])]
+    #[arg(long, conflicts_with_all = ["full", "order", "redundant", "fuzz"])]
     pub(crate) innocents: bool,
     /// Hunt only with the cases that match this glob; may be repeated
     #[arg(long = "case", value_name = "GLOB")]
@@ -62,8 +63,17 @@ pub(crate) struct Arguments {
     /// draws them
     #[arg(long, value_name = "FILE", requires = "full")]
     pub(crate) order: Option<PathBuf>,
+    /// Hunt with all candidates of the quick profile, and write this file: those that quick leaves out, because the
+    /// others catch the same bugs, have the same pairs of states and the same values
+    #[arg(
+        long,
+        value_name = "FILE",
+        requires = "full",
+        conflicts_with = "profile"
+    )]
+    pub(crate) redundant: Option<PathBuf>,
     /// Hunt with this many random scenes instead of cases; each bug is drawn until its first Fail
-    #[arg(long, value_name = "N", conflicts_with_all = ["case_globs", "profile", "cases", "full", "order"])]
+    #[arg(long, value_name = "N", conflicts_with_all = ["case_globs", "profile", "cases", "full", "order", "redundant"])]
     pub(crate) fuzz: Option<u64>,
     /// Seed of the random scenes
     #[arg(long, value_name = "S", default_value_t = 0, requires = "fuzz")]
@@ -85,8 +95,12 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     if arguments.list {
         return chosen.list(arguments.format);
     }
-    if let Some(path) = &arguments.order {
-        Renewed::Order.check(path)?;
+    let renewed = [
+        (&arguments.order, Renewed::Order),
+        (&arguments.redundant, Renewed::Redundant),
+    ];
+    for (path, kind) in renewed {
+        path.as_ref().map_or(Ok(()), |path| kind.check(path))?;
     }
     let claim = Out {
         folder: &arguments.out,
@@ -102,7 +116,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     }
     let library = library(arguments.cases.as_ref())?;
     let named = !arguments.case_globs.is_empty();
-    let cases: Vec<Case> = build(&library, arguments.profile.into(), &arguments.case_globs)?
+    let profile = match arguments.redundant {
+        Some(_) => Profile::Candidates,
+        None => arguments.profile.into(),
+    };
+    let cases: Vec<Case> = build(&library, profile, &arguments.case_globs)?
         .into_iter()
         .filter(|c| c.judged_as.is_none())
         .filter(|c| named || !c.measured)
@@ -113,7 +131,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
             arguments.case_globs.join(" ")
         )));
     }
-    let hunt = hunt(arguments, &cases, &chosen)?;
+    let hunt = hunt(arguments, &library, &cases, &chosen)?;
     let _lock = claim.take()?;
     let written = etalon_report::write_hunt(&arguments.out, &hunt).map_err(Failure::incomplete)?;
     if arguments.format == OutputFormat::Json {
@@ -248,7 +266,12 @@ fn open(name: &str) -> Option<Box<dyn Backend>> {
     MutantBackend::new(name).map(|backend| Box::new(backend) as Box<dyn Backend>)
 }
 
-fn hunt(arguments: &Arguments, cases: &[Case], chosen: &Chosen) -> Result<Hunt, Failure> {
+fn hunt(
+    arguments: &Arguments,
+    library: &Library,
+    cases: &[Case],
+    chosen: &Chosen,
+) -> Result<Hunt, Failure> {
     let jobs = processors();
     let rounds = jobs.min(chosen.bugs.len()) + usize::from(!chosen.innocents.is_empty());
     let bar = progress(cases.len() as u64 * rounds as u64);
@@ -261,8 +284,15 @@ fn hunt(arguments: &Arguments, cases: &[Case], chosen: &Chosen) -> Result<Hunt, 
         jobs,
     };
     let found = etalon_runner::hunt(plan, &open, &|| bar.inc(1));
+    let mut is_quick = vec![true; cases.len()];
+    if let Some(path) = &arguments.redundant {
+        let findings = etalon_findings::findings().map_err(Failure::usage)?;
+        let choice = QuickChoice::new(library, cases, &found, &findings);
+        replace(path, choice.redundant(cases).as_bytes())?;
+        is_quick = choice.is_kept;
+    }
     if let Some(path) = &arguments.order {
-        replace(path, order(cases, &found).as_bytes())?;
+        replace(path, order(cases, &is_quick, &found).as_bytes())?;
     }
     let faithful = || Box::new(CpuBackend::spans("cpu")) as Box<dyn Backend>;
     let plan = InnocentPlan {
