@@ -25,7 +25,7 @@ const FEATURES = [
 /** Uncaptured errors, to be sent with the next answer. */
 const messages = [];
 
-/** Returns the browser's name and version, as it reports them. */
+/** Returns the name and version of the browser, or of what hosts the page, as it reports them. */
 async function browser() {
   const data = navigator.userAgentData;
   try {
@@ -38,7 +38,7 @@ async function browser() {
   } catch {
     // The user agent has less detail.
   }
-  const [, name, version] = /(Firefox|Chrome|Version)\/([\d.]+)/.exec(navigator.userAgent) ?? [];
+  const [, name, version] = /(Firefox|Chrome|Version|Dawn|Deno)\/([\d.]+)/.exec(navigator.userAgent) ?? [];
   return { name: name === "Version" ? "Safari" : (name ?? "browser"), version: version ?? "" };
 }
 

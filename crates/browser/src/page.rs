@@ -11,7 +11,7 @@ pub(crate) struct ServedFile {
 }
 
 /// All files.
-pub(crate) const FILES: [ServedFile; 5] = [
+pub(crate) const FILES: [ServedFile; 6] = [
     ServedFile {
         path: "",
         media: "text/html; charset=utf-8",
@@ -36,6 +36,11 @@ pub(crate) const FILES: [ServedFile; 5] = [
         path: "page.js",
         media: "text/javascript; charset=utf-8",
         text: include_str!("../page/page.js"),
+    },
+    ServedFile {
+        path: "host.js",
+        media: "text/javascript; charset=utf-8",
+        text: include_str!("../page/host.js"),
     },
 ];
 

@@ -17,7 +17,7 @@ pub fn in_child(test: &str, environment: &[(&str, String)], body: impl FnOnce())
         return;
     }
     let output = Command::new(env::current_exe().expect("the path of the test"))
-        .args([test, "--exact", "--nocapture"])
+        .args([test, "--exact", "--include-ignored", "--nocapture"])
         .env(CHILD, test)
         // Mesa prints a warning if this is not set.
         .env("XDG_RUNTIME_DIR", env::temp_dir())

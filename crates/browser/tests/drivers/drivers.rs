@@ -11,8 +11,10 @@ use std::process::Command;
 /// The browsers as `etalon` starts them.
 const ADAPTERS: &str = include_str!("../../../adapters/adapters.json");
 
-/// The software driver below Firefox.
+/// The software driver below Firefox and Deno.
 const LAVAPIPE: &str = "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json";
+/// The software driver below Dawn in Node: that of Chromium.
+const SWIFTSHADER: &str = "/usr/lib/chromium/vk_swiftshader_icd.json";
 
 /// The process that keeps a browser; only the tests start it.
 #[test]
@@ -52,7 +54,7 @@ fn started(name: &str, browser: Browser, validate: bool, fault: Option<Fault>) -
         record: false,
     };
     let backend = open(name, options).unwrap_or_else(|e| {
-        panic!("{name} cannot be used: {e}: apt-get install chromium firefox-esr")
+        panic!("{name} cannot be used: {e}: apt-get install chromium firefox-esr, or ci/adapters/webgpu")
     });
     assert!(backend.adapter().software, "{name} draws in software");
     backend
@@ -86,16 +88,37 @@ pub(crate) fn compatibility() -> TestedDriver<'static> {
 }
 
 pub(crate) fn firefox() -> TestedDriver<'static> {
-    let manifest = || LAVAPIPE.to_owned();
     TestedDriver {
         known: known("webgpu:firefox"),
-        environment: vec![
-            ("VK_DRIVER_FILES", manifest()),
-            ("VK_ICD_FILENAMES", manifest()),
-        ],
+        environment: over(LAVAPIPE),
         open: |validate| Box::new(opened("webgpu:firefox", validate, None)),
         tolerated: &[],
     }
+}
+
+pub(crate) fn dawn() -> TestedDriver<'static> {
+    TestedDriver {
+        known: known("webgpu:dawn"),
+        environment: over(SWIFTSHADER),
+        open: |validate| Box::new(opened("webgpu:dawn", validate, None)),
+        tolerated: &[],
+    }
+}
+
+pub(crate) fn deno() -> TestedDriver<'static> {
+    TestedDriver {
+        known: known("webgpu:deno"),
+        environment: over(LAVAPIPE),
+        open: |validate| Box::new(opened("webgpu:deno", validate, None)),
+        tolerated: &[],
+    }
+}
+
+/// Returns the variables that choose a Vulkan driver by its manifest.
+fn over(manifest: &str) -> Vec<(&'static str, String)> {
+    ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"]
+        .map(|name| (name, manifest.to_owned()))
+        .to_vec()
 }
 
 /// Facts that the drivers' descriptions do not give.
