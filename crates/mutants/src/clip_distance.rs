@@ -29,7 +29,7 @@ fn triangles(bug: fn(&mut [Vertex])) -> Plant {
     draws(move |draw| {
         let triangles = draw.topology == PrimitiveTopology::TriangleList;
         if triangles && draw.shader == Shader::ClipFlat {
-            draw.mesh.vertices.chunks_mut(3).for_each(bug);
+            draw.mesh.vertices.chunks_exact_mut(3).for_each(bug);
         }
     })
 }

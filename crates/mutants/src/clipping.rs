@@ -43,7 +43,7 @@ fn far(texels: f32, bug: fn(&mut [Vertex])) -> Plant {
 
 fn change(draw: &mut Draw, which: impl Fn(&Vertex) -> bool, bug: fn(&mut [Vertex])) {
     if draw.topology == PrimitiveTopology::TriangleList && draw.mesh.indices.is_none() {
-        let triangles = draw.mesh.vertices.chunks_mut(3);
+        let triangles = draw.mesh.vertices.chunks_exact_mut(3);
         triangles.filter(|t| t.iter().any(&which)).for_each(bug);
     }
 }

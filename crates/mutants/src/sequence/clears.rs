@@ -127,9 +127,11 @@ bugs! {
     "clear-ignores-left-of-rectangle: The rectangle of a clear begins at column 0." =>
         commands(|_, command| command.rect = command.rect.map(|[x, y, w, h]| [0, y, x + w, h]));
     "command-upside-down: The rectangle of a clear is counted from the bottom." =>
-        commands(|_, command| {
-            let below = |[x, y, w, h]: [u32; 4]| [x, 16_u32.saturating_sub(y + h), w, h];
-            command.rect = command.rect.map(below);
+        passes(|scene, number, pass| {
+            let [_, height] = scene.pass_size(&scene.passes[number]);
+            for rect in pass.clears.iter_mut().filter_map(|command| command.rect.as_mut()) {
+                rect[1] = height.saturating_sub(rect[1] + rect[3]);
+            }
         }), source "OpenGL under another API: y from below";
     for (number, word) in [(0, "first"), (1, "second")] {
         "{word}-clear-command-skipped: The {word} clear command of a pass is skipped." =>
