@@ -211,3 +211,16 @@ pub(crate) fn read_back(scene: &Scene, name: &str) -> Result<usize, At> {
     read.find(|index| scene.attachments[*index].name == name)
         .ok_or_else(|| At::new(format!("`{name}` is not read back")))
 }
+/// Checks that the channels of an integer format hold a value.
+pub(crate) fn check_integer_value(format: TextureFormat, value: [f32; 4]) -> Result<(), At> {
+    if !format.is_integer() {
+        return Ok(());
+    }
+    for (channel, value) in format.color_channels().iter().zip(value) {
+        let most = channel.mask();
+        if value.fract() != 0.0 || !(0.0..=most as f32).contains(&value) {
+            return Err(At::new(format!("integers must be from 0 to {most}")));
+        }
+    }
+    Ok(())
+}

@@ -1,6 +1,6 @@
 //! Draws: applies defaults, resolves names to indices, and refuses impossible states.
 
-use crate::attachment::{MAX_SIZE, find};
+use crate::attachment::{MAX_SIZE, check_integer_value, find};
 use crate::error::At;
 use crate::fetch::fetch;
 use crate::wire::{DrawWire, StencilFaceWire, StencilWire};
@@ -329,10 +329,15 @@ fn check_sampler(wire: &DrawWire, target: &DrawTarget<'_>, textures: &[usize]) -
             "with several samples, attributes may be those of any point of the texel; use a single sample",
         ));
     }
-    let filterable = |format: TextureFormat| !matches!(format, TextureFormat::Rgba32Float);
     let format = |t: &usize| target.attachments[*t].format;
-    if !textures.iter().map(format).all(filterable) {
-        return Err(At::new("not every driver can filter 32-bit floats"));
+    if !textures
+        .iter()
+        .map(format)
+        .all(TextureFormat::is_filterable)
+    {
+        return Err(At::new(
+            "not every driver can filter 32-bit floats, and none filters integers",
+        ));
     }
     Ok(())
 }
@@ -415,12 +420,8 @@ fn check_integers(
         if format.is_integer() && color.blend.is_some() {
             return Err(At::new("integers cannot be blended").key("blend"));
         }
-    }
-    let is_byte = |v: &f32| v.fract() == 0.0 && (0.0..=255.0).contains(v);
-    if wire.shader.writes_integers() && !wire.params.color.0.iter().all(is_byte) {
-        return Err(At::new("integers must be from 0 to 255")
-            .key("color")
-            .key("params"));
+        check_integer_value(format, wire.params.color.0)
+            .map_err(|at| at.key("color").key("params"))?;
     }
     Ok(())
 }
@@ -591,7 +592,7 @@ fn check_advanced(wire: &DrawWire, target: &DrawTarget<'_>) -> Result<(), At> {
         return Err(At::new("advanced blending needs a single source"));
     }
     let format = target.attachments[*index].format;
-    if format.is_integer() || format == TextureFormat::Rgba8Snorm {
+    if format.is_integer() || format.is_snorm() {
         return Err(At::new(format!(
             "the modes are defined for values from 0 to 1, not for {format}"
         )));

@@ -1,5 +1,6 @@
 //! Load and store operations and clear commands of a pass: parses them and refuses impossible ones.
 
+use crate::attachment::check_integer_value;
 use crate::codes::beside;
 use crate::draw::write_mask;
 use crate::error::At;
@@ -201,10 +202,7 @@ fn color_at(target: &PassTarget, location: usize) -> Result<TextureFormat, At> {
 }
 
 fn color_value(format: TextureFormat, value: [f32; 4]) -> Result<(), At> {
-    let is_byte = |v: &f32| v.fract() == 0.0 && (0.0..=255.0).contains(v);
-    if format.is_integer() && !value.iter().all(is_byte) {
-        return Err(At::new("integers must be from 0 to 255"));
-    }
+    check_integer_value(format, value)?;
     if !value.iter().all(|v| v.is_finite()) {
         return Err(At::new("a cleared colour must be finite"));
     }

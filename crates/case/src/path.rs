@@ -144,11 +144,7 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
             "no single-sample colour attachment is drawn to and read back",
         ),
         PathValue::End(PathEnd::ShaderRead) => (
-            any(&|i, a| {
-                read(i, a)
-                    && a.format != TextureFormat::Rgba8Snorm
-                    && a.format != TextureFormat::Rgba8UnormSrgb
-            }),
+            any(&|i, a| read(i, a) && !a.format.is_snorm() && !a.format.is_srgb()),
             "no single-sample attachment is read back whose codes a shader sees",
         ),
         PathValue::End(PathEnd::Part) => (
@@ -182,6 +178,7 @@ fn impossible(scene: &Scene, value: PathValue) -> Option<&'static str> {
                     TextureFormat::Rgba8Unorm
                         | TextureFormat::Rgba8UnormSrgb
                         | TextureFormat::Bgra8Unorm
+                        | TextureFormat::Bgra8UnormSrgb
                 )
             }),
             "no attachment has a format with and without sRGB conversion",

@@ -119,6 +119,8 @@ pub const KNOWN: &[KnownFaults] = &[
     driver("webgpu:chromium", Api::WebGpu, BROWSER, &[]),
     driver("webgpu:compatibility", Api::WebGpu, COMPATIBILITY, &[]),
     driver("webgpu:firefox", Api::WebGpu, FIREFOX, &[]),
+    driver("webgpu:dawn", Api::WebGpu, BROWSER, &[]),
+    driver("webgpu:deno", Api::WebGpu, DENO, &[]),
 ];
 
 const NOTHING: Lacks = Lacks {
@@ -131,14 +133,20 @@ const NOTHING: Lacks = Lacks {
 
 const EVERY_FORMAT: &str = "r8unorm rg8unorm rgba8unorm rgba8unorm-srgb bgra8unorm rgba8snorm \
     rgb10a2unorm b5g6r5unorm bgr5a1unorm bgra4unorm rg11b10ufloat rgba8uint rgba16float rgba32float \
+    r16unorm rg16unorm rgba16unorm bgra8unorm-srgb r8snorm rg8snorm r8uint rgb10a2uint r16uint rg16uint rgba16uint \
+    r16float rg16float r32float rg32float \
     depth16unorm depth24plus depth24plus-stencil8 depth32float depth32float-stencil8 stencil8";
+
+const SNORM: &str = "r8snorm rg8snorm rgba8snorm";
+const UNORM16: &str = "r16unorm rg16unorm rgba16unorm";
+const INTEGERS: &str = "r8uint rgba8uint rgb10a2uint r16uint rg16uint rgba16uint";
 
 const VULKAN: Lacks = Lacks {
     features: &[
         "advanced-blend advanced-blend-coherent clip-distance-mask depth-bounds depth-resolve-max depth-resolve-min independent-resolve \
         independent-resolve-none inherited-queries masked-clears sample-coverage stencil-resolve-max stencil-resolve-min",
     ],
-    blending: &["rgba8snorm"],
+    blending: &[SNORM],
     samples: &["depth24plus depth24plus-stencil8"],
     ..NOTHING
 };
@@ -157,7 +165,7 @@ const GL_FEATURES: &str = "depth-bounds inherited-queries mirrored-viewport uppe
 /// certainty.
 const GL: Lacks = Lacks {
     features: &[GL_FEATURES, RESOLVES],
-    formats: &["bgra8unorm"],
+    formats: &["bgra8unorm bgra8unorm-srgb"],
     samples: &["depth24plus depth24plus-stencil8"],
     ..NOTHING
 };
@@ -193,7 +201,7 @@ const ES_FEATURES: &str = "alpha-to-one conservative-depth depth-bounds first-pr
 /// OpenGL ES of llvmpipe.
 const ES: Lacks = Lacks {
     features: &[ES_FEATURES, RESOLVES],
-    formats: &["bgra8unorm"],
+    formats: &["bgra8unorm bgra8unorm-srgb"],
     ..NOTHING
 };
 const ES_ZINK: Lacks = Lacks {
@@ -230,8 +238,8 @@ const WGPU_FEATURES: &str = "advanced-blend advanced-blend-coherent alpha-to-cov
 const WGPU_VULKAN: Lacks = Lacks {
     features: &[WGPU_FEATURES, RESOLVES],
     formats: &["b5g6r5unorm bgr5a1unorm bgra4unorm"],
-    blending: &["rgba8snorm"],
-    samples: &["rgba8snorm rgba8uint depth16unorm"],
+    blending: &[SNORM],
+    samples: &[SNORM, UNORM16, INTEGERS, "depth16unorm"],
     ..NOTHING
 };
 /// A browser has the features of WebGPU. Over SwiftShader it offers no second source.
@@ -241,9 +249,14 @@ const BROWSER: Lacks = Lacks {
         RESOLVES,
         "conservative-depth dual-source-blending forced-early-tests forced-early-tests-with-depth fragment-invocations",
     ],
-    drawing: &["rgba8snorm"],
+    formats: &["b5g6r5unorm bgr5a1unorm bgra4unorm", UNORM16],
+    drawing: &[SNORM],
     blending: &[],
-    samples: &["rgba8snorm rgba8uint rgba32float depth16unorm"],
+    samples: &[
+        SNORM,
+        INTEGERS,
+        "r32float rg32float rgba32float depth16unorm",
+    ],
     ..WGPU_VULKAN
 };
 /// Compatibility mode has no views in other formats, which are needed to read samples of sRGB.
@@ -255,7 +268,15 @@ const COMPATIBILITY: Lacks = Lacks {
         forced-early-tests-with-depth fragment-invocations independent-blend linear-interpolation \
         sample-interpolation sample-mask-input sample-mask-output sample-shading",
     ],
-    samples: &["rgba8unorm-srgb rgba8snorm rgba8uint rgba16float rgba32float depth16unorm"],
+    formats: &[
+        "b5g6r5unorm bgr5a1unorm bgra4unorm bgra8unorm-srgb",
+        UNORM16,
+    ],
+    samples: &[
+        SNORM,
+        INTEGERS,
+        "rgba8unorm-srgb rgba16float r32float rg32float rgba32float depth16unorm",
+    ],
     ..BROWSER
 };
 const FIREFOX: Lacks = Lacks {
@@ -265,7 +286,15 @@ const FIREFOX: Lacks = Lacks {
         "clip-distances conservative-depth dual-source-blending forced-early-tests forced-early-tests-with-depth \
         fragment-invocations",
     ],
-    blending: &["rgba32float"],
+    blending: &["r32float rg32float rgba32float"],
+    ..BROWSER
+};
+const DENO: Lacks = Lacks {
+    features: &[
+        WGPU_FEATURES,
+        RESOLVES,
+        "conservative-depth forced-early-tests forced-early-tests-with-depth fragment-invocations",
+    ],
     ..BROWSER
 };
 /// wgpu 30 over OpenGL requires extensions that core contexts do not need. It has no views in other
@@ -276,9 +305,9 @@ const WGPU_GL: Lacks = Lacks {
         RESOLVES,
         "depth-bias-clamp fragment-invocations",
     ],
-    drawing: &["rgba8snorm rg11b10ufloat rgba32float"],
+    drawing: &[SNORM, "rg11b10ufloat r32float rg32float rgba32float"],
     blending: &[],
-    samples: &["rgba8snorm rgba8unorm-srgb rgba8uint"],
+    samples: &[SNORM, UNORM16, INTEGERS, "rgba8unorm-srgb bgra8unorm-srgb"],
     ..WGPU_VULKAN
 };
 const WGPU_SOFTPIPE: Lacks = Lacks {
@@ -287,8 +316,8 @@ const WGPU_SOFTPIPE: Lacks = Lacks {
         RESOLVES,
         "depth-bias-clamp fragment-invocations independent-blend sample-interpolation sample-shading",
     ],
-    drawing: &["rgba8snorm"],
-    blending: &["rgba32float"],
+    drawing: &[SNORM],
+    blending: &["r32float rg32float rgba32float"],
     ..WGPU_GL
 };
 

@@ -13,14 +13,17 @@ enum ChannelLayout {
 /// Returns the layout of the client format of `gl_format`.
 fn layout(format: TextureFormat) -> ChannelLayout {
     match format {
-        TextureFormat::Rgb10a2Unorm => ChannelLayout::Packed(4, &[0, 10, 20, 30]),
+        TextureFormat::Rgb10a2Unorm | TextureFormat::Rgb10a2Uint => {
+            ChannelLayout::Packed(4, &[0, 10, 20, 30])
+        }
         TextureFormat::Rg11b10Ufloat => ChannelLayout::Packed(4, &[0, 11, 22]),
         TextureFormat::B5g6r5Unorm => ChannelLayout::Packed(2, &[11, 5, 0]),
         TextureFormat::Bgr5a1Unorm => ChannelLayout::Packed(2, &[11, 6, 1, 0]),
         TextureFormat::Bgra4Unorm => ChannelLayout::Packed(2, &[12, 8, 4, 0]),
-        TextureFormat::Rgba16Float => ChannelLayout::Each(2),
-        TextureFormat::Rgba32Float => ChannelLayout::Each(4),
-        _ => ChannelLayout::Each(1),
+        _ => {
+            let first = format.color_channels().first();
+            ChannelLayout::Each(first.map_or(1, |channel| channel.bits() as usize / 8))
+        }
     }
 }
 

@@ -13,8 +13,8 @@ pub(crate) struct GlFormat {
     pub(crate) attachment: u32,
 }
 
-/// Returns GL's description of a format. `bgra8unorm` has none: GL's `BGRA` is an order in client memory, and
-/// the order of channels in a texture is unspecified.
+/// Returns GL's description of a format. `bgra8unorm` and `bgra8unorm-srgb` have none: GL's `BGRA` is an order
+/// in client memory, and the order of channels in a texture is unspecified.
 pub(crate) fn gl_format(format: TextureFormat) -> Option<GlFormat> {
     use glow::{
         BYTE, DEPTH_ATTACHMENT, DEPTH_COMPONENT, DEPTH_STENCIL, DEPTH_STENCIL_ATTACHMENT, FLOAT,
@@ -26,9 +26,14 @@ pub(crate) fn gl_format(format: TextureFormat) -> Option<GlFormat> {
     let (internal, format, kind, attachment) = match format {
         TextureFormat::R8Unorm => color(glow::R8, RED, UNSIGNED_BYTE),
         TextureFormat::Rg8Unorm => color(glow::RG8, RG, UNSIGNED_BYTE),
+        TextureFormat::R16Unorm => color(glow::R16, RED, UNSIGNED_SHORT),
+        TextureFormat::Rg16Unorm => color(glow::RG16, RG, UNSIGNED_SHORT),
+        TextureFormat::Rgba16Unorm => color(glow::RGBA16, RGBA, UNSIGNED_SHORT),
         TextureFormat::Rgba8Unorm => color(glow::RGBA8, RGBA, UNSIGNED_BYTE),
         TextureFormat::Rgba8UnormSrgb => color(glow::SRGB8_ALPHA8, RGBA, UNSIGNED_BYTE),
-        TextureFormat::Bgra8Unorm => return None,
+        TextureFormat::Bgra8Unorm | TextureFormat::Bgra8UnormSrgb => return None,
+        TextureFormat::R8Snorm => color(glow::R8_SNORM, RED, BYTE),
+        TextureFormat::Rg8Snorm => color(glow::RG8_SNORM, RG, BYTE),
         TextureFormat::Rgba8Snorm => color(glow::RGBA8_SNORM, RGBA, BYTE),
         TextureFormat::Rgb10a2Unorm => color(glow::RGB10_A2, RGBA, UNSIGNED_INT_2_10_10_10_REV),
         TextureFormat::B5g6r5Unorm => color(glow::RGB565, RGB, UNSIGNED_SHORT_5_6_5),
@@ -37,8 +42,19 @@ pub(crate) fn gl_format(format: TextureFormat) -> Option<GlFormat> {
         TextureFormat::Rg11b10Ufloat => {
             color(glow::R11F_G11F_B10F, RGB, UNSIGNED_INT_10F_11F_11F_REV)
         }
+        TextureFormat::R8Uint => color(glow::R8UI, glow::RED_INTEGER, UNSIGNED_BYTE),
         TextureFormat::Rgba8Uint => color(glow::RGBA8UI, RGBA_INTEGER, UNSIGNED_BYTE),
+        TextureFormat::Rgb10a2Uint => {
+            color(glow::RGB10_A2UI, RGBA_INTEGER, UNSIGNED_INT_2_10_10_10_REV)
+        }
+        TextureFormat::R16Uint => color(glow::R16UI, glow::RED_INTEGER, UNSIGNED_SHORT),
+        TextureFormat::Rg16Uint => color(glow::RG16UI, glow::RG_INTEGER, UNSIGNED_SHORT),
+        TextureFormat::Rgba16Uint => color(glow::RGBA16UI, RGBA_INTEGER, UNSIGNED_SHORT),
+        TextureFormat::R16Float => color(glow::R16F, RED, HALF_FLOAT),
+        TextureFormat::Rg16Float => color(glow::RG16F, RG, HALF_FLOAT),
         TextureFormat::Rgba16Float => color(glow::RGBA16F, RGBA, HALF_FLOAT),
+        TextureFormat::R32Float => color(glow::R32F, RED, FLOAT),
+        TextureFormat::Rg32Float => color(glow::RG32F, RG, FLOAT),
         TextureFormat::Rgba32Float => color(glow::RGBA32F, RGBA, FLOAT),
         TextureFormat::Depth16Unorm => (
             glow::DEPTH_COMPONENT16,
@@ -122,7 +138,7 @@ mod tests {
         assert_eq!(srgb(unorm), gl_format(converted).map(|f| f.internal));
         assert_eq!(srgb(converted), gl_format(unorm).map(|f| f.internal));
         let integers = TextureFormat::ALL.map(|format| viewed(format, PathViews::Uint));
-        assert_eq!(integers.iter().flatten().count(), 11);
+        assert_eq!(integers.iter().flatten().count(), 26);
         assert!(integers.contains(&Some(glow::RGBA32UI)));
         assert_eq!(viewed(unorm, PathViews::Same), None);
     }

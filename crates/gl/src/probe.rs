@@ -149,7 +149,7 @@ fn examine(context: &Context, format: TextureFormat, surface: &Surface) -> Optio
         return done(&[], false, &[], ReadBackPath::Fetched);
     }
     // Without the extension, ES has no rules for drawing to this format.
-    if format == TextureFormat::Rgba8Snorm && !context.caps.snorm_attachments {
+    if format.is_snorm() && !context.caps.snorm_attachments {
         return None;
     }
     if !surface.is_complete() || !has_promised_channels(context, surface, format) {
@@ -167,8 +167,8 @@ fn examine(context: &Context, format: TextureFormat, surface: &Surface) -> Optio
         None
     };
     let read = read_plan(context, format, encoding)?;
-    let blendable = match format {
-        TextureFormat::Rgba32Float => context.caps.float_blend,
+    let blendable = match format.color_channels().first() {
+        Some(ChannelEncoding::Float32) => context.caps.float_blend,
         _ => format.is_color() && !format.is_integer(),
     };
     // No function of ES reads a depth, so either encoding is possible there.
@@ -218,6 +218,7 @@ fn read_plan(
         ChannelEncoding::Snorm(_) if caps.es => ReadBackPath::Fetched,
         ChannelEncoding::Snorm(_) if caps.version < (4, 2) => ReadBackPath::Floats,
         _ if !caps.es || format == TextureFormat::Rgb10a2Unorm => ReadBackPath::Packed,
+        ChannelEncoding::Unorm(16) => ReadBackPath::Fetched,
         ChannelEncoding::Unorm(_) | ChannelEncoding::Srgb8 => ReadBackPath::Bytes,
         _ => ReadBackPath::Floats,
     })

@@ -182,10 +182,7 @@ impl ReadObjects<'_> {
         }
         if format.is_integer() {
             let wide = self.fetch(source, ReadType::Integers, Aspect::Color)?;
-            let texels = wide.chunks_exact(4);
-            return Ok(texels
-                .flat_map(|texel| texel.iter().take(channels.len()).copied())
-                .collect());
+            return Ok(first_channels(&wide, channels.len()));
         }
         let wide = self.fetch(source, ReadType::Floats, Aspect::Color)?;
         Ok(narrowed(&wide, channels))
@@ -326,6 +323,14 @@ impl ReadObjects<'_> {
     }
 }
 
+/// Returns the first channels of texels that are four codes each.
+fn first_channels(wide: &[u32], channels: usize) -> Vec<u32> {
+    let texels = wide.chunks_exact(4);
+    texels
+        .flat_map(|texel| texel.iter().take(channels).copied())
+        .collect()
+}
+
 /// Returns the codes of texels that are four floats each.
 fn narrowed(wide: &[u32], channels: &[ChannelEncoding]) -> Vec<u32> {
     let mut codes = Vec::with_capacity(wide.len() / 4 * channels.len());
@@ -402,7 +407,10 @@ fn copy(
             (narrowed(&wide, format.color_channels()), None)
         }
         // Every version reads unsigned integers as four channels.
-        ReadBackPath::Integers => (words(glow::RGBA_INTEGER, glow::UNSIGNED_INT, 4), None),
+        ReadBackPath::Integers => {
+            let wide = words(glow::RGBA_INTEGER, glow::UNSIGNED_INT, 4);
+            (first_channels(&wide, format.color_channels().len()), None)
+        }
         ReadBackPath::Depth16 => {
             let mut codes = vec![0_u16; texels];
             let kind = glow::UNSIGNED_SHORT;

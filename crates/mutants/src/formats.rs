@@ -19,13 +19,14 @@ use std::collections::BTreeSet;
 const CLAMPED: &str = "SwiftShader: negative float blends clamped";
 
 /// The encodings, and the largest offset in codes that stays within their range.
-const ENCODINGS: [(&str, ChannelEncoding, i64); 12] = [
+const ENCODINGS: [(&str, ChannelEncoding, i64); 13] = [
     ("unorm1", Unorm(1), 1),
     ("unorm2", Unorm(2), 1),
     ("unorm4", Unorm(4), 3),
     ("unorm5", Unorm(5), 3),
     ("unorm6", Unorm(6), 3),
     ("unorm10", Unorm(10), 3),
+    ("unorm16", Unorm(16), 3),
     ("snorm8", Snorm(8), 3),
     ("srgb8", Srgb8, 3),
     ("float16", Float16, 3),

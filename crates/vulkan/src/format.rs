@@ -33,9 +33,15 @@ fn candidates(format: TextureFormat) -> &'static [vk::Format] {
     match format {
         TextureFormat::R8Unorm => &[vk::Format::R8_UNORM],
         TextureFormat::Rg8Unorm => &[vk::Format::R8G8_UNORM],
+        TextureFormat::R16Unorm => &[vk::Format::R16_UNORM],
+        TextureFormat::Rg16Unorm => &[vk::Format::R16G16_UNORM],
+        TextureFormat::Rgba16Unorm => &[vk::Format::R16G16B16A16_UNORM],
         TextureFormat::Rgba8Unorm => &[vk::Format::R8G8B8A8_UNORM],
         TextureFormat::Rgba8UnormSrgb => &[vk::Format::R8G8B8A8_SRGB, vk::Format::B8G8R8A8_SRGB],
         TextureFormat::Bgra8Unorm => &[vk::Format::B8G8R8A8_UNORM],
+        TextureFormat::Bgra8UnormSrgb => &[vk::Format::B8G8R8A8_SRGB],
+        TextureFormat::R8Snorm => &[vk::Format::R8_SNORM],
+        TextureFormat::Rg8Snorm => &[vk::Format::R8G8_SNORM],
         TextureFormat::Rgba8Snorm => &[vk::Format::R8G8B8A8_SNORM],
         TextureFormat::Rgb10a2Unorm => &[
             vk::Format::A2B10G10R10_UNORM_PACK32,
@@ -55,8 +61,17 @@ fn candidates(format: TextureFormat) -> &'static [vk::Format] {
             vk::Format::R4G4B4A4_UNORM_PACK16,
         ],
         TextureFormat::Rg11b10Ufloat => &[vk::Format::B10G11R11_UFLOAT_PACK32],
+        TextureFormat::R8Uint => &[vk::Format::R8_UINT],
         TextureFormat::Rgba8Uint => &[vk::Format::R8G8B8A8_UINT],
+        TextureFormat::Rgb10a2Uint => &[vk::Format::A2B10G10R10_UINT_PACK32],
+        TextureFormat::R16Uint => &[vk::Format::R16_UINT],
+        TextureFormat::Rg16Uint => &[vk::Format::R16G16_UINT],
+        TextureFormat::Rgba16Uint => &[vk::Format::R16G16B16A16_UINT],
+        TextureFormat::R16Float => &[vk::Format::R16_SFLOAT],
+        TextureFormat::Rg16Float => &[vk::Format::R16G16_SFLOAT],
         TextureFormat::Rgba16Float => &[vk::Format::R16G16B16A16_SFLOAT],
+        TextureFormat::R32Float => &[vk::Format::R32_SFLOAT],
+        TextureFormat::Rg32Float => &[vk::Format::R32G32_SFLOAT],
         TextureFormat::Rgba32Float => &[vk::Format::R32G32B32A32_SFLOAT],
         TextureFormat::Depth16Unorm => &[vk::Format::D16_UNORM],
         TextureFormat::Depth24Plus => &[vk::Format::X8_D24_UNORM_PACK32, vk::Format::D32_SFLOAT],
@@ -84,7 +99,7 @@ pub(crate) fn natives(device: &Device) -> BTreeMap<TextureFormat, Native> {
     for format in TextureFormat::ALL {
         let (needed, attachment) = if format.is_color() {
             let mut sampled = vk::FormatFeatureFlags::SAMPLED_IMAGE;
-            if !format.is_integer() && format != TextureFormat::Rgba32Float {
+            if format.is_filterable() {
                 sampled |= vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_LINEAR;
             }
             (transfer | sampled, vk::FormatFeatureFlags::COLOR_ATTACHMENT)
@@ -122,8 +137,12 @@ pub(crate) fn natives(device: &Device) -> BTreeMap<TextureFormat, Native> {
 /// texel's little-endian bytes (Vulkan, Packed Formats; Byte mappings).
 pub(crate) fn layout(raw: vk::Format) -> &'static TexelLayout {
     match raw {
-        vk::Format::R8_UNORM => &[(0, 8)],
-        vk::Format::R8G8_UNORM => &[(0, 8), (8, 8)],
+        vk::Format::R8_UNORM | vk::Format::R8_SNORM | vk::Format::R8_UINT => &[(0, 8)],
+        vk::Format::R8G8_UNORM | vk::Format::R8G8_SNORM => &[(0, 8), (8, 8)],
+        vk::Format::R16_UNORM | vk::Format::R16_UINT | vk::Format::R16_SFLOAT => &[(0, 16)],
+        vk::Format::R16G16_UNORM | vk::Format::R16G16_UINT | vk::Format::R16G16_SFLOAT => {
+            &[(0, 16), (16, 16)]
+        }
         vk::Format::R8G8B8A8_UNORM
         | vk::Format::R8G8B8A8_SRGB
         | vk::Format::R8G8B8A8_SNORM
@@ -131,7 +150,9 @@ pub(crate) fn layout(raw: vk::Format) -> &'static TexelLayout {
         vk::Format::B8G8R8A8_UNORM | vk::Format::B8G8R8A8_SRGB => {
             &[(16, 8), (8, 8), (0, 8), (24, 8)]
         }
-        vk::Format::A2B10G10R10_UNORM_PACK32 => &[(0, 10), (10, 10), (20, 10), (30, 2)],
+        vk::Format::A2B10G10R10_UNORM_PACK32 | vk::Format::A2B10G10R10_UINT_PACK32 => {
+            &[(0, 10), (10, 10), (20, 10), (30, 2)]
+        }
         vk::Format::A2R10G10B10_UNORM_PACK32 => &[(20, 10), (10, 10), (0, 10), (30, 2)],
         vk::Format::R5G6B5_UNORM_PACK16 => &[(11, 5), (5, 6), (0, 5)],
         vk::Format::B5G6R5_UNORM_PACK16 => &[(0, 5), (5, 6), (11, 5)],
@@ -141,7 +162,11 @@ pub(crate) fn layout(raw: vk::Format) -> &'static TexelLayout {
         vk::Format::R4G4B4A4_UNORM_PACK16 => &[(12, 4), (8, 4), (4, 4), (0, 4)],
         vk::Format::B4G4R4A4_UNORM_PACK16 => &[(4, 4), (8, 4), (12, 4), (0, 4)],
         vk::Format::B10G11R11_UFLOAT_PACK32 => &[(0, 11), (11, 11), (22, 10)],
-        vk::Format::R16G16B16A16_SFLOAT => &[(0, 16), (16, 16), (32, 16), (48, 16)],
+        vk::Format::R16G16B16A16_UNORM
+        | vk::Format::R16G16B16A16_UINT
+        | vk::Format::R16G16B16A16_SFLOAT => &[(0, 16), (16, 16), (32, 16), (48, 16)],
+        vk::Format::R32_SFLOAT => &[(0, 32)],
+        vk::Format::R32G32_SFLOAT => &[(0, 32), (32, 32)],
         vk::Format::R32G32B32A32_SFLOAT => &[(0, 32), (32, 32), (64, 32), (96, 32)],
         _ => &[],
     }
@@ -342,7 +367,7 @@ mod tests {
             let color = aspect_mask(*raw) == vk::ImageAspectFlags::COLOR;
             assert_eq!(viewed(PathViews::Uint).is_some(), color, "{raw:?}");
         }
-        assert_eq!(pairs, 4);
+        assert_eq!(pairs, 5);
     }
 
     #[test]

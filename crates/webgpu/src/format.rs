@@ -12,9 +12,6 @@ pub enum GpuFormat {
     /// `rgba32uint`, of textures between an attachment and a buffer.
     #[serde(rename = "rgba32uint")]
     Rgba32Uint,
-    /// `bgra8unorm-srgb`, of textures that have views of another format.
-    #[serde(rename = "bgra8unorm-srgb")]
-    Bgra8UnormSrgb,
     /// The format of an attachment, which WebGPU has.
     #[serde(untagged)]
     Attachment(TextureFormat),
@@ -39,15 +36,21 @@ impl GpuFormat {
             Self::Attachment(format) => format.name(),
             Self::R32Uint => "r32uint",
             Self::Rgba32Uint => "rgba32uint",
-            Self::Bgra8UnormSrgb => "bgra8unorm-srgb",
         }
     }
 
     /// Returns the format without sRGB conversion whose texels are the codes of this one, if this one
     /// converts.
     pub(crate) fn without_srgb(self) -> Option<Self> {
-        let srgb = self == Self::Attachment(TextureFormat::Rgba8UnormSrgb);
-        srgb.then_some(Self::Attachment(TextureFormat::Rgba8Unorm))
+        match self {
+            Self::Attachment(TextureFormat::Rgba8UnormSrgb) => {
+                Some(Self::Attachment(TextureFormat::Rgba8Unorm))
+            }
+            Self::Attachment(TextureFormat::Bgra8UnormSrgb) => {
+                Some(Self::Attachment(TextureFormat::Bgra8Unorm))
+            }
+            _ => None,
+        }
     }
 
     /// Returns the format with the same codes and the opposite sRGB conversion, or `None` if WebGPU has none.
@@ -56,7 +59,9 @@ impl GpuFormat {
             Self::Attachment(TextureFormat::Rgba8Unorm) => {
                 Some(Self::Attachment(TextureFormat::Rgba8UnormSrgb))
             }
-            Self::Attachment(TextureFormat::Bgra8Unorm) => Some(Self::Bgra8UnormSrgb),
+            Self::Attachment(TextureFormat::Bgra8Unorm) => {
+                Some(Self::Attachment(TextureFormat::Bgra8UnormSrgb))
+            }
             _ => self.without_srgb(),
         }
     }
@@ -69,26 +74,8 @@ impl GpuFormat {
 
 /// Returns true if WebGPU has a format.
 pub fn is_known(format: TextureFormat) -> bool {
-    match format {
-        TextureFormat::R8Unorm
-        | TextureFormat::Rg8Unorm
-        | TextureFormat::Rgba8Unorm
-        | TextureFormat::Rgba8UnormSrgb
-        | TextureFormat::Bgra8Unorm
-        | TextureFormat::Rgba8Snorm
-        | TextureFormat::Rgb10a2Unorm
-        | TextureFormat::Rg11b10Ufloat
-        | TextureFormat::Rgba8Uint
-        | TextureFormat::Rgba16Float
-        | TextureFormat::Rgba32Float
-        | TextureFormat::Depth16Unorm
-        | TextureFormat::Depth24Plus
-        | TextureFormat::Depth24PlusStencil8
-        | TextureFormat::Depth32Float
-        | TextureFormat::Depth32FloatStencil8
-        | TextureFormat::Stencil8 => true,
-        TextureFormat::B5g6r5Unorm | TextureFormat::Bgr5a1Unorm | TextureFormat::Bgra4Unorm => {
-            false
-        }
-    }
+    !matches!(
+        format,
+        TextureFormat::B5g6r5Unorm | TextureFormat::Bgr5a1Unorm | TextureFormat::Bgra4Unorm
+    )
 }

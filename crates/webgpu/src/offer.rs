@@ -233,20 +233,38 @@ pub fn standard_formats(level: Level, has: impl Fn(&str) -> bool) -> BTreeMap<Te
             | TextureFormat::Rgba8Unorm
             | TextureFormat::Rgba8UnormSrgb
             | TextureFormat::Bgra8Unorm
+            | TextureFormat::R16Float
+            | TextureFormat::Rg16Float
             | TextureFormat::Rgb10a2Unorm => every_use,
+            // OpenGL ES has no such format.
+            TextureFormat::Bgra8UnormSrgb => {
+                return (level != Level::Compatibility).then_some(every_use);
+            }
             TextureFormat::Rgba16Float => Uses {
                 multisampled: level == Level::Core,
                 ..every_use
             },
-            TextureFormat::Rgba8Snorm => when("texture-formats-tier1"),
+            TextureFormat::R8Snorm | TextureFormat::Rg8Snorm | TextureFormat::Rgba8Snorm => {
+                when("texture-formats-tier1")
+            }
+            TextureFormat::R16Unorm | TextureFormat::Rg16Unorm | TextureFormat::Rgba16Unorm => {
+                return has("texture-formats-tier1").then_some(every_use);
+            }
             TextureFormat::Rg11b10Ufloat => when("rg11b10ufloat-renderable"),
-            TextureFormat::Rgba32Float => Uses {
-                drawn: true,
-                blended: has("float32-blendable"),
-                multisampled: false,
-            },
+            TextureFormat::R32Float | TextureFormat::Rg32Float | TextureFormat::Rgba32Float => {
+                Uses {
+                    drawn: true,
+                    blended: has("float32-blendable"),
+                    multisampled: false,
+                }
+            }
             TextureFormat::Depth32FloatStencil8 if !has("depth32float-stencil8") => return None,
-            TextureFormat::Rgba8Uint
+            TextureFormat::R8Uint
+            | TextureFormat::Rgba8Uint
+            | TextureFormat::Rgb10a2Uint
+            | TextureFormat::R16Uint
+            | TextureFormat::Rg16Uint
+            | TextureFormat::Rgba16Uint
             | TextureFormat::Depth16Unorm
             | TextureFormat::Depth24Plus
             | TextureFormat::Depth24PlusStencil8

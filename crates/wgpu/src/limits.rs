@@ -1,7 +1,7 @@
 //! The capabilities of an adapter, as wgpu reports them.
 
 use crate::format;
-use etalon_frame::{Feature, TextureFormat};
+use etalon_frame::{ChannelEncoding, Feature, TextureFormat};
 use etalon_webgpu::{Abilities, DeviceLimits, Level, Offer, SAMPLES, Uses, texture_usages};
 use std::collections::BTreeSet;
 use wgpu::{DownlevelFlags, Features, TextureFormatFeatureFlags, TextureUsages};
@@ -12,6 +12,7 @@ pub(crate) fn used_features() -> Features {
         | Features::DEPTH32FLOAT_STENCIL8
         | Features::FLOAT32_BLENDABLE
         | Features::RG11B10UFLOAT_RENDERABLE
+        | Features::TEXTURE_FORMAT_16BIT_NORM
         | Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES
         | Features::DUAL_SOURCE_BLENDING
         | Features::DEPTH_CLIP_CONTROL
@@ -70,7 +71,8 @@ fn uses(adapter: &wgpu::Adapter, features: Features, format: TextureFormat) -> O
                 || any(Features::RG11B10UFLOAT_RENDERABLE
                     | Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES)),
         blended: flag(TextureFormatFeatureFlags::BLENDABLE)
-            && (format != TextureFormat::Rgba32Float || any(Features::FLOAT32_BLENDABLE)),
+            && (format.color_channels().first() != Some(&ChannelEncoding::Float32)
+                || any(Features::FLOAT32_BLENDABLE)),
         multisampled: found.flags.sample_count_supported(SAMPLES)
             && (!format.is_color() || flag(TextureFormatFeatureFlags::MULTISAMPLE_RESOLVE)),
     })

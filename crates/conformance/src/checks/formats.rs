@@ -84,7 +84,7 @@ pub(crate) fn uploads_come_back(s: &CheckedBackend) -> CheckEnd {
         let mut codes = color(&frame, "source").codes.clone();
         // OpenGL reads through floats (4.6, 18.2.8), in which both codes of -1 have the same value.
         let is_gl = matches!(s.limits().api, Api::OpenGl | Api::OpenGlEs);
-        if is_gl && format == TextureFormat::Rgba8Snorm {
+        if is_gl && format.is_snorm() {
             let AttachmentContents::Texels(expected) = expected else {
                 panic!("texels are uploaded")
             };

@@ -38,7 +38,9 @@ impl Maker<'_> {
         // With one or two bits of alpha, values in between could legally round to different codes, and alpha
         // as a factor would carry the difference into the colours.
         let few = |f: &TextureFormat| {
-            matches!(f, TextureFormat::Rgb10a2Unorm | TextureFormat::Bgr5a1Unorm)
+            f.color_channels()
+                .get(3)
+                .is_some_and(|alpha| alpha.mask() <= 3)
         };
         self.whole_alpha = formats.iter().any(few);
         for format in &formats {

@@ -188,9 +188,6 @@ impl Maker<'_> {
 
     fn params(&mut self, shader: Shader) -> Value {
         let mut color = self.color();
-        if shader.writes_integers() {
-            color = json!([0; 4].map(|_: u8| self.choices.of(&[0, 1, 85, 255, 170])));
-        }
         if shader == Shader::FragCoordColor {
             color = json!([0.0625, 0.03125, self.choices.of(&[0.0, 1.0]), 1.0]);
         }

@@ -113,7 +113,7 @@ impl Maker<'_> {
             draw["write_mask"] = json!(self.mask());
             return;
         }
-        let simple = |f: &TextureFormat| !f.is_integer() && *f != TextureFormat::Rgba8Snorm;
+        let simple = |f: &TextureFormat| !f.is_integer() && !f.is_snorm();
         let advanced = single && !second && can_blend && simple(&pass.color[0].1);
         if advanced && self.extra_with("advanced", Feature::AdvancedBlend) {
             let modes: Vec<&'static str> = AdvancedBlend::ALL.iter().map(|o| o.name()).collect();

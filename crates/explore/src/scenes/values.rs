@@ -17,7 +17,8 @@ impl Maker<'_> {
         if self.palette == Palette::Float && self.choices.once_in(6) {
             color[self.choices.below(4) as usize] = self.choices.of(&[-0.4375, -1.375]);
         }
-        if self.whole_alpha && !self.choices.once_in(16) {
+        let is_integer = self.palette == Palette::Integer;
+        if self.whole_alpha && (is_integer || !self.choices.once_in(16)) {
             color[3] = f64::from(u8::from(color[3] > 0.5));
         }
         json!(color)
