@@ -8,7 +8,7 @@ use std::time::Duration;
 
 /// The ids of the cases that together catch every planted bug. Each is the case with the most new bugs per second.
 /// `etalon mutants --full --order cases/order.txt` writes it.
-const ORDER: &str = include_str!("../../../cases/order.txt");
+const ORDER: &str = include_str!("../data/order.txt");
 
 /// The time that a driver takes for a case beyond what the rasterizer takes.
 const OVERHEAD: Duration = Duration::from_millis(1);

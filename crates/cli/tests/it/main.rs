@@ -36,6 +36,7 @@ mod methods;
 mod mutants;
 mod news;
 mod odd_inputs;
+mod packages;
 mod page;
 mod parts;
 mod pipes;

@@ -14,7 +14,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The release dates that are compiled in.
-const DATES: &str = include_str!("../../../../../ci/history/releases.json");
+const DATES: &str = include_str!("../../../data/releases.json");
 /// The name that messages use for the built-in file of dates.
 const DATES_NAME: &str = "ci/history/releases.json";
 
