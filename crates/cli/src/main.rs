@@ -29,10 +29,12 @@ mod faulty;
 mod flags;
 mod gltf;
 mod group_text;
+#[cfg(feature = "history")]
 mod history_file;
 mod idle;
 mod interruption;
 mod known_look;
+mod labels;
 mod match_text;
 mod named_files;
 mod news;
@@ -85,6 +87,7 @@ fn main() -> ExitCode {
         Command::Expectations(command) => commands::expectations::run(&command),
         Command::Bench(arguments) => commands::bench::run(&arguments),
         Command::Diff(arguments) => commands::diff::run(&arguments),
+        #[cfg(feature = "history")]
         Command::History(command) => commands::history::run(&command),
         Command::Site(arguments) => commands::site::run(&arguments),
         Command::Bisect(arguments) => commands::bisect::run(&arguments),
@@ -92,6 +95,7 @@ fn main() -> ExitCode {
         Command::Reduce(arguments) => commands::reduce::run(&arguments),
         Command::Bundle(arguments) => commands::bundle::run(&arguments),
         Command::Fuzz(arguments) => commands::fuzz::run(&arguments),
+        #[cfg(feature = "mutants")]
         Command::Mutants(arguments) => commands::mutants::run(&arguments),
         Command::Completions(arguments) => {
             commands::completions::run(&arguments, &CommandLine::command())
@@ -99,6 +103,11 @@ fn main() -> ExitCode {
         Command::Man(arguments) => commands::man::run(&arguments, CommandLine::command()),
         Command::Worker(arguments) => worker::run(&arguments),
     };
+    exit(outcome)
+}
+
+/// Prints the message of a failure, and returns the exit code.
+fn exit(outcome: Result<u8, Failure>) -> ExitCode {
     match outcome {
         Ok(code) => ExitCode::from(code),
         Err(Failure { code, message }) => {

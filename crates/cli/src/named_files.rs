@@ -66,6 +66,10 @@ pub(crate) enum Renewed {
     /// A page.
     Page,
     /// A list of cases by their worth.
+    #[cfg_attr(
+        not(feature = "mutants"),
+        expect(dead_code, reason = "only `etalon mutants` writes it")
+    )]
     Order,
     /// A picture.
     Picture,

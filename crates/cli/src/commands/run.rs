@@ -20,9 +20,8 @@ use crate::{dead, idle, provenance, shard, sizes, timed};
 use clap::{Args, ValueEnum};
 use etalon_adapters::{Adapters, Query, cache, take_unstarted};
 use etalon_case::Case;
-use etalon_history::FrameTimes;
 use etalon_record::{
-    AdapterRecord, Dead, Expectations, FolderKind, Header, Run, Settings, Shard, Verdict,
+    AdapterRecord, Dead, Expectations, FolderKind, Header, Run, Settings, Shard, Times, Verdict,
     selection_digest,
 };
 use etalon_report::{RunNews, RunReport};
@@ -595,7 +594,7 @@ fn asserted(run: &Run, percent: f64) -> (bool, String) {
     let counted = run
         .records
         .iter()
-        .filter(|r| !FrameTimes::AREAS.contains(&r.parts().area()));
+        .filter(|r| !Times::AREAS.contains(&r.parts().area()));
     let total = counted.clone().count();
     if total == 0 {
         let line = "nothing was asserted: no selected case is judged (--min-asserted)";
