@@ -50,6 +50,7 @@ mod saved_run;
 mod scene_text;
 mod shard;
 mod sizes;
+mod start;
 mod timed;
 mod worker;
 mod worth;
@@ -69,6 +70,9 @@ const _: () = assert!(
 
 fn main() -> ExitCode {
     etalon_process::report_large_files();
+    if std::env::args_os().len() <= 1 {
+        return exit(start::run());
+    }
     let command_line = match CommandLine::try_parse() {
         Ok(command_line) => command_line,
         Err(error) => {

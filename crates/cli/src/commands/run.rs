@@ -397,7 +397,7 @@ fn start(arguments: &Arguments) -> Result<(Adapters, Vec<(AdapterRecord, String)
     for (adapter, how) in &dead {
         say!("{} does not start: {how}", adapter.info.name);
     }
-    refuse_absent(&arguments.adapters, &adapters.absent)?;
+    refuse_absent(&arguments.adapters, &adapters)?;
     if adapters.ready.is_empty() && dead.is_empty() {
         return Err(Failure::nothing(
             "no adapter can be used; `etalon adapters` says why",

@@ -48,6 +48,7 @@ mod round_trips;
 mod runs;
 mod sample;
 mod servers;
+mod start;
 mod stories;
 mod survive;
 mod version;
