@@ -1,6 +1,7 @@
 //! The binary as a user meets it, and the rules of the workspace. They share one test binary, since each test
 //! binary links the whole suite.
 
+mod action;
 mod adapters;
 mod bench;
 mod bisect;
@@ -44,6 +45,7 @@ mod plain_words;
 mod prose;
 mod read_faults;
 mod reduce;
+mod release;
 mod round_trips;
 mod runs;
 mod sample;
