@@ -174,3 +174,30 @@ fn the_step_that_installs_takes_only_what_has_the_right_digest() {
     let output = install();
     assert!(!output.status.success(), "{output:?}");
 }
+
+#[test]
+fn the_lines_of_the_component_draw_what_the_inputs_name() {
+    let work = tempfile::tempdir().unwrap();
+    let job = &documents(COMPONENT)[1]["etalon"];
+    let lines = job["script"].as_array().unwrap().iter();
+    let lines: Vec<&str> = lines.map(|line| line.as_str().unwrap()).collect();
+    let script = lines.join("\n").replace("$[[ inputs.profile ]]", "quick");
+    assert!(!script.contains("$[["), "{script}");
+    let output = Command::new("sh")
+        .args(["-e", "-c", &script])
+        .current_dir(work.path())
+        .env("PATH", search_path(Path::new(BINARY).parent().unwrap()))
+        .env("ETALON_GLOBS", "cull/points/* scissor/*")
+        .env("ETALON_ADAPTERS", "cpu")
+        .env("ETALON_EXPECT", "")
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{output:?}");
+    let folder = work.path().join("reports/etalon");
+    let records = fs::read_to_string(folder.join("run.jsonl")).unwrap();
+    assert!(records.contains("\"scissor/") && records.contains("\"cull/points/"));
+    assert!(!records.contains("vulkan:lavapipe"));
+    // What GitLab shows.
+    let junit = job["artifacts"]["reports"]["junit"].as_str().unwrap();
+    assert!(work.path().join(junit).is_file());
+}

@@ -29,6 +29,7 @@ mod hidden;
 mod history;
 mod history_export;
 mod house;
+mod judge_interface;
 mod known_failures;
 mod known_look;
 mod launchers;

@@ -87,26 +87,32 @@ fn what_prevents_a_release_is_named() {
     }
 }
 
-/// Builds the archives of Linux into a folder of its own, from nothing.
+/// Builds what is for Linux into a folder of its own, from nothing. Returns the folder.
 fn released(folder: &Path) -> PathBuf {
     let status = Command::new(root().join("ci/release"))
-        .args(["linux", "debian", "wheel"])
+        .args(["linux", "debian", "wheel", "image"])
         .env("ETALON_RELEASE", folder.join("release"))
         .env("ETALON_RELEASE_WORK", folder.join("work"))
         .status();
     assert!(status.unwrap().success());
-    folder.join("release/SHA256SUMS")
+    folder.join("release")
 }
 
 #[test]
-fn two_builds_of_a_commit_are_equal() {
+fn two_builds_of_a_commit_are_equal_and_install_everywhere() {
     if !sample::all() {
-        println!("not built twice; ETALON_TESTS=all does");
+        println!("not built; ETALON_TESTS=all builds twice and installs, as root");
         return;
     }
     let (one, other) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
-    let sums = |folder: &Path| fs::read_to_string(released(folder)).unwrap();
-    let first = sums(one.path());
-    assert_eq!(first.lines().count(), 3, "{first}");
-    assert_eq!(first, sums(other.path()));
+    let (first, second) = (released(one.path()), released(other.path()));
+    let sums = |folder: &Path| fs::read_to_string(folder.join("SHA256SUMS")).unwrap();
+    assert_eq!(sums(&first).lines().count(), 4, "{}", sums(&first));
+    assert_eq!(sums(&first), sums(&second));
+    let output = Command::new(root().join("ci/packaging/check"))
+        .arg(&first)
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{output:?}");
+    println!("{}", String::from_utf8_lossy(&output.stdout));
 }
