@@ -50,6 +50,7 @@ mod merge;
 mod output_folder;
 mod parts;
 mod paths;
+mod png_file;
 mod process_end;
 mod provenance;
 mod reason;
@@ -101,6 +102,7 @@ pub use measured::{Clock, Cost, Estimate, Measured, Parameter, SizedFrame, Times
 pub use merge::{Merge, Merged};
 pub use output_folder::OutputFolder;
 pub use paths::open_below;
+pub use png_file::png_file;
 pub use process_end::{ExitStatus, LossKind, ProcessEnd};
 pub use provenance::Provenance;
 pub use reason::{ComparedPair, Denial, FailedRoundTrip, Fresh, Reason};
