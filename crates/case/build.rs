@@ -1,4 +1,4 @@
-//! Lists the case files under `cases/`, so that they are compiled in.
+//! Lists the case files under `cases/`, to which `data` is a link, so that they are compiled in.
 
 #[path = "src/comments.rs"]
 mod comments;
@@ -10,7 +10,7 @@ use std::{env, fs, io};
 
 fn main() -> io::Result<()> {
     let manifest = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
-    let root = manifest.join("../../cases").canonicalize()?;
+    let root = manifest.join("data").canonicalize()?;
     let mut files = Vec::new();
     collect(&root, &mut files)?;
     files.sort();

@@ -1,4 +1,4 @@
-//! Lists the findings under `ci/findings`, so that they are compiled in.
+//! Lists the findings under `ci/findings`, to which `data` is a link, so that they are compiled in.
 
 use std::path::PathBuf;
 use std::{env, fs, io};
@@ -6,7 +6,7 @@ use std::{env, fs, io};
 /// Writes the findings as pairs of a path for messages and a text.
 fn main() -> io::Result<()> {
     let manifest = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
-    let folder = manifest.join("../../ci/findings").canonicalize()?;
+    let folder = manifest.join("data").canonicalize()?;
     println!("cargo:rerun-if-changed={}", folder.display());
     let mut names = Vec::new();
     for entry in fs::read_dir(&folder)? {

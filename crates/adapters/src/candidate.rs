@@ -108,6 +108,13 @@ impl Candidate {
         }
     }
 
+    pub(crate) fn backend(&self) -> BackendName {
+        match self {
+            Self::Described(description, _) => description.backend,
+            Self::Enumerated(open) => open.backend,
+        }
+    }
+
     pub(crate) fn name(&self) -> &str {
         match self {
             Self::Described(description, _) => &description.name,

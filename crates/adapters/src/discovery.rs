@@ -113,6 +113,9 @@ fn chosen(
             });
         }
     }
+    if query.without_browsers {
+        candidates.retain(|c| c.backend() != BackendName::Webgpu);
+    }
     if !query.names.is_empty() {
         absent.clear();
         candidates.retain(|c| query.names.iter().any(|name| name == c.name()));

@@ -13,6 +13,8 @@ pub struct Query<'a> {
     pub validate: bool,
     /// True if the calls of the first scene are recorded.
     pub record: bool,
+    /// True if no browser is started.
+    pub without_browsers: bool,
     /// True if the drivers' shader caches on disk are disabled.
     pub cold: bool,
 }

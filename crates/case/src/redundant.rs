@@ -18,7 +18,7 @@ impl Redundant {
     /// Returns the list that was compiled in.
     pub(crate) fn built_in() -> &'static Self {
         static LIST: LazyLock<Redundant> =
-            LazyLock::new(|| Redundant::parse(include_str!("../../../cases/redundant.txt")));
+            LazyLock::new(|| Redundant::parse(include_str!("../data/redundant.txt")));
         &LIST
     }
 

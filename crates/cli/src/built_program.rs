@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 /// The pause between looks at a running program.
 const PAUSE: Duration = Duration::from_millis(5);
 /// The suite's lock file, so that programs use the dependency versions whose calls are recorded.
-const LOCK: &str = include_str!("../../../Cargo.lock");
+const LOCK: &str = include_str!("../data/Cargo.lock");
 
 /// A program that was built and run.
 #[derive(Clone, Debug, PartialEq, Eq)]

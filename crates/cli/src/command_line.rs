@@ -1,8 +1,12 @@
 //! The command line: one subcommand per file of `commands`.
 
+#[cfg(feature = "history")]
+use crate::commands::history;
+#[cfg(feature = "mutants")]
+use crate::commands::mutants;
 use crate::commands::{
-    adapters, bench, bisect, bundle, check, completions, diff, expectations, explain, fuzz,
-    history, list, man, merge, mutants, reduce, report, run, show, site,
+    adapters, bench, bisect, bundle, check, completions, diff, expectations, explain, fuzz, list,
+    man, merge, reduce, report, run, show, site,
 };
 use crate::worker;
 use clap::{Parser, Subcommand};
@@ -50,6 +54,7 @@ pub(crate) enum Command {
     /// Compare two runs or two benches: verdicts, pixels, times
     Diff(diff::Arguments),
     /// Keep runs, benches and releases over time in one file, and report what changed and when
+    #[cfg(feature = "history")]
     #[command(subcommand)]
     History(history::HistoryCommand),
     /// Find the releases of a driver that draw cases wrong
@@ -63,6 +68,7 @@ pub(crate) enum Command {
     /// Draw random scenes on adapters, and reduce the failing ones
     Fuzz(fuzz::Arguments),
     /// Plant bugs in the cpu rasterizer and report which ones the cases catch
+    #[cfg(feature = "mutants")]
     Mutants(mutants::Arguments),
     /// Print a completion script for a shell
     Completions(completions::Arguments),

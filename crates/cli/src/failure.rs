@@ -16,6 +16,14 @@ pub(crate) const IMPROVED: u8 = 2;
 /// An unexpected bad result.
 pub(crate) const UNEXPECTED: u8 = 1;
 
+/// Returns the reason for what this binary lacks: the feature that was left out, and how to get it.
+#[cfg(not(feature = "full"))]
+pub(crate) fn left_out(feature: &str) -> String {
+    format!(
+        "this etalon was built without the feature `{feature}`: cargo install etalon --features {feature}"
+    )
+}
+
 /// Returns true if the disk is full, or a file or a user may not become larger.
 fn is_full(error: &(dyn Error + 'static)) -> bool {
     let mut error = Some(error);

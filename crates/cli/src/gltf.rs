@@ -2,8 +2,8 @@
 
 use etalon_case::Library;
 use etalon_record::ModelFile;
-use std::path::Path;
-use std::sync::Arc;
+#[cfg(feature = "gltf")]
+use std::{path::Path, sync::Arc};
 
 /// The value of `--gltf`: a file that was read, with the cases that draw it.
 #[derive(Clone, Debug)]
@@ -15,6 +15,7 @@ pub(crate) struct GltfScene {
 }
 
 /// Reads a file.
+#[cfg(feature = "gltf")]
 pub(crate) fn parse(path: &str) -> Result<GltfScene, String> {
     let path = Path::new(path);
     let read = etalon_model::read(path).map_err(|error| error.to_string())?;
@@ -29,7 +30,13 @@ pub(crate) fn parse(path: &str) -> Result<GltfScene, String> {
     })
 }
 
+#[cfg(not(feature = "gltf"))]
+pub(crate) fn parse(_: &str) -> Result<GltfScene, String> {
+    Err(crate::failure::left_out("gltf"))
+}
+
 /// Returns the part of ids that names the scene: the file's name without its ending, with `-` for what ids cannot hold.
+#[cfg(feature = "gltf")]
 fn name(path: &Path) -> String {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let part = |c: char| {
@@ -42,7 +49,7 @@ fn name(path: &Path) -> String {
     stem.chars().map(part).collect()
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "gltf"))]
 mod tests {
     use super::*;
 

@@ -1,8 +1,9 @@
-//! The history's file, labels, and the exit codes for errors of the history.
+//! The history's file, the labels that select its runs, and the exit codes for errors of the history.
 
 use crate::failure::Failure;
 use clap::Args;
-use etalon_history::{HistoryError, Labels, parse_labels};
+use etalon_history::HistoryError;
+use etalon_record::{Labels, parse_labels};
 use std::path::PathBuf;
 
 /// The variable that names the file.
@@ -25,35 +26,6 @@ impl DatabaseArguments {
         let named = || std::env::var_os(VARIABLE).filter(|name| !name.is_empty());
         let file = self.file.clone().or_else(|| named().map(PathBuf::from));
         file.unwrap_or_else(|| PathBuf::from(DEFAULT))
-    }
-}
-
-/// Labels of a run, each `key=value`.
-#[derive(Clone, Debug, Args)]
-pub(crate) struct LabelArguments {
-    /// Label of the run, such as branch=main; may be repeated
-    #[arg(long = "label", value_name = "KEY=VALUE")]
-    texts: Vec<String>,
-}
-
-impl LabelArguments {
-    /// Returns the labels.
-    ///
-    /// # Errors
-    /// If a text is not a label.
-    pub(crate) fn labels(&self) -> Result<Labels, Failure> {
-        parse_labels(&self.texts).map_err(Failure::usage)
-    }
-
-    /// Returns the labels as given, `key=value`.
-    pub(crate) fn given(&self) -> &[String] {
-        &self.texts
-    }
-
-    /// Returns the command-line words that give the same labels.
-    pub(crate) fn words(&self) -> impl Iterator<Item = &str> {
-        let each = self.texts.iter();
-        each.flat_map(|text| ["--label", text.as_str()])
     }
 }
 

@@ -29,10 +29,12 @@ mod faulty;
 mod flags;
 mod gltf;
 mod group_text;
+#[cfg(feature = "history")]
 mod history_file;
 mod idle;
 mod interruption;
 mod known_look;
+mod labels;
 mod match_text;
 mod named_files;
 mod news;
@@ -41,6 +43,7 @@ mod output;
 mod processors;
 mod progress;
 mod provenance;
+#[cfg(feature = "mutants")]
 mod quick_choice;
 mod recorded_frame;
 mod reducing;
@@ -49,6 +52,7 @@ mod saved_run;
 mod scene_text;
 mod shard;
 mod sizes;
+mod start;
 mod timed;
 mod worker;
 mod worth;
@@ -68,6 +72,9 @@ const _: () = assert!(
 
 fn main() -> ExitCode {
     etalon_process::report_large_files();
+    if std::env::args_os().len() <= 1 {
+        return exit(start::run());
+    }
     let command_line = match CommandLine::try_parse() {
         Ok(command_line) => command_line,
         Err(error) => {
@@ -86,6 +93,7 @@ fn main() -> ExitCode {
         Command::Expectations(command) => commands::expectations::run(&command),
         Command::Bench(arguments) => commands::bench::run(&arguments),
         Command::Diff(arguments) => commands::diff::run(&arguments),
+        #[cfg(feature = "history")]
         Command::History(command) => commands::history::run(&command),
         Command::Site(arguments) => commands::site::run(&arguments),
         Command::Bisect(arguments) => commands::bisect::run(&arguments),
@@ -93,6 +101,7 @@ fn main() -> ExitCode {
         Command::Reduce(arguments) => commands::reduce::run(&arguments),
         Command::Bundle(arguments) => commands::bundle::run(&arguments),
         Command::Fuzz(arguments) => commands::fuzz::run(&arguments),
+        #[cfg(feature = "mutants")]
         Command::Mutants(arguments) => commands::mutants::run(&arguments),
         Command::Completions(arguments) => {
             commands::completions::run(&arguments, &CommandLine::command())
@@ -100,6 +109,11 @@ fn main() -> ExitCode {
         Command::Man(arguments) => commands::man::run(&arguments, CommandLine::command()),
         Command::Worker(arguments) => worker::run(&arguments),
     };
+    exit(outcome)
+}
+
+/// Prints the message of a failure, and returns the exit code.
+fn exit(outcome: Result<u8, Failure>) -> ExitCode {
     match outcome {
         Ok(code) => ExitCode::from(code),
         Err(Failure { code, message }) => {

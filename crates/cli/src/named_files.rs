@@ -66,8 +66,16 @@ pub(crate) enum Renewed {
     /// A page.
     Page,
     /// A list of cases by their worth.
+    #[cfg_attr(
+        not(feature = "mutants"),
+        expect(dead_code, reason = "only `etalon mutants` writes it")
+    )]
     Order,
     /// A list of redundant cases.
+    #[cfg_attr(
+        not(feature = "mutants"),
+        expect(dead_code, reason = "only `etalon mutants` writes it")
+    )]
     Redundant,
     /// A picture.
     Picture,

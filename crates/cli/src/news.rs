@@ -1,11 +1,16 @@
 //! `--history`: compares a run with the previous run of each adapter.
 
 use crate::failure::Failure;
-use crate::history_file::{LabelArguments, failure};
+#[cfg(not(feature = "history"))]
+use crate::failure::left_out;
+#[cfg(feature = "history")]
+use crate::history_file::failure;
+use crate::labels::LabelArguments;
 use crate::output::say;
 use clap::Args;
+#[cfg(feature = "history")]
 use etalon_history::{History, HistoryError};
-use etalon_record::Run;
+use etalon_record::{Labels, Run};
 use etalon_report::{RunNews, quoted};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -32,10 +37,7 @@ impl NewsArguments {
                 Err(Failure::usage("--label is for --history: name its file"))
             };
         };
-        match History::open_read(path) {
-            Ok(_) | Err(HistoryError::None { .. } | HistoryError::Busy { .. }) => Ok(()),
-            Err(error) => Err(failure(error)),
-        }
+        check_file(path)
     }
 
     /// Returns the news of a run; `None` without a history, or if it cannot be read, which is printed.
@@ -43,15 +45,7 @@ impl NewsArguments {
         let Some(path) = &self.history else {
             return Ok(None);
         };
-        let labels = self.labels.labels()?;
-        let news = History::open_read(path).and_then(|history| RunNews::of(&history, run, &labels));
-        Ok(match news {
-            Ok(news) => Some(news),
-            Err(error) => {
-                say!("{error}; the run is judged without a history");
-                None
-            }
-        })
+        Ok(news_since(path, run, &self.labels.labels()?))
     }
 
     /// If a history was named, prints the command that adds the run to it.
@@ -67,6 +61,36 @@ impl NewsArguments {
             );
         }
     }
+}
+
+#[cfg(feature = "history")]
+fn check_file(path: &Path) -> Result<(), Failure> {
+    match History::open_read(path) {
+        Ok(_) | Err(HistoryError::None { .. } | HistoryError::Busy { .. }) => Ok(()),
+        Err(error) => Err(failure(error)),
+    }
+}
+
+#[cfg(not(feature = "history"))]
+fn check_file(_: &Path) -> Result<(), Failure> {
+    Err(Failure::usage(format_args!(
+        "--history: {}",
+        left_out("history")
+    )))
+}
+
+#[cfg(feature = "history")]
+fn news_since(path: &Path, run: &Run, labels: &Labels) -> Option<RunNews> {
+    History::open_read(path)
+        .and_then(|history| RunNews::of(&history, run, labels))
+        .inspect_err(|error| say!("{error}; the run is judged without a history"))
+        .ok()
+}
+
+/// Is not reached: `check_file` has refused the history.
+#[cfg(not(feature = "history"))]
+fn news_since(_: &Path, _: &Run, _: &Labels) -> Option<RunNews> {
+    None
 }
 
 /// Returns the run as its reports show it.

@@ -127,7 +127,7 @@ pub(crate) fn start(adapter: &String, file: Option<&Path>) -> Result<(Launch, Wo
 pub(crate) fn started(query: Query<'_>) -> Result<(Launch, Worker), Failure> {
     let names = query.names;
     let adapters = discover(&query)?;
-    refuse_absent(names, &adapters.absent)?;
+    refuse_absent(names, &adapters)?;
     let mut ready = adapters.ready.into_iter();
     ready
         .next()

@@ -151,51 +151,79 @@ fn parse<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, Failure> {
 }
 
 fn open(request: &OpenRequest, pipe: File) -> Result<Box<dyn Backend>, Unavailable> {
-    let name = &request.name;
-    let device = request.device.unwrap_or(0);
-    let gl = |profile| {
-        let options = etalon_gl::GlOptions {
-            profile,
-            platform: match request.device {
-                None => etalon_gl::Platform::Surfaceless,
-                Some(index) => etalon_gl::Platform::Device(index),
-            },
-            library: request.egl.clone(),
-            debug: request.validate,
-            fault: request.fault,
-            record: request.record,
-        };
-        etalon_gl::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
-    };
-    let wgpu = |via| {
-        let options = etalon_wgpu::WgpuOptions {
-            via,
-            device,
-            validate: request.validate,
-            fault: request.fault,
-            record: request.record,
-        };
-        etalon_wgpu::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
-    };
     match request.backend {
         BackendName::Cpu => Ok(rasterizer(request, pipe)),
-        BackendName::Vulkan => {
-            let options = etalon_vulkan::VulkanOptions {
-                device,
-                validate: request.validate,
-                fault: request.fault,
-                record: request.record,
-            };
-            etalon_vulkan::open(name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
-        }
-        BackendName::Gl => gl(etalon_gl::Profile::Core),
-        BackendName::GlEs => gl(etalon_gl::Profile::Es),
-        BackendName::WgpuVulkan => wgpu(etalon_wgpu::Via::Vulkan),
-        BackendName::WgpuGl => wgpu(etalon_wgpu::Via::Gl),
-        BackendName::WgpuDx12 => wgpu(etalon_wgpu::Via::Dx12),
-        BackendName::WgpuMetal => wgpu(etalon_wgpu::Via::Metal),
+        #[cfg(feature = "vulkan")]
+        BackendName::Vulkan => vulkan(request),
+        #[cfg(feature = "gl")]
+        BackendName::Gl => gl(request, etalon_gl::Profile::Core),
+        #[cfg(feature = "gl")]
+        BackendName::GlEs => gl(request, etalon_gl::Profile::Es),
+        #[cfg(feature = "wgpu")]
+        BackendName::WgpuVulkan => wgpu(request, etalon_wgpu::Via::Vulkan),
+        #[cfg(feature = "wgpu")]
+        BackendName::WgpuGl => wgpu(request, etalon_wgpu::Via::Gl),
+        #[cfg(feature = "wgpu")]
+        BackendName::WgpuDx12 => wgpu(request, etalon_wgpu::Via::Dx12),
+        #[cfg(feature = "wgpu")]
+        BackendName::WgpuMetal => wgpu(request, etalon_wgpu::Via::Metal),
         BackendName::Webgpu => browser(request),
+        #[cfg(not(feature = "full"))]
+        backend => Err(without(backend)),
     }
+}
+
+/// Returns the error for a backend that this build lacks.
+#[cfg(not(feature = "full"))]
+fn without(backend: BackendName) -> Unavailable {
+    let feature = match backend {
+        BackendName::Vulkan => "vulkan",
+        BackendName::Gl | BackendName::GlEs => "gl",
+        _ => "wgpu",
+    };
+    Unavailable::new(
+        format!("this etalon was built without the feature `{feature}`"),
+        format!("cargo install etalon --features {feature}"),
+    )
+}
+
+#[cfg(feature = "vulkan")]
+fn vulkan(request: &OpenRequest) -> Result<Box<dyn Backend>, Unavailable> {
+    let options = etalon_vulkan::VulkanOptions {
+        device: request.device.unwrap_or(0),
+        validate: request.validate,
+        fault: request.fault,
+        record: request.record,
+    };
+    etalon_vulkan::open(&request.name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
+}
+
+#[cfg(feature = "gl")]
+fn gl(request: &OpenRequest, profile: etalon_gl::Profile) -> Result<Box<dyn Backend>, Unavailable> {
+    let options = etalon_gl::GlOptions {
+        profile,
+        platform: match request.device {
+            None => etalon_gl::Platform::Surfaceless,
+            Some(index) => etalon_gl::Platform::Device(index),
+        },
+        library: request.egl.clone(),
+        debug: request.validate,
+        fault: request.fault,
+        record: request.record,
+    };
+    etalon_gl::open(&request.name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
+}
+
+#[cfg(feature = "wgpu")]
+fn wgpu(request: &OpenRequest, via: etalon_wgpu::Via) -> Result<Box<dyn Backend>, Unavailable> {
+    let options = etalon_wgpu::WgpuOptions {
+        via,
+        device: request.device.unwrap_or(0),
+        validate: request.validate,
+        fault: request.fault,
+        record: request.record,
+    };
+    etalon_wgpu::open(&request.name, &options).map(|b| Box::new(b) as Box<dyn Backend>)
 }
 
 /// Opens the rasterizer. A planted fault can write to the pipe to the parent.
@@ -258,39 +286,48 @@ fn browser(request: &OpenRequest) -> Result<Box<dyn Backend>, Unavailable> {
 
 /// Returns the hardware devices; software drivers are described in the data file.
 fn enumerate(backend: BackendName) -> Result<Vec<HardwareDevice>, Unavailable> {
-    let infos = |found: Vec<etalon_frame::AdapterInfo>| {
-        found
-            .into_iter()
-            .enumerate()
-            .filter(|(_, info)| !info.software)
-            .map(|(device, info)| HardwareDevice {
-                name: info.name,
-                device,
-            })
-            .collect()
-    };
     match backend {
-        BackendName::Cpu => Ok(Vec::new()),
-        BackendName::Vulkan => etalon_vulkan::enumerate().map(infos),
-        BackendName::Gl | BackendName::GlEs => {
-            let prefix = if backend == BackendName::Gl {
-                "gl"
-            } else {
-                "gl:es"
-            };
-            let devices = etalon_gl::enumerate()?;
-            let hardware = devices.into_iter().filter(|d| !d.software);
-            Ok(hardware
-                .map(|d| HardwareDevice {
-                    name: format!("{prefix}:{}", d.driver.as_deref().unwrap_or("gpu")),
-                    device: d.index,
-                })
-                .collect())
-        }
-        BackendName::WgpuVulkan => etalon_wgpu::enumerate(etalon_wgpu::Via::Vulkan).map(infos),
-        BackendName::WgpuGl => etalon_wgpu::enumerate(etalon_wgpu::Via::Gl).map(infos),
-        BackendName::WgpuDx12 => etalon_wgpu::enumerate(etalon_wgpu::Via::Dx12).map(infos),
-        BackendName::WgpuMetal => etalon_wgpu::enumerate(etalon_wgpu::Via::Metal).map(infos),
-        BackendName::Webgpu => Ok(Vec::new()),
+        BackendName::Cpu | BackendName::Webgpu => Ok(Vec::new()),
+        #[cfg(feature = "vulkan")]
+        BackendName::Vulkan => etalon_vulkan::enumerate().map(hardware),
+        #[cfg(feature = "gl")]
+        BackendName::Gl => gl_devices("gl"),
+        #[cfg(feature = "gl")]
+        BackendName::GlEs => gl_devices("gl:es"),
+        #[cfg(feature = "wgpu")]
+        BackendName::WgpuVulkan => etalon_wgpu::enumerate(etalon_wgpu::Via::Vulkan).map(hardware),
+        #[cfg(feature = "wgpu")]
+        BackendName::WgpuGl => etalon_wgpu::enumerate(etalon_wgpu::Via::Gl).map(hardware),
+        #[cfg(feature = "wgpu")]
+        BackendName::WgpuDx12 => etalon_wgpu::enumerate(etalon_wgpu::Via::Dx12).map(hardware),
+        #[cfg(feature = "wgpu")]
+        BackendName::WgpuMetal => etalon_wgpu::enumerate(etalon_wgpu::Via::Metal).map(hardware),
+        #[cfg(not(feature = "full"))]
+        backend => Err(without(backend)),
     }
+}
+
+/// Returns the devices that are hardware, with their place among all.
+#[cfg(any(feature = "vulkan", feature = "wgpu"))]
+fn hardware(devices: Vec<etalon_frame::AdapterInfo>) -> Vec<HardwareDevice> {
+    let numbered = devices.into_iter().enumerate();
+    numbered
+        .filter(|(_, info)| !info.software)
+        .map(|(device, info)| HardwareDevice {
+            name: info.name,
+            device,
+        })
+        .collect()
+}
+
+#[cfg(feature = "gl")]
+fn gl_devices(prefix: &str) -> Result<Vec<HardwareDevice>, Unavailable> {
+    let devices = etalon_gl::enumerate()?;
+    let hardware = devices.into_iter().filter(|d| !d.software);
+    Ok(hardware
+        .map(|d| HardwareDevice {
+            name: format!("{prefix}:{}", d.driver.as_deref().unwrap_or("gpu")),
+            device: d.index,
+        })
+        .collect())
 }

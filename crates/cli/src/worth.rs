@@ -1,16 +1,19 @@
 //! The order of cases by what they find per second, for runs with a time limit.
 
-use crate::named_files::ORDER_HEAD;
 use etalon_case::Case;
-use etalon_runner::Hunted;
-use std::collections::{HashMap, HashSet};
-use std::time::Duration;
+use std::collections::HashMap;
+#[cfg(feature = "mutants")]
+use {
+    crate::named_files::ORDER_HEAD, etalon_runner::Hunted, std::collections::HashSet,
+    std::time::Duration,
+};
 
 /// The ids of the cases that together catch every planted bug. Each is the case with the most new bugs per second.
 /// `etalon mutants --full --order cases/order.txt` writes it.
-const ORDER: &str = include_str!("../../../cases/order.txt");
+const ORDER: &str = include_str!("../data/order.txt");
 
 /// The time that a driver takes for a case beyond what the rasterizer takes.
+#[cfg(feature = "mutants")]
 const OVERHEAD: Duration = Duration::from_millis(1);
 
 /// Returns the ids of the order.
@@ -40,6 +43,7 @@ pub(crate) fn sort_by_worth(cases: &mut [Case]) {
 }
 
 /// Returns the file with the order that a hunt gives of its quick cases. It must have drawn every case with every bug.
+#[cfg(feature = "mutants")]
 pub(crate) fn order(cases: &[Case], is_quick: &[bool], hunted: &Hunted) -> String {
     let mut left: HashSet<usize> = (0..hunted.records.len()).collect();
     let quick: Vec<usize> = (0..cases.len()).filter(|n| is_quick[*n]).collect();

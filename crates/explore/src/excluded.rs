@@ -3,7 +3,7 @@
 use etalon_glob::Glob;
 
 /// Lines `FACT + FACT: reason`; a fact can be a glob.
-const EXCLUDED: &str = include_str!("../../../cases/pairs.txt");
+const EXCLUDED: &str = include_str!("../data/pairs.txt");
 
 /// Globs of two facts that cannot meet.
 pub(crate) struct ExcludedPair([Glob; 2]);

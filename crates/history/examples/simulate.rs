@@ -14,10 +14,10 @@
 
 use etalon_frame::{AdapterInfo, Aspect, TexelCounts};
 use etalon_history::{
-    Adapter, Added, Asserted, FrameTimes, History, HistoryError, Kind, Labels, Measures,
-    MethodMeasures, NewAdapter, NewRun, Outcome, Writer, parse_time,
+    Adapter, Added, Asserted, FrameTimes, History, HistoryError, Kind, Measures, MethodMeasures,
+    NewAdapter, NewRun, Outcome, Writer, parse_time,
 };
-use etalon_record::{Machine, Verdict};
+use etalon_record::{Labels, Machine, Verdict};
 use oorandom::Rand64;
 use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;

@@ -1,7 +1,6 @@
 //! Errors of the history.
 
-use crate::labels::LabelError;
-use etalon_record::RecordError;
+use etalon_record::{LabelError, RecordError};
 use rusqlite::ErrorCode;
 use std::io;
 use std::path::{Path, PathBuf};

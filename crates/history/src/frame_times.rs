@@ -29,14 +29,11 @@ pub struct FrameTimes {
 }
 
 impl FrameTimes {
-    /// The areas whose times are kept.
-    pub const AREAS: [&'static str; 2] = ["methods", "perf"];
-
     /// Returns true if times of this case are kept.
     pub fn are_kept(case: &str) -> bool {
         let area = CaseId::new(case).area();
         // The name of an area is no case.
-        area != case && Self::AREAS.contains(&area)
+        area != case && Times::AREAS.contains(&area)
     }
 
     /// Returns the rounds' medians of one time; empty if it is not kept or was not measured.

@@ -3,9 +3,8 @@
 use crate::adapter::Adapter;
 use crate::frame_times::FrameTimes;
 use crate::kind::Kind;
-use crate::labels::Labels;
 use crate::outcome::Outcome;
-use etalon_record::Machine;
+use etalon_record::{Labels, Machine};
 use std::collections::BTreeMap;
 
 /// A run to add, with everything that the history keeps of it.

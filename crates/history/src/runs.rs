@@ -3,9 +3,8 @@
 use crate::adapter::Adapter;
 use crate::ids::{MachineId, RunId};
 use crate::kind::Kind;
-use crate::labels::Labels;
 use crate::time::format_time;
-use etalon_record::Machine;
+use etalon_record::{Labels, Machine};
 use std::rc::Rc;
 
 /// A run of a history.

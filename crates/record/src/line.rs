@@ -5,12 +5,12 @@ use crate::frame_file::FrameFile;
 use crate::header::Header;
 use crate::json::json_line;
 use crate::paths::{frame_path, picture_path};
+use crate::png_file::png_file;
 use crate::record::Record;
 use crate::shorten::fit;
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use image::codecs::png::PngEncoder;
-use image::{ExtendedColorType, ImageEncoder};
+use png::{ColorType, Compression as PngCompression};
 use std::io::{self, Write};
 
 /// Returns the first line of `run.jsonl`.
@@ -48,21 +48,12 @@ pub fn frame_file(frame: &FrameFile) -> Result<(String, Vec<u8>), RecordError> {
 /// If the number of values does not match the size.
 pub fn picture_file(
     case: &str,
-    [width, height]: [u32; 2],
+    size: [u32; 2],
     rgb: &[u8],
 ) -> Result<(String, Vec<u8>), RecordError> {
     let path = picture_path(case);
-    let mut bytes = Vec::new();
-    let texels = u64::from(width) * u64::from(height);
-    // The encoder panics at another number of values.
-    let encoded = if texels.checked_mul(3) == Some(rgb.len() as u64) {
-        let encoder = PngEncoder::new(&mut bytes);
-        let written = encoder.write_image(rgb, width, height, ExtendedColorType::Rgb8);
-        written.map_err(io::Error::other)
-    } else {
-        Err(io::Error::other("the picture has another size"))
-    };
-    encoded.map_err(RecordError::io("write", path.as_ref()))?;
+    let bytes = png_file(size, ColorType::Rgb, PngCompression::Fast, rgb);
+    let bytes = bytes.map_err(RecordError::io("write", path.as_ref()))?;
     Ok((path, bytes))
 }
 

@@ -74,6 +74,11 @@ pub struct Times {
     pub interval: Option<[f64; 2]>,
 }
 
+impl Times {
+    /// The areas whose cases are timed.
+    pub const AREAS: [&'static str; 2] = ["methods", "perf"];
+}
+
 /// A method's scene at one size of frames. It is not judged: the picture of the case is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -2,7 +2,8 @@
 //! `cargo run --release -p etalon-report --example history_page -- DATABASE FOLDER`.
 #![expect(clippy::unwrap_used, reason = "an example may stop at the first error")]
 
-use etalon_history::{History, Labels};
+use etalon_history::History;
+use etalon_record::Labels;
 use etalon_report::write_history;
 use std::path::PathBuf;
 use std::time::Instant;

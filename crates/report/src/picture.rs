@@ -8,9 +8,8 @@ pub(crate) use strip::Strip;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use etalon_frame::{Aspect, ChannelEncoding, Image};
-use etalon_record::FrameImage;
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder};
+use etalon_record::{FrameImage, png_file};
+use png::{ColorType, Compression};
 use std::collections::HashMap;
 use std::sync::Mutex;
 use strip::{PagePicture, StripPlace, StripValues};
@@ -596,18 +595,14 @@ fn png(pixels: &[[u8; 4]], width: u32, height: u32) -> Option<Vec<u8>> {
     let opaque = pixels.iter().all(|p| p[3] == 255);
     let grey = pixels.iter().all(|p| p[0] == p[1] && p[1] == p[2]);
     let (bytes, color): (Vec<u8>, _) = match (opaque, grey) {
-        (true, true) => (pixels.iter().map(|p| p[0]).collect(), ExtendedColorType::L8),
+        (true, true) => (pixels.iter().map(|p| p[0]).collect(), ColorType::Grayscale),
         (true, false) => (
             pixels.iter().flat_map(|p| [p[0], p[1], p[2]]).collect(),
-            ExtendedColorType::Rgb8,
+            ColorType::Rgb,
         ),
-        (false, _) => (pixels.concat(), ExtendedColorType::Rgba8),
+        (false, _) => (pixels.concat(), ColorType::Rgba),
     };
-    let mut png = Vec::new();
-    PngEncoder::new_with_quality(&mut png, CompressionType::Best, FilterType::Adaptive)
-        .write_image(&bytes, width, height, color)
-        .ok()?;
-    Some(png)
+    png_file([width, height], color, Compression::High, &bytes).ok()
 }
 
 #[cfg(test)]

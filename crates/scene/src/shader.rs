@@ -172,7 +172,7 @@ macro_rules! shaders {
         /// A row per shader, in declaration order.
         static FACTS: [ShaderFacts; [$($name),+].len()] = [
             $(ShaderFacts {
-                wgsl: include_str!(concat!("../../../shaders/", $name, ".wgsl")),
+                wgsl: include_str!(concat!("../data/", $name, ".wgsl")),
                 $($fact: $value,)*
                 ..ShaderFacts::PLAIN
             }),+

@@ -10,14 +10,14 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The control shader in GLSL 4.50: all levels are 1.
-pub const CONTROL_GLSL: &str = include_str!("../../../shaders/tessellation/control.tesc");
+pub const CONTROL_GLSL: &str = include_str!("../data/tessellation/control.tesc");
 /// The evaluation shader in GLSL 4.50: each corner of the domain has the position of its vertex. `ORDER` is a
 /// placeholder for the order of the vertices.
-pub const EVALUATION_GLSL: &str = include_str!("../../../shaders/tessellation/evaluation.tese");
+pub const EVALUATION_GLSL: &str = include_str!("../data/tessellation/evaluation.tese");
 /// The control shader in SPIR-V, made by `shaders/tessellation/compile`.
-pub const CONTROL_SPIRV: &[u8] = include_bytes!("../../../shaders/tessellation/control.spv");
-const CCW_SPIRV: &[u8] = include_bytes!("../../../shaders/tessellation/evaluation-ccw.spv");
-const CW_SPIRV: &[u8] = include_bytes!("../../../shaders/tessellation/evaluation-cw.spv");
+pub const CONTROL_SPIRV: &[u8] = include_bytes!("../data/tessellation/control.spv");
+const CCW_SPIRV: &[u8] = include_bytes!("../data/tessellation/evaluation-ccw.spv");
+const CW_SPIRV: &[u8] = include_bytes!("../data/tessellation/evaluation-cw.spv");
 
 state_enum! {
     /// The corner in which the domain's coordinates begin, which determines which order is clockwise.

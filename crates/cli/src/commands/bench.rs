@@ -134,7 +134,7 @@ pub(crate) fn timed(arguments: &Arguments, stop: &AtomicBool) -> Result<DoneBenc
         cold: arguments.cold,
         ..Query::default()
     })?;
-    refuse_absent(&arguments.adapters, &adapters.absent)?;
+    refuse_absent(&arguments.adapters, &adapters)?;
     let names = adapter_names(&adapters)?;
     let header = bench_header(arguments, &selected, &adapters);
     let resume = claim.resume;

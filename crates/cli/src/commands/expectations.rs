@@ -184,7 +184,7 @@ fn export(arguments: &ExportArguments) -> Result<u8, Failure> {
         file: arguments.file.adapter_file.as_deref(),
         ..Query::default()
     })?;
-    refuse_absent(name, &adapters.absent)?;
+    refuse_absent(name, &adapters)?;
     let Some((_, worker)) = adapters.ready.first() else {
         return Err(Failure::nothing("the adapter was not found"));
     };

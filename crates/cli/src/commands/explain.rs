@@ -370,7 +370,7 @@ fn draw(name: &str, file: Option<&Path>, case: &Case) -> Result<(Limits, Vec<Fra
         file,
         ..Query::default()
     })?;
-    refuse_absent(std::slice::from_ref(&name.to_owned()), &adapters.absent)?;
+    refuse_absent(std::slice::from_ref(&name.to_owned()), &adapters)?;
     let Some((_, mut worker)) = adapters.ready.into_iter().next() else {
         return Err(Failure::usage(format!("adapter {name} cannot be used")));
     };

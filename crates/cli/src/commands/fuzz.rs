@@ -144,7 +144,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         file: arguments.file.adapter_file.as_deref(),
         ..Query::default()
     })?;
-    refuse_absent(&arguments.adapters, &adapters.absent)?;
+    refuse_absent(&arguments.adapters, &adapters)?;
     if adapters.ready.is_empty() {
         return Err(Failure::nothing("no adapter can be used"));
     }

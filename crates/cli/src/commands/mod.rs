@@ -10,10 +10,12 @@ pub(crate) mod diff;
 pub(crate) mod expectations;
 pub(crate) mod explain;
 pub(crate) mod fuzz;
+#[cfg(feature = "history")]
 pub(crate) mod history;
 pub(crate) mod list;
 pub(crate) mod man;
 pub(crate) mod merge;
+#[cfg(feature = "mutants")]
 pub(crate) mod mutants;
 pub(crate) mod reduce;
 pub(crate) mod report;

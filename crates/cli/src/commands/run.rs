@@ -20,9 +20,8 @@ use crate::{dead, idle, provenance, shard, sizes, timed};
 use clap::{Args, ValueEnum};
 use etalon_adapters::{Adapters, Query, cache, take_unstarted};
 use etalon_case::Case;
-use etalon_history::FrameTimes;
 use etalon_record::{
-    AdapterRecord, Dead, Expectations, FolderKind, Header, Run, Settings, Shard, Verdict,
+    AdapterRecord, Dead, Expectations, FolderKind, Header, Run, Settings, Shard, Times, Verdict,
     selection_digest,
 };
 use etalon_report::{RunNews, RunReport};
@@ -398,7 +397,7 @@ fn start(arguments: &Arguments) -> Result<(Adapters, Vec<(AdapterRecord, String)
     for (adapter, how) in &dead {
         say!("{} does not start: {how}", adapter.info.name);
     }
-    refuse_absent(&arguments.adapters, &adapters.absent)?;
+    refuse_absent(&arguments.adapters, &adapters)?;
     if adapters.ready.is_empty() && dead.is_empty() {
         return Err(Failure::nothing(
             "no adapter can be used; `etalon adapters` says why",
@@ -595,7 +594,7 @@ fn asserted(run: &Run, percent: f64) -> (bool, String) {
     let counted = run
         .records
         .iter()
-        .filter(|r| !FrameTimes::AREAS.contains(&r.parts().area()));
+        .filter(|r| !Times::AREAS.contains(&r.parts().area()));
     let total = counted.clone().count();
     if total == 0 {
         let line = "nothing was asserted: no selected case is judged (--min-asserted)";

@@ -1,6 +1,7 @@
 //! The binary as a user meets it, and the rules of the workspace. They share one test binary, since each test
 //! binary links the whole suite.
 
+mod action;
 mod adapters;
 mod bench;
 mod bisect;
@@ -28,6 +29,7 @@ mod hidden;
 mod history;
 mod history_export;
 mod house;
+mod judge_interface;
 mod known_failures;
 mod known_look;
 mod launchers;
@@ -36,6 +38,7 @@ mod methods;
 mod mutants;
 mod news;
 mod odd_inputs;
+mod packages;
 mod page;
 mod parts;
 mod pipes;
@@ -43,10 +46,12 @@ mod plain_words;
 mod prose;
 mod read_faults;
 mod reduce;
+mod release;
 mod round_trips;
 mod runs;
 mod sample;
 mod servers;
+mod start;
 mod stories;
 mod survive;
 mod version;

@@ -3,10 +3,10 @@
 use etalon_export::{ExportFormat, RunChoice, export};
 use etalon_frame::{AdapterInfo, Aspect};
 use etalon_history::{
-    Adapter, Asserted, FrameTimes, History, Kind, Labels, MethodMeasures, NewAdapter, NewRun,
-    Outcome, Writer, parse_time,
+    Adapter, Asserted, FrameTimes, History, Kind, MethodMeasures, NewAdapter, NewRun, Outcome,
+    Writer, parse_time,
 };
-use etalon_record::{Machine, Verdict};
+use etalon_record::{Labels, Machine, Verdict};
 use std::collections::{BTreeMap, HashMap};
 use std::fs;
 use std::path::{Path, PathBuf};

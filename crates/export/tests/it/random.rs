@@ -4,10 +4,9 @@ use crate::made::{HOSTILE, adapter, run};
 use etalon_export::RunChoice;
 use etalon_frame::Aspect;
 use etalon_history::{
-    Asserted, FrameTimes, Kind, Labels, Measures, MethodMeasures, NewAdapter, NewRun, Outcome,
-    parse_time,
+    Asserted, FrameTimes, Kind, Measures, MethodMeasures, NewAdapter, NewRun, Outcome, parse_time,
 };
-use etalon_record::{Machine, Verdict};
+use etalon_record::{Labels, Machine, Verdict};
 use proptest::collection::{btree_map, vec};
 use proptest::prelude::*;
 use proptest::sample::select;

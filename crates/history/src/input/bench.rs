@@ -6,10 +6,9 @@ use crate::digest::Digesting;
 use crate::error::HistoryError;
 use crate::frame_times::FrameTimes;
 use crate::kind::Kind;
-use crate::labels::Labels;
 use crate::new_run::{NewAdapter, NewRun};
 use crate::outcome::Outcome;
-use etalon_record::Bench;
+use etalon_record::{Bench, Labels};
 use std::io::Read;
 use std::path::Path;
 

@@ -10,11 +10,10 @@ use crate::dates::ReleaseDates;
 use crate::digest::{Digesting, of_parts};
 use crate::error::HistoryError;
 use crate::kind::Kind;
-use crate::labels::Labels;
 use crate::new_run::{NewAdapter, NewRun};
 use crate::outcome::Outcome;
 use etalon_frame::{AdapterInfo, AdapterName};
-use etalon_record::{CaseVersions, ReleaseRecord, Verdict, Versions};
+use etalon_record::{CaseVersions, Labels, ReleaseRecord, Verdict, Versions};
 use std::io::Read;
 use std::path::Path;
 

@@ -3,9 +3,9 @@
 use crate::made::{adapter, case, run, times, with};
 use etalon_history::{
     Added, History, Kind, Outcome, RunId, SeriesKey, TimeStep, TriageEntry, TriageState,
-    TriageSubject, Writer, parse_labels,
+    TriageSubject, Writer,
 };
-use etalon_record::{Machine, Time, Verdict};
+use etalon_record::{Machine, Time, Verdict, parse_labels};
 
 /// The verdicts of a case over the runs, by time: letters as of [`with`].
 fn verdicts(history: &History, case: &str, timeline: &str) -> String {

@@ -1,8 +1,8 @@
 //! Runs made by hand.
 
 use etalon_frame::AdapterInfo;
-use etalon_history::{Adapter, FrameTimes, Kind, Labels, NewAdapter, NewRun, Outcome, parse_time};
-use etalon_record::{Machine, Verdict};
+use etalon_history::{Adapter, FrameTimes, Kind, NewAdapter, NewRun, Outcome, parse_time};
+use etalon_record::{Labels, Machine, Verdict};
 use std::collections::BTreeMap;
 
 /// An adapter of this name and version, without records.

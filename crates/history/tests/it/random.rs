@@ -3,10 +3,10 @@
 use crate::made::{Content, adapter, content, run, times};
 use etalon_frame::{Aspect, TexelCounts};
 use etalon_history::{
-    Added, Asserted, History, HistoryError, Labels, Measures, MethodMeasures, NewAdapter, NewRun,
-    Outcome, Writer,
+    Added, Asserted, History, HistoryError, Measures, MethodMeasures, NewAdapter, NewRun, Outcome,
+    Writer,
 };
-use etalon_record::{Machine, Verdict};
+use etalon_record::{Labels, Machine, Verdict};
 use proptest::collection::{btree_map, vec};
 use proptest::prelude::*;
 use proptest::sample::select;

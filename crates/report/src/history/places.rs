@@ -1,6 +1,7 @@
 //! The runs of a history in order, and the runs of each timeline.
 
-use etalon_history::{AdapterRun, History, Kind, Labels, RunId, RunInfo};
+use etalon_history::{AdapterRun, History, Kind, RunId, RunInfo};
+use etalon_record::Labels;
 use std::collections::HashMap;
 use std::rc::Rc;
 

@@ -2,10 +2,10 @@
 
 use super::{NewsEntry, RunNews, Since};
 use etalon_history::{
-    AdapterRun, History, HistoryError, Kind, Labels, Outcome, RunInfo, TriageEntry, TriageState,
+    AdapterRun, History, HistoryError, Kind, Outcome, RunInfo, TriageEntry, TriageState,
     TriageStates, TriageSubject, format_time, parse_time,
 };
-use etalon_record::{Change, Record, Run, Standing, Verdict};
+use etalon_record::{Change, Labels, Record, Run, Standing, Verdict};
 use std::cmp::Reverse;
 use std::collections::HashMap;
 use std::rc::Rc;

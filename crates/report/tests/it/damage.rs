@@ -6,8 +6,8 @@
 mod spoil;
 
 use crate::history_made;
-use etalon_history::{History, Labels};
-use etalon_record::{Bench, Run};
+use etalon_history::History;
+use etalon_record::{Bench, Labels, Run};
 use etalon_report::{TableOptions, table, write, write_history};
 use proptest::prelude::*;
 use spoil::{keep_trying, spoilings};

@@ -1,7 +1,8 @@
 //! The pages of a history: their files, and where they are written.
 
 use crate::history_made::{self, BROKEN, FIXED, FLAKY, IGNORED, NEW, SLOWER};
-use etalon_history::{History, Labels, parse_labels};
+use etalon_history::History;
+use etalon_record::{Labels, parse_labels};
 use etalon_report::{HISTORY_PAGE_FILE, ReportError, write_history};
 use serde_json::Value;
 use std::collections::BTreeMap;

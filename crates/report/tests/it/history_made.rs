@@ -2,10 +2,10 @@
 
 use etalon_frame::AdapterInfo;
 use etalon_history::{
-    Adapter, FrameTimes, Kind, Labels, NewAdapter, NewRun, Outcome, TimeStep, TriageEntry,
-    TriageState, TriageSubject, Writer, parse_labels, parse_time,
+    Adapter, FrameTimes, Kind, NewAdapter, NewRun, Outcome, TimeStep, TriageEntry, TriageState,
+    TriageSubject, Writer, parse_time,
 };
-use etalon_record::{Machine, Time, Verdict};
+use etalon_record::{Labels, Machine, Time, Verdict, parse_labels};
 use std::collections::BTreeMap;
 use std::path::Path;
 

@@ -3,7 +3,8 @@
 use crate::counted::counted;
 use crate::failure::{Failure, INCOMPLETE, USAGE};
 use crate::flags::OutputFormat;
-use crate::history_file::{DatabaseArguments, LabelArguments, failure};
+use crate::history_file::{DatabaseArguments, failure};
+use crate::labels::LabelArguments;
 use crate::output::{print_json, say, summarize};
 use crate::saved_run::UnpackArguments;
 use clap::Args;
@@ -14,7 +15,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The release dates that are compiled in.
-const DATES: &str = include_str!("../../../../../ci/history/releases.json");
+const DATES: &str = include_str!("../../../data/releases.json");
 /// The name that messages use for the built-in file of dates.
 const DATES_NAME: &str = "ci/history/releases.json";
 
@@ -228,7 +229,8 @@ impl AddedRun<'_> {
 mod tests {
     use super::*;
     use etalon_frame::AdapterInfo;
-    use etalon_history::{Adapter, Labels, NewAdapter};
+    use etalon_history::{Adapter, NewAdapter};
+    use etalon_record::Labels;
     use etalon_record::Machine;
 
     fn release(version: &str, released: Option<i64>) -> NewRun {

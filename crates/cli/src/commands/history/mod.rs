@@ -1,6 +1,7 @@
 //! `etalon history`: runs over time.
 
 mod add;
+#[cfg(feature = "export")]
 mod export;
 mod open;
 mod place;
@@ -20,6 +21,7 @@ pub(crate) enum HistoryCommand {
     /// Add runs, benches and the releases of `etalon bisect`; runs that are already there are not added again
     Add(add::Arguments),
     /// Write the history for other programs: tables, samples, series of frame times
+    #[cfg(feature = "export")]
     Export(export::Arguments),
     /// Write the pages of a history: what changed, scores over time, every case, frame times
     Report(report::Arguments),
@@ -34,6 +36,7 @@ pub(crate) enum HistoryCommand {
 pub(crate) fn run(command: &HistoryCommand) -> Result<u8, Failure> {
     match command {
         HistoryCommand::Add(arguments) => add::run(arguments),
+        #[cfg(feature = "export")]
         HistoryCommand::Export(arguments) => export::run(arguments),
         HistoryCommand::Report(arguments) => report::run(arguments),
         HistoryCommand::Show(arguments) => show::run(arguments),

@@ -5,10 +5,10 @@ use super::series::{of_key, state_name, state_text};
 use super::show::subject;
 use super::verdicts::{is_meant, verdicts};
 use etalon_history::{
-    AdapterRun, CaseNumber, History, HistoryError, Labels, OutcomeId, TriageEntry, TriageState,
+    AdapterRun, CaseNumber, History, HistoryError, OutcomeId, TriageEntry, TriageState,
     TriageStates,
 };
-use etalon_record::Time;
+use etalon_record::{Labels, Time};
 use etalon_report::plain;
 use etalon_stats::{Cause, VerdictEvent};
 use serde_json::{Value, json};

@@ -6,10 +6,10 @@ use super::verdicts::is_meant;
 use crate::counted::counted;
 use clap::ValueEnum;
 use etalon_history::{
-    History, HistoryError, Labels, MachineId, RunId, SeriesKey, TimeStep, TriageEntry, TriageState,
+    History, HistoryError, MachineId, RunId, SeriesKey, TimeStep, TriageEntry, TriageState,
     TriageStates, TriageSubject,
 };
-use etalon_record::Time;
+use etalon_record::{Labels, Time};
 use etalon_report::plain;
 use etalon_stats::{Cause, ChangePoint, Changes, Drift, Ratio, TimedRun, change_points};
 use serde_json::{Value, json};

@@ -12,9 +12,9 @@ use crate::output::{print, print_json};
 use clap::Args;
 use etalon_glob::did_you_mean;
 use etalon_history::{
-    History, HistoryError, Labels, RunId, TriageEntry, TriageStates, TriageSubject, format_time,
+    History, HistoryError, RunId, TriageEntry, TriageStates, TriageSubject, format_time,
 };
-use etalon_record::Standing;
+use etalon_record::{Labels, Standing};
 use etalon_report::plain;
 use serde_json::json;
 use std::rc::Rc;

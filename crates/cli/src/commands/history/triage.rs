@@ -11,9 +11,10 @@ use crate::history_file::{DatabaseArguments, OnlyArguments, failure};
 use crate::output::{print, print_json, summarize};
 use clap::{Args, ValueEnum};
 use etalon_history::{
-    History, Labels, MachineId, RunId, TimeStep, TriageEntry, TriageState, TriageSubject, Writer,
+    History, MachineId, RunId, TimeStep, TriageEntry, TriageState, TriageSubject, Writer,
     format_time,
 };
+use etalon_record::Labels;
 use etalon_report::plain;
 use serde_json::json;
 use std::time::SystemTime;

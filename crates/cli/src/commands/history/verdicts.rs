@@ -1,7 +1,8 @@
 //! One case on one adapter over runs: its verdicts and events.
 
 use super::place::{range_text, run_json, run_text};
-use etalon_history::{AdapterRun, CaseHistory, History, HistoryError, Labels, Outcome, RunId};
+use etalon_history::{AdapterRun, CaseHistory, History, HistoryError, Outcome, RunId};
+use etalon_record::Labels;
 use etalon_stats::{Happening, Standing, happenings};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, HashMap};

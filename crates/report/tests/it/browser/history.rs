@@ -2,7 +2,8 @@
 
 use super::driver::Chromium;
 use crate::history_made::{self, BROKEN, HOSTILE, SLOWER};
-use etalon_history::{History, Labels};
+use etalon_history::History;
+use etalon_record::Labels;
 
 pub(super) fn news_lead_to_cases_runs_and_back(chromium: &Chromium) {
     let folder = tempfile::tempdir().unwrap();
