@@ -59,6 +59,11 @@ fn what_prevents_a_release_is_named() {
     for (file, text, problem) in [
         ("dirty", "", "files are not committed"),
         (
+            "Cargo.toml",
+            "version = \"1.2.3\"\nrepository = \"https://a.invalid/a\"\n",
+            "Cargo.toml: the repository's address is a placeholder",
+        ),
+        (
             "CHANGELOG.md",
             "## [1.2.3] - Unreleased\n",
             "CHANGELOG.md has no section",
