@@ -17,6 +17,7 @@ mod error;
 mod expanded;
 mod fetch;
 mod file;
+mod file_text;
 mod json;
 mod library;
 mod lint;

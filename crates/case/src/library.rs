@@ -2,6 +2,7 @@
 
 use crate::error::CaseError;
 use crate::file::{CaseFile, CaseRef, Profile};
+use crate::file_text::{text_of, unreadable};
 use crate::redundant::Redundant;
 use etalon_methods::Model;
 use std::collections::BTreeSet;
@@ -156,23 +157,6 @@ impl Library {
         let cases = cases.flat_map(|file| file.cases(Profile::Full));
         let named = cases.map(|case| (case.id(), case));
         named.filter(move |(id, _)| ids.contains(id.as_str()))
-    }
-}
-
-/// Reads a regular file. Reading a pipe would block.
-pub(crate) fn text_of(path: &Path) -> io::Result<String> {
-    if !fs::metadata(path)?.is_file() {
-        return Err(io::Error::other("it is not a regular file"));
-    }
-    fs::read_to_string(path)
-}
-
-pub(crate) fn unreadable(name: &str, error: &std::io::Error) -> CaseError {
-    CaseError {
-        file: name.to_owned(),
-        line: 0,
-        key: String::new(),
-        message: format!("cannot be read: {error}"),
     }
 }
 

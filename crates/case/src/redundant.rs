@@ -2,7 +2,7 @@
 
 use crate::error::CaseError;
 use crate::file::{CaseFile, Profile};
-use crate::library::{text_of, unreadable};
+use crate::file_text::{text_of, unreadable};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::LazyLock;
@@ -50,10 +50,10 @@ impl Redundant {
         file
     }
 
-    /// Checks that each id is a candidate of one of the files that were told.
+    /// Checks that each id is a candidate of one of these files.
     ///
     /// # Errors
-    /// Names the first id that is none.
+    /// Names the first id of another case.
     pub(crate) fn check<'f>(
         &self,
         files: impl Iterator<Item = &'f CaseFile>,

@@ -1,21 +1,23 @@
 //! The choice of the quick profile: few of its candidates, with the power of all.
 
 use crate::named_files::REDUNDANT_HEAD;
+use etalon_backend::CallFault;
 use etalon_case::{Case, CaseFile, Library, Profile};
 use etalon_explore::FactPairs;
 use etalon_frame::CaseId;
+use etalon_glob::Glob;
 use etalon_record::Expectations;
 use etalon_runner::Hunted;
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, HashMap};
 use std::fmt::Write as _;
 
-/// The number of cases that must catch each bug, if so many do: the further ones guard against bugs that are nearly the
-/// planted one. With more, and with fewer, quick catches fewer held-out bugs.
+/// The number of cases that must catch each bug, or all that do: the further ones guard against bugs that are nearly the
+/// planted one. With more, and with fewer, quick catches fewer bugs that it was not told.
 const CATCHES: u32 = 4;
-/// The number of parts of the bugs that are held out in turn.
+/// The number of parts of the bugs. In turn, the choice is not told one of them.
 const PARTS: usize = 3;
-/// The number of cases of the quick profile, if those that it must keep are no more.
+/// The number of cases of the quick profile, unless it must keep more.
 const QUICK: usize = 1800;
 
 /// What candidates have.
@@ -25,8 +27,10 @@ enum Power<'a> {
     Bug(usize),
     /// Two facts that meet in a draw.
     Pair(usize, usize),
-    /// A finding of which the case is the shortest.
+    /// A finding. The case is its shortest one.
     Finding(usize),
+    /// What a faulty call breaks: this case of those that exercise it, since not every driver draws each.
+    Call(usize),
     /// A file.
     File(&'a str),
     /// The values of two axes of a file whose candidates are a covering array.
@@ -53,7 +57,7 @@ pub(crate) struct QuickChoice {
     /// For each candidate, true if quick has it.
     pub(crate) is_kept: Vec<bool>,
     /// Of the bugs that the choice was not told: how many a candidate catches, and how many a kept one does. Each third
-    /// of the bugs is held out once.
+    /// of the bugs is left out once.
     held_out: [usize; 2],
 }
 
@@ -127,8 +131,15 @@ fn powers<'a>(
     // Another seed has other pairs.
     let (random, covering) = (files(CaseFile::is_random), files(CaseFile::is_covering));
     let mut powers: Vec<Vec<Power<'a>>> = Vec::with_capacity(cases.len());
-    for (case, catches) in cases.iter().zip(&hunted.catches) {
+    let calls: Vec<Glob> = CallFault::ALL
+        .iter()
+        .filter_map(|fault| Glob::new(fault.cases()).ok())
+        .collect();
+    for (n, (case, catches)) in cases.iter().zip(&hunted.catches).enumerate() {
         let mut own: Vec<Power<'a>> = catches.bugs.iter().copied().map(Power::Bug).collect();
+        if calls.iter().any(|glob| glob.is_match(&case.id)) {
+            own.push(Power::Call(n));
+        }
         let id: CaseId<'a> = case.parts();
         let axes: Vec<(&str, &str)> = id.axes().collect();
         own.push(Power::File(id.file()));

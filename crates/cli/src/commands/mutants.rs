@@ -63,8 +63,8 @@ pub(crate) struct Arguments {
     /// draws them
     #[arg(long, value_name = "FILE", requires = "full")]
     pub(crate) order: Option<PathBuf>,
-    /// Hunt with all candidates of the quick profile, and write this file: those that quick leaves out, because the
-    /// others catch the same bugs, have the same pairs of states and the same values
+    /// Hunt with all candidates of the quick profile, and write this file: the candidates that others make
+    /// superfluous, which catch the same bugs and have the same pairs of states
     #[arg(
         long,
         value_name = "FILE",

@@ -90,9 +90,11 @@ fn run_step(
         command.env(name, folder.join(file));
     }
     for (variable, template) in environment {
-        let input = template
-            .trim_start_matches("${{ inputs.")
-            .trim_end_matches(" }}");
+        // What GitHub gives comes from `variables`.
+        let Some(input) = template.strip_prefix("${{ inputs.") else {
+            continue;
+        };
+        let input = input.trim_end_matches(" }}");
         let value = inputs.iter().find(|(name, _)| *name == input);
         command.env(variable, value.unwrap_or_else(|| panic!("{input}")).1);
     }
