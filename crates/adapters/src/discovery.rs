@@ -9,6 +9,7 @@ use crate::error::AdapterError;
 use crate::origin::Origin;
 use crate::query::Query;
 use etalon_backend::Fault;
+use etalon_frame::AdapterName;
 use etalon_frame::threads::each;
 use etalon_glob::did_you_mean;
 use etalon_record::AbsentAdapter;
@@ -108,7 +109,7 @@ fn chosen(
             let known: Vec<&str> = candidates.iter().map(Candidate::name).collect();
             return Err(AdapterError::Unknown {
                 name: name.escape_default().to_string(),
-                suggestion: did_you_mean(name, known.iter().copied()),
+                suggestion: suggestion(name, &known),
                 known: known.into_iter().map(str::to_owned).collect(),
             });
         }
@@ -121,6 +122,19 @@ fn chosen(
         candidates.retain(|c| query.names.iter().any(|name| name == c.name()));
     }
     Ok(candidates)
+}
+
+/// Returns a suggestion for an unknown name: the adapters of the driver with this name, or similar names.
+fn suggestion(name: &str, known: &[&str]) -> String {
+    let of_driver = known
+        .iter()
+        .filter(|k| AdapterName::new(k).driver() == name);
+    let of_driver: Vec<String> = of_driver.map(|k| format!("`{k}`")).collect();
+    if of_driver.is_empty() {
+        did_you_mean(name, known.iter().copied())
+    } else {
+        format!("; did you mean {}?", of_driver.join(" or "))
+    }
 }
 
 /// Returns the built-in descriptions and the user's, which replace built-in ones with the same name.
@@ -173,6 +187,17 @@ fn hardware(taken: &BTreeSet<String>, absent: &mut Vec<AbsentAdapter>) -> Vec<Ca
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_name_of_a_driver_alone_suggests_its_adapters() {
+        let known = ["cpu", "gl:softpipe", "gl:es:softpipe", "vulkan:lavapipe"];
+        let both = "; did you mean `gl:softpipe` or `gl:es:softpipe`?";
+        assert_eq!(suggestion("softpipe", &known), both);
+        assert_eq!(
+            suggestion("gl:softpip", &known),
+            "; did you mean `gl:softpipe`?"
+        );
+    }
 
     #[test]
     fn a_fault_is_planted_or_refused() {

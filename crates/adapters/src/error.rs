@@ -1,6 +1,6 @@
 //! Errors of descriptions and of discovery.
 
-use etalon_backend::NoFaults;
+use etalon_backend::FaultNameError;
 use std::io;
 use thiserror::Error;
 
@@ -109,9 +109,9 @@ pub enum AdapterError {
         /// The lines of the file.
         lines: Vec<String>,
     },
-    /// A name has a planted fault, and this build has none.
+    /// A name ends in a fault that cannot be planted.
     #[error(transparent)]
-    NoFaults(#[from] NoFaults),
+    FaultName(#[from] FaultNameError),
     /// No adapter has a name.
     #[error("there is no adapter `{name}`{suggestion}; known are: {}", known.join(", "))]
     Unknown {

@@ -1,6 +1,6 @@
 //! A build without planted faults. [`Fault`] has no value, so the compiler removes whatever a fault would change.
 
-use crate::no_faults::NoFaults;
+use crate::fault_name::FaultNameError;
 use etalon_frame::{AdapterName, Api, ChannelEncoding};
 use serde::{Deserialize, Serialize};
 
@@ -16,9 +16,9 @@ impl Fault {
     ///
     /// # Errors
     /// If the name has a fault.
-    pub fn in_name(name: &str) -> Result<Option<(&str, Self)>, NoFaults> {
+    pub fn in_name(name: &str) -> Result<Option<(&str, Self)>, FaultNameError> {
         match AdapterName::new(name).fault() {
-            Some((_, kind, fault)) if KINDS.contains(&kind) => Err(NoFaults {
+            Some((_, kind, fault)) if KINDS.contains(&kind) => Err(FaultNameError::Absent {
                 name: name.escape_default().to_string(),
                 fault: format!("{kind}={}", fault.escape_default()),
             }),

@@ -17,10 +17,10 @@ mod blits;
 pub mod codes;
 #[cfg(feature = "faults")]
 mod fault;
+mod fault_name;
 #[cfg(not(feature = "faults"))]
 mod faultless;
 mod halves;
-mod no_faults;
 mod recording;
 
 pub use blits::{Blit, BlitPiece, Blits, doubled};
@@ -29,10 +29,10 @@ pub use fault::{
     CallFault, DrawNumbers, Fault, FaultyCalls, FaultyScenes, LimitFault, OpenQuery, ProcessFault,
     ReadFault,
 };
+pub use fault_name::FaultNameError;
 #[cfg(not(feature = "faults"))]
 pub use faultless::Fault;
 pub use halves::halves;
-pub use no_faults::NoFaults;
 pub use recording::{
     Argument, Constant, CounterPart, Member, NumberForm, Phase, RecordedCall, RecordedContext,
     RecordedCounter, RecordedImage, RecordedPlane, Recording, VulkanNeeds,

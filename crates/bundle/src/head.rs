@@ -9,6 +9,8 @@ pub struct Head {
     pub title: String,
     /// A sentence about the wrong value.
     pub sentence: String,
+    /// What the program draws, and with which states: one line for each attachment, pass and draw.
+    pub scene: Vec<String>,
     /// The command that runs the program on the driver.
     pub run: String,
 }
@@ -25,14 +27,31 @@ const BEGINNING: &str = r#"
 enum { BUG = 1, FAILED = 2, LACKS = 77 };
 "#;
 
+/// Returns a line of the scene as lines of a comment. A continued line is indented further.
+fn indented(line: &str) -> String {
+    let depth = line.len() - line.trim_start().len();
+    let text = paragraph(line);
+    let mut indent = " ".repeat(depth + 2);
+    let mut lines = String::new();
+    for line in text.lines() {
+        lines += &format!(" *{indent}{}\n", line.trim_start_matches(" *"));
+        indent = " ".repeat(depth + 4);
+    }
+    lines
+}
+
 impl Head {
     /// Returns the beginning of a C program. `argument` describes its first argument, and `names` how the
     /// API's names are declared.
     pub(crate) fn beginning(&self, build: &str, argument: &str, names: &str) -> String {
         format!(
-            "/*\n{} *\n{} *\n * Build and run:\n *   {build}\n *   {}\n *\n{}{} */\n{BEGINNING}",
+            "/*\n{} *\n{} *\n * What it draws:\n{} *\n * Build and run:\n *   {build}\n *   {}\n *\n{}{} */\n{BEGINNING}",
             paragraph(&self.title),
             paragraph(&self.sentence),
+            self.scene
+                .iter()
+                .map(|line| indented(line))
+                .collect::<String>(),
             comment(&self.run),
             paragraph(&format!(
                 "The optional first argument is {argument}. Exit status: 1 if the bug is there, 0 if not, 77 if \

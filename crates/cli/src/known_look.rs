@@ -206,8 +206,8 @@ pub(crate) fn lines(run: &Run) -> String {
     let count: u64 = findings.values().map(|(count, _)| count).sum();
     let mut text = match count {
         0 => String::new(),
-        1 => "1 record is known by its look\n".to_owned(),
-        count => format!("{count} records are known by their look\n"),
+        1 => "1 failure looks like a known bug\n".to_owned(),
+        count => format!("{count} failures look like known bugs\n"),
     };
     for (reason, (count, case)) in findings {
         text.push_str(&format!("{count:6}  {reason}: like {case}\n"));

@@ -21,6 +21,7 @@ mod commands;
 mod counted;
 mod dead;
 mod discovery;
+mod earlier;
 mod expectations;
 mod failure;
 mod failure_groups;

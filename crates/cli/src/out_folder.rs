@@ -1,6 +1,7 @@
 //! The folder of `--out`. Records in it are replaced only with `--force`, and other files never. Everything is
 //! checked before anything is removed.
 
+use crate::earlier;
 use crate::failure::Failure;
 use etalon_record::{
     Bench, Content, FolderKind, FolderLock, OutputFolder, RecordError, Run, overlap,
@@ -13,7 +14,7 @@ pub(crate) struct Out<'a> {
     pub(crate) folder: &'a Path,
     /// The kind of records that the command writes.
     pub(crate) kind: FolderKind,
-    /// The default folder if records of the same kind in it are replaced without `--force`.
+    /// The default folder, whose records of the same kind are kept elsewhere without `--force`.
     pub(crate) latest: Option<&'a str>,
     /// The folder of `--cases`, whose files must stay separate from the output.
     pub(crate) cases: Option<&'a Path>,
@@ -32,14 +33,20 @@ pub(crate) struct ClaimedFolder<'a> {
 }
 
 impl ClaimedFolder<'_> {
-    /// Makes and locks the folder, and removes what the command does not continue. The writers of runs and benches
-    /// replace records of their own kind.
+    /// Makes and locks the folder, and removes or renames what the command does not continue. The writers of runs and
+    /// benches replace records of their own kind.
     ///
     /// # Errors
     /// If a file cannot be removed, or another process has locked the folder.
     pub(crate) fn take(self) -> Result<FolderLock, Failure> {
-        let lock = self.lock.map_or_else(|| self.out.lock(), Ok)?;
         let Out { folder, kind, .. } = self.out;
+        let is_kept =
+            !self.resume && !self.out.force && self.out.is_latest() && !folder.is_symlink();
+        if is_kept && Content::of(folder).map_err(Failure::usage)? == Content::Recorded(kind) {
+            earlier::keep(folder, kind)?;
+            return self.out.lock();
+        }
+        let lock = self.lock.map_or_else(|| self.out.lock(), Ok)?;
         let kept = matches!(kind, FolderKind::Run | FolderKind::Bench).then_some(kind);
         match Content::writable(folder).map_err(Failure::usage)? {
             Content::Recorded(held) if Some(held) != kept => {
@@ -85,6 +92,11 @@ impl<'a> Out<'a> {
         })
     }
 
+    fn is_latest(self) -> bool {
+        self.latest
+            .is_some_and(|latest| self.folder == Path::new(latest))
+    }
+
     fn lock(self) -> Result<FolderLock, Failure> {
         FolderLock::acquire(self.folder).map_err(Failure::of)
     }
@@ -101,11 +113,7 @@ impl<'a> Out<'a> {
                 Err(Failure::usage(RecordError::Holds { path, kind }))
             }
             Content::Recorded(_) if self.resume == Some(true) => Ok(true),
-            Content::Recorded(_)
-                if self.force || self.latest.is_some_and(|l| self.folder == Path::new(l)) =>
-            {
-                Ok(false)
-            }
+            Content::Recorded(_) if self.force || self.is_latest() => Ok(false),
             Content::Recorded(kind) => {
                 let damaged = |e: RecordError| {
                     Failure::usage(format!(

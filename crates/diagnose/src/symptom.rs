@@ -16,7 +16,7 @@ use etalon_record::{LossKind, ProcessEnd, Record, Verdict};
 use std::fmt;
 
 /// Operations that every sample goes through, which therefore distinguish no failure.
-const COMMON: [Operation; 7] = [
+const COMMON: [Operation; 8] = [
     Operation::ReadBack,
     Operation::Coverage,
     Operation::Viewport,
@@ -24,6 +24,7 @@ const COMMON: [Operation; 7] = [
     Operation::StoreColor,
     Operation::StoreDepth,
     Operation::StoreStencil,
+    Operation::World,
 ];
 
 /// Operations that compute the stored value.
@@ -32,6 +33,17 @@ const COMPUTED: [Operation; 3] = [
     Operation::AdvancedBlend,
     Operation::Blend,
 ];
+
+/// Operations that convert a value to the codes of an attachment.
+const CONVERTING: [Operation; 4] = [
+    Operation::Clear,
+    Operation::ReadBack,
+    Operation::StoreColor,
+    Operation::StoreDepth,
+];
+
+/// The most codes by which a wrong conversion misses the allowed values.
+const ROUNDED: i64 = 2;
 
 /// Operations that give an attachment its contents before the first draw or between draws.
 const INITIAL: [Operation; 3] = [Operation::Clear, Operation::Upload, Operation::Resolve];
@@ -93,13 +105,13 @@ impl Symptom {
     pub fn of(record: &Record) -> Self {
         let story = record.story.as_ref();
         let events = story.map_or(&[][..], |story| &story.events[..]);
-        let mut operations = events.iter().rev().map(Event::operation);
+        let operations = events.iter().rev().map(Event::operation);
         let bare = Self {
             verdict: record.verdict,
             subject: WrongPart::Unknown,
             attachment: None,
             operations: Vec::new(),
-            last: operations.find(|operation| !COMMON.contains(operation)),
+            last: last(operations),
             direction: None,
         };
         if let Some(ProcessEnd {
@@ -276,21 +288,65 @@ pub(crate) fn names(operations: &[Operation]) -> String {
     names.join(", ")
 }
 
-/// Returns the clause that the driver violates: the clause of the last operation that cites one. Coverage
-/// cites a clause even for primitives elsewhere, so its clause is used only if no other operation cites any.
-/// `None` if pictures must be equal, because no single operation decides that.
-pub fn violated_clause(story: &Story) -> Option<&str> {
+/// Returns the clause that the driver violates: the clause of the last operation that cites one and can have made the
+/// value wrong. Operations that convert a value are off by its rounding at most. Coverage cites a clause even for
+/// primitives elsewhere, so its clause is used only if no other operation cites any. `None` if pictures must be
+/// equal, because no single operation decides that.
+pub fn violated_clause(record: &Record) -> Option<&str> {
+    let story = record.story.as_ref()?;
     if invariance(&story.events).is_some() {
         return None;
     }
-    let cited = |coverage: bool| {
+    let cited = |operations: &dyn Fn(Operation) -> bool| {
         let mut events = story.events.iter().rev();
         events.find_map(|event| {
-            let counts = (event.operation() == Operation::Coverage) == coverage;
+            let counts = operations(event.operation());
             event.citation.as_deref().filter(|_| counts)
         })
     };
-    cited(false).or_else(|| cited(true))
+    let covers = |operation| operation == Operation::Coverage;
+    let converts = |operation| CONVERTING.contains(&operation);
+    let decides = |operation| !covers(operation) && !converts(operation);
+    if story.keeps_earlier_contents() {
+        // The draw was lost before its value was converted.
+        return cited(&decides)
+            .or_else(|| cited(&covers))
+            .or_else(|| cited(&converts));
+    }
+    if is_rounded(record) {
+        return cited(&|operation| !covers(operation)).or_else(|| cited(&covers));
+    }
+    cited(&decides)
+        .or_else(|| cited(&converts))
+        .or_else(|| cited(&covers))
+}
+
+/// Returns true if the first wrong sample is at most as far from the allowed values as a conversion can be.
+fn is_rounded(record: &Record) -> bool {
+    let mut channels = record
+        .wrong
+        .first()
+        .into_iter()
+        .flat_map(|texel| &texel.channels);
+    channels.all(|m| {
+        let [low, actual, high] =
+            [m.low, m.actual, m.high].map(|code| m.encoding.order_of_code(code));
+        actual + ROUNDED >= low && actual <= high + ROUNDED
+    })
+}
+
+/// Returns the last operation that not every sample goes through. A value that a draw gives was last shaded, not cleared.
+fn last(mut operations: impl Iterator<Item = Operation>) -> Option<Operation> {
+    let mut is_shaded = false;
+    let found = operations.find(|operation| {
+        is_shaded |= *operation == Operation::Shade;
+        !COMMON.contains(operation)
+    })?;
+    Some(if is_shaded && INITIAL.contains(&found) {
+        Operation::Shade
+    } else {
+        found
+    })
 }
 
 /// Returns the name of the invariance, if a story is about two pictures that must be equal.
@@ -729,8 +785,9 @@ mod tests {
         };
         let mut events = vec![cited(coverage(0), "Coverage")];
         let clause = |events: &[Event]| {
-            let story = story(events.to_vec());
-            violated_clause(&story).map(str::to_owned)
+            let mut record = Record::new("a/b", "x", Verdict::Fail);
+            record.story = Some(story(events.to_vec()));
+            violated_clause(&record).map(str::to_owned)
         };
         assert_eq!(clause(&events).as_deref(), Some("Coverage"));
         events.insert(0, cited(blend(0), "Blending"));

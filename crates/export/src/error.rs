@@ -19,6 +19,12 @@ pub enum ExportError {
         /// The history.
         path: PathBuf,
     },
+    /// The chosen runs have no frame times.
+    #[error("the chosen runs of {} have no frame times to export; `etalon bench` measures them", path.display())]
+    NoTimes {
+        /// The history.
+        path: PathBuf,
+    },
     /// The folder is not empty.
     #[error("{} is not empty; name another folder, or remove it first", path.display())]
     NotEmpty {

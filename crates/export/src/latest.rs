@@ -16,7 +16,7 @@ pub(crate) fn write_bencher(
     runs: &HashSet<RunId>,
     dir: &Path,
 ) -> Result<ExportSize, ExportError> {
-    let benches = benchmarks(history, runs)?;
+    let benches = some(history, benchmarks(history, runs)?)?;
     write(dir, BENCHER_FILE, benches.len(), bencher(&benches))
 }
 
@@ -28,7 +28,18 @@ pub(crate) fn write_action(
 ) -> Result<ExportSize, ExportError> {
     let mut benches = benchmarks(history, runs)?;
     benches.retain(|benchmark| benchmark.times.contains_key(&Time::Wall));
+    let benches = some(history, benches)?;
     write(dir, ACTION_FILE, benches.len(), action(&benches))
+}
+
+/// Returns the benchmarks, or an error without any.
+fn some(history: &History, benches: Vec<Benchmark>) -> Result<Vec<Benchmark>, ExportError> {
+    if benches.is_empty() {
+        return Err(ExportError::NoTimes {
+            path: history.path().to_owned(),
+        });
+    }
+    Ok(benches)
 }
 
 /// Returns the times of each series in the latest of these runs that has the series.

@@ -278,6 +278,20 @@ pub enum ContentSource {
 }
 
 impl Story {
+    /// Returns true if a draw must store the value that the attachment has already, so that the picture does not show whether it did.
+    pub fn stores_initial_contents(&self) -> bool {
+        let Some(Demand::Values(values)) = self.ruling.as_ref().map(|ruling| &ruling.demand) else {
+            return false;
+        };
+        let kept = values
+            .allowed
+            .iter()
+            .flatten()
+            .any(|allowed| allowed.kept.is_some());
+        let stored = |step: &DecidingStep| matches!(step, DecidingStep::Stored { .. });
+        kept && values.reasons.iter().any(stored)
+    }
+
     /// Returns true if the driver left earlier contents although a later draw had to replace them.
     pub fn keeps_earlier_contents(&self) -> bool {
         match self.ruling.as_ref().map(|ruling| &ruling.demand) {

@@ -337,10 +337,22 @@ impl Walk<'_> {
                     texels: draw.textures.iter().enumerate().map(texture).collect(),
                 }
             },
-            draw.reads_own(&self.scene.passes[place.pass])
-                .then_some(self.rules.own_pass),
+            if draw.reads_own(&self.scene.passes[place.pass]) {
+                Some(self.rules.own_pass)
+            } else {
+                draw.shader.reads_facing().then(|| self.facing(place))
+            },
         );
         output
+    }
+
+    /// Returns the clause that decides whether a fragment's face is the front.
+    fn facing(&self, place: &FragmentPlace<'_>) -> &'static str {
+        match place.primitive.shape {
+            Shape::Triangle(_) => self.rules.facing,
+            Shape::Outline(_) => self.rules.outlines_face_as_polygons.citation,
+            _ => self.rules.points_face_front.citation,
+        }
     }
 
     /// Returns true if a fragment that passes its tests changes an attachment.

@@ -275,9 +275,9 @@ fn area_table<'a>() -> Table<'a, AreaRow<'a>> {
     Table::new("")
         .head("area", |row: &AreaRow<'_>| row.area)
         .number("caught", |row| row.counts[0])
-        .number("noticed", |row| row.counts[1])
+        .number("imprecise only", |row| row.counts[1])
         .number("passed", |row| row.counts[2])
-        .number("of its own", |row| {
+        .number("own bugs caught", |row| {
             format!("{} of {}", row.own_reached, row.own)
         })
 }

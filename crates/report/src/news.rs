@@ -20,6 +20,8 @@ pub struct RunNews {
     pub since: Vec<Since>,
     /// Unexpected records that became worse, the most serious first.
     pub broken: Vec<NewsEntry>,
+    /// Unexpected records of adapters without an earlier run.
+    pub uncompared: Vec<NewsEntry>,
     /// Records that are no longer unexpected, and better.
     pub fixed: Vec<NewsEntry>,
     /// Records that are no longer unexpected, and not better: now expected, unsupported or skipped.
@@ -55,7 +57,8 @@ pub struct NewsEntry {
 impl RunNews {
     /// Returns the number of records that count against the run of these news, also beside its selected cases.
     pub fn counted(&self, run: &Run) -> u64 {
-        (self.broken.len() + self.old.len()) as u64 + run.unexpected_beside()
+        (self.broken.len() + self.uncompared.len() + self.old.len()) as u64
+            + run.unexpected_beside()
     }
 
     /// Returns the run as reports show it: records that triage settled count as expected, with the entry's
@@ -80,10 +83,11 @@ impl RunNews {
     }
 
     /// Returns the kinds of entries in the order of reports, each with its title.
-    pub(crate) fn sections(&self) -> [(&'static str, &[NewsEntry]); 5] {
+    pub(crate) fn sections(&self) -> [(&'static str, &[NewsEntry]); 6] {
         [
             ("broken since the last run", &self.broken),
             ("fixed since the last run", &self.fixed),
+            ("bad, nothing to compare", &self.uncompared),
             ("no longer counted, but not fixed", &self.undecided),
             ("unexpected as before", &self.old),
             ("settled by triage, not counted", &self.triaged),
@@ -102,7 +106,7 @@ pub fn news_table(news: &RunNews, options: TableOptions) -> String {
         });
     }
     for (number, (title, entries)) in news.sections().into_iter().enumerate() {
-        let color = ["31", "32", "0", "0", "0"][number];
+        let color = ["31", "32", "31", "0", "0", "0"][number];
         let head = format!("{} {title}", entries.len());
         if entries.is_empty() && number > 1 {
             continue;

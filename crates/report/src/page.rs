@@ -6,6 +6,7 @@ pub(crate) mod adapter;
 pub(crate) mod link;
 pub(crate) mod origin;
 
+use crate::words::glossary;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, Render, html};
@@ -70,8 +71,12 @@ impl<'a> Page<'a> {
                 }
                 body {
                     a.skip href="#main" { "Skip to the content" }
+                    a.words href="#words" { "Words" }
                     main id="main" tabindex="-1" { (self.main) }
-                    footer { "Made by etalon from " (self.source) "." }
+                    footer {
+                        (glossary())
+                        "Made by etalon from " (self.source) "."
+                    }
                 }
             }
         }

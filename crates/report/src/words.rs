@@ -1,6 +1,7 @@
 //! Verdicts, records and texels in words; shared by all reports.
 
 mod event;
+mod glossary;
 mod header;
 mod plain;
 mod reason;
@@ -13,6 +14,7 @@ mod texel;
 mod value;
 mod verdict;
 
+pub(crate) use glossary::glossary;
 pub use header::api_name;
 pub(crate) use header::{machine, settings};
 pub use plain::plain;

@@ -14,6 +14,8 @@ pub const STENCIL_REFERENCE: u32 = 1;
 
 /// The facts of one shader.
 struct ShaderFacts {
+    /// The effect, in a sentence or a few. It begins with a space.
+    about: &'static str,
     /// The WGSL source.
     wgsl: &'static str,
     /// False if there is only a vertex shader.
@@ -70,6 +72,8 @@ struct ShaderFacts {
     per_sample: bool,
     /// True if the shader reads the fragment's coordinates in the picture.
     coordinates: bool,
+    /// True if the shader reads whether the fragment faces front.
+    facing: bool,
     /// True if the shader reads the fragment's depth.
     reads_depth: bool,
     /// True if the shader reads 1 over the clip-space w.
@@ -127,6 +131,7 @@ enum WrittenDepth {
 impl ShaderFacts {
     /// A shader that reads only vertex attributes and writes one colour.
     const PLAIN: Self = Self {
+        about: "",
         wgsl: "",
         fragment: true,
         params: false,
@@ -155,6 +160,7 @@ impl ShaderFacts {
         pool: PoolUse::None,
         per_sample: false,
         coordinates: false,
+        facing: false,
         reads_depth: false,
         reads_w: false,
     };
@@ -163,15 +169,16 @@ impl ShaderFacts {
 /// Declares [`Shader`] and the facts of each shader from one table. A row lists only the facts that differ
 /// from [`ShaderFacts::PLAIN`]; its source is `shaders/<name>.wgsl`.
 macro_rules! shaders {
-    ($($(#[$doc:meta])* $variant:ident = $name:literal { $($fact:ident: $value:expr),* }),+ $(,)?) => {
+    ($($(#[doc = $doc:literal])* $variant:ident = $name:literal { $($fact:ident: $value:expr),* }),+ $(,)?) => {
         state_enum! {
             /// The suite's shaders. Each has a WGSL file in `shaders/` and a twin in the reference.
-            Shader { $($(#[$doc])* $variant = $name),+ }
+            Shader { $($(#[doc = $doc])* $variant = $name),+ }
         }
 
         /// A row per shader, in declaration order.
         static FACTS: [ShaderFacts; [$($name),+].len()] = [
             $(ShaderFacts {
+                about: concat!($($doc),*),
                 wgsl: include_str!(concat!("../data/", $name, ".wgsl")),
                 $($fact: $value,)*
                 ..ShaderFacts::PLAIN
@@ -183,6 +190,11 @@ macro_rules! shaders {
 impl Shader {
     fn facts(self) -> &'static ShaderFacts {
         &FACTS[self as usize]
+    }
+
+    /// Returns what the shader does: the colour that it writes, then its other effects.
+    pub fn about(self) -> &'static str {
+        self.facts().about.trim_start()
     }
 
     /// Returns the WGSL source: a vertex entry point `vs` and, unless there is only a vertex shader, a
@@ -380,6 +392,11 @@ impl Shader {
         self.facts().coordinates
     }
 
+    /// Returns true if the shader reads whether the fragment faces front.
+    pub fn reads_facing(self) -> bool {
+        self.facts().facing
+    }
+
     /// Returns true if the shader reads the fragment's own depth.
     pub fn reads_depth(self) -> bool {
         self.facts().reads_depth
@@ -439,7 +456,7 @@ shaders! {
     /// Like `exported_color`, and discards if the texel's blue is below `params.color`'s.
     ExportedDiscard = "exported_discard" { params: true, textures: 1, reference: true, discards: true, position_only: true },
     /// Like `exported_color` on front faces; `params.back_color` and the texel's alpha on back faces.
-    ExportedFacing = "exported_facing" { params: true, textures: 1, reference: true, position_only: true },
+    ExportedFacing = "exported_facing" { params: true, facing: true, textures: 1, reference: true, position_only: true },
     /// Like `sample_index`, and writes the red of the texel of texture 0 under the fragment plus the number
     /// of the sample as stencil reference. Runs once per sample.
     ExportedSample = "exported_sample" { textures: 1, reference: true, per_sample: true, position_only: true },
@@ -457,7 +474,7 @@ shaders! {
     /// The vertex colour, flat; writes the fragment's own window depth as depth.
     FragCoordDepth = "frag_coord_depth" { depth: WrittenDepth::Computed, reads_depth: true },
     /// `params.color` on front faces, `params.back_color` on back faces.
-    FrontFacing = "front_facing" { params: true, position_only: true },
+    FrontFacing = "front_facing" { params: true, facing: true, position_only: true },
     /// Texture 0, blended along edges of luma. `params.color`: width and height of a texel in texture
     /// coordinates, minimum contrast of an edge relative to the brightest neighbour, and absolute minimum
     /// contrast; `params.back_color`'s red: the weight of single texels.
@@ -579,6 +596,33 @@ shaders! {
 mod tests {
     use super::*;
 
+    /// The variable that lets the test write the page.
+    const WRITE: &str = "ETALON_WRITE_SHADERS";
+
+    #[test]
+    fn the_page_of_keys_lists_the_shaders() {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/keys.md");
+        let page = std::fs::read_to_string(&path).unwrap();
+        let (before, rest) = page.split_once("<!-- shaders: ").unwrap();
+        let (command, rest) = rest.split_once(" -->\n").unwrap();
+        let (_, after) = rest.split_once("<!-- end -->\n").unwrap();
+        let rows = Shader::ALL
+            .iter()
+            .map(|s| format!("| `{}` | {} |\n", s.name(), s.about()));
+        let table = rows.collect::<String>();
+        let expected = format!(
+            "{before}<!-- shaders: {command} -->\n\n| shader | effect |\n|---|---|\n{table}\n<!-- end -->\n{after}"
+        );
+        if std::env::var_os(WRITE).is_some() {
+            std::fs::write(&path, &expected).unwrap();
+        }
+        assert!(
+            page == expected,
+            "{} differs; {WRITE}=1 writes it",
+            path.display()
+        );
+    }
+
     #[test]
     fn facts_about_a_shader_agree_with_its_source() {
         for shader in Shader::ALL {
@@ -598,6 +642,11 @@ mod tests {
             );
             assert_eq!(shader.reads_stencil(), has("texture_2d<u32>"), "{name}");
             assert_eq!(shader.uses_storage(), has("@binding(3)"), "{name}");
+            assert_eq!(
+                shader.reads_facing(),
+                has("builtin(front_facing)"),
+                "{name}"
+            );
             assert_eq!(shader.uses_pool(), has("array<atomic<u32>>"), "{name}");
             let adds = has("atomicExchange") || has("atomicMax");
             assert_eq!(shader.adds_to_pool(), adds, "{name}");

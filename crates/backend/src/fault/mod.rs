@@ -17,7 +17,7 @@ pub use limit::LimitFault;
 pub use process::{FaultyScenes, ProcessFault};
 pub use read::ReadFault;
 
-use crate::no_faults::NoFaults;
+use crate::fault_name::FaultNameError;
 use etalon_frame::{AdapterName, Api, ChannelEncoding};
 use serde::de::value::{Error, StrDeserializer};
 use serde::{Deserialize, Serialize};
@@ -42,14 +42,24 @@ impl Fault {
     /// Splits an adapter's name into the name of its driver and the fault that is planted in it.
     ///
     /// # Errors
-    /// If the name has a fault, and this build has no planted faults.
-    pub fn in_name(name: &str) -> Result<Option<(&str, Self)>, NoFaults> {
-        Ok(Self::parsed(name))
+    /// If no fault has the name, or if the name has a fault and this build has no planted faults.
+    pub fn in_name(name: &str) -> Result<Option<(&str, Self)>, FaultNameError> {
+        let Some((driver, kind, fault)) = AdapterName::new(name).fault() else {
+            return Ok(None);
+        };
+        match Self::parsed(kind, fault) {
+            Ok(fault) => Ok(Some((driver, fault))),
+            Err(why) => Err(FaultNameError::Unknown {
+                name: name.escape_default().to_string(),
+                fault: format!("{kind}={fault}").escape_default().to_string(),
+                why,
+            }),
+        }
     }
 
-    fn parsed(name: &str) -> Option<(&str, Self)> {
-        let (driver, kind, fault) = AdapterName::new(name).fault()?;
-        let fault = match kind {
+    /// Returns the fault of a name's end, or what is wrong with it.
+    fn parsed(kind: &str, fault: &str) -> Result<Self, String> {
+        Ok(match kind {
             "call-fault" => Self::Call(named(fault)?),
             "read-fault" => Self::Read(named(fault)?),
             "fault" => match fault.strip_suffix("@scissor") {
@@ -57,18 +67,23 @@ impl Fault {
                 None => Self::Process(named(fault)?, FaultyScenes::ByHash),
             },
             "limit" => Self::Limit(match fault.strip_prefix("sub-pixel-bits-") {
-                Some(bits) => LimitFault::SubPixelBits(bits.parse().ok()?),
+                Some(bits) => {
+                    let wrong =
+                        |_| "expected a number from 0 to 255 after `sub-pixel-bits-`".to_owned();
+                    LimitFault::SubPixelBits(bits.parse().map_err(wrong)?)
+                }
                 None => named(fault)?,
             }),
             "slower" => {
-                let percent = fault.strip_suffix('%')?.parse().ok()?;
-                (0.0..=1000.0)
-                    .contains(&percent)
-                    .then_some(Self::Slower(percent))?
+                let percent = fault.strip_suffix('%').and_then(|p| p.parse().ok());
+                let percent = percent.filter(|p| (0.0..=1000.0).contains(p));
+                Self::Slower(
+                    percent
+                        .ok_or("expected a number of percent from 0 to 1000, as in `slower=5%`")?,
+                )
             }
-            _ => return None,
-        };
-        Some((driver, fault))
+            _ => return Err(format!("expected one of {}", KINDS.join(", "))),
+        })
     }
 
     /// Returns true if a backend for this API, or the rasterizer for `None`, can have the fault.
@@ -94,9 +109,13 @@ impl Fault {
     }
 }
 
+/// The kinds of faults, as names spell them.
+const KINDS: [&str; 5] = ["call-fault", "fault", "limit", "read-fault", "slower"];
+
 /// Returns the fault of this name.
-fn named<'a, T: Deserialize<'a>>(name: &'a str) -> Option<T> {
-    T::deserialize(StrDeserializer::<Error>::new(name)).ok()
+fn named<'a, T: Deserialize<'a>>(name: &'a str) -> Result<T, String> {
+    let read = T::deserialize(StrDeserializer::<Error>::new(name));
+    read.map_err(|error| error.to_string())
 }
 
 #[cfg(test)]
@@ -107,10 +126,30 @@ mod tests {
     fn every_fault_of_calls_is_found_by_its_name() {
         for fault in CallFault::ALL {
             let name = format!("gl:llvmpipe:call-fault={}", fault.name());
-            let found = Fault::parsed(&name);
-            assert_eq!(found, Some(("gl:llvmpipe", Fault::Call(*fault))));
+            let found = Fault::in_name(&name);
+            assert_eq!(found, Ok(Some(("gl:llvmpipe", Fault::Call(*fault)))));
         }
-        assert_eq!(Fault::parsed("gl:llvmpipe:call-fault=none"), None);
+        assert_eq!(Fault::in_name("gl:llvmpipe"), Ok(None));
+    }
+
+    #[test]
+    fn a_mistyped_fault_is_refused_with_the_names_that_exist() {
+        for (name, known) in [
+            ("gl:llvmpipe:call-fault=last", "`last-row`"),
+            ("cpu:fault=abrt", "`segv`"),
+            ("cpu:fault=abrt@scissor", "`segv`"),
+            ("gl:llvmpipe:read-fault=", "`off-by-one`"),
+            ("cpu:limit=none", "`one-sample`"),
+            ("cpu:limit=sub-pixel-bits-x", "0 to 255"),
+            ("cpu:slower=5", "slower=5%"),
+            ("cpu:falt=abort", "call-fault, fault, limit"),
+        ] {
+            let refused = Fault::in_name(name).unwrap_err().to_string();
+            assert!(
+                refused.contains(name) && refused.contains(known),
+                "{refused}"
+            );
+        }
     }
 
     #[test]
@@ -138,24 +177,24 @@ mod tests {
             "mute",
         ] {
             let adapter = format!("cpu:fault={name}");
-            let Some(("cpu", Fault::Process(fault, FaultyScenes::ByHash))) =
-                Fault::parsed(&adapter)
+            let Ok(Some(("cpu", Fault::Process(fault, FaultyScenes::ByHash)))) =
+                Fault::in_name(&adapter)
             else {
                 panic!("{name} is not a fault");
             };
             assert_eq!(format!("{fault:?}").to_lowercase(), name);
             let adapter = format!("{adapter}@scissor");
             let scissor = Fault::Process(fault, FaultyScenes::Scissor);
-            assert_eq!(Fault::parsed(&adapter), Some(("cpu", scissor)));
+            assert_eq!(Fault::in_name(&adapter), Ok(Some(("cpu", scissor))));
         }
-        for other in ["cpu", "cpu:fault=", "cpu:fault=Abort", "cpu:fault=abort@"] {
-            assert_eq!(Fault::parsed(other), None, "{other}");
+        for other in ["cpu:fault=", "cpu:fault=Abort", "cpu:fault=abort@"] {
+            assert!(Fault::in_name(other).is_err(), "{other}");
         }
     }
 
     #[test]
     fn a_limit_fault_is_parsed_from_its_name() {
-        let limit = |name: &str| Fault::parsed(name).map(|(_, fault)| fault);
+        let limit = |name: &str| Fault::in_name(name).ok().flatten().map(|(_, fault)| fault);
         for (name, fault) in [
             ("cpu:limit=sub-pixel-bits-64", LimitFault::SubPixelBits(64)),
             ("cpu:limit=sample-outside", LimitFault::SampleOutside),
@@ -169,7 +208,10 @@ mod tests {
     #[test]
     fn a_slowdown_is_parsed_from_its_percentage() {
         for (name, percent) in [("cpu:slower=5%", 5.0), ("cpu:slower=0.5%", 0.5)] {
-            assert_eq!(Fault::parsed(name), Some(("cpu", Fault::Slower(percent))));
+            assert_eq!(
+                Fault::in_name(name),
+                Ok(Some(("cpu", Fault::Slower(percent))))
+            );
         }
         for other in [
             "cpu:slower=5",
@@ -178,7 +220,7 @@ mod tests {
             "cpu:slower=NaN%",
             "cpu:slower=1e9%",
         ] {
-            assert_eq!(Fault::parsed(other), None, "{other}");
+            assert!(Fault::in_name(other).is_err(), "{other}");
         }
     }
 }

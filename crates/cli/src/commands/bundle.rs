@@ -14,6 +14,7 @@ use crate::recorded_frame::recorded_frame;
 use crate::reducing::{Failing, FailingArguments, started};
 use crate::saved_recording::saved_recording;
 use crate::saved_run::UnpackArguments;
+use crate::scene_text;
 use clap::Args;
 use etalon_adapters::{Query, releases_of};
 use etalon_backend::Recording;
@@ -79,6 +80,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
 /// Reduces the case, and draws the smallest one.
 fn drawn(arguments: &Arguments) -> Result<u8, Failure> {
     let failing = &arguments.failing;
+    if let Some(line) = &arguments.latest {
+        // Refuses a wrong line before anything is drawn.
+        releases_of(failing.adapter_file(), line).map_err(Failure::usage)?;
+    }
     let Failing {
         name,
         candidate,
@@ -340,6 +345,7 @@ impl Bundled<'_> {
         let head = Head {
             title: self.title(evidence.finding.as_ref()),
             sentence: self.described(evidence).sentence(),
+            scene: scene_text::lines(&self.case.scene),
             run: run_command(driver),
         };
         let (program, ran) = shortest(

@@ -13,7 +13,7 @@ use etalon_backend::Backend;
 use etalon_case::Case;
 use etalon_cpu::CpuBackend;
 use etalon_frame::{Band, ChannelMismatch, Frame, ImageInfo, Limits, Ruling, Story, WrongTexel};
-use etalon_judge::{judge_texel, story_of_relation, story_of_sample};
+use etalon_judge::{Judge, judge_texel, story_of_relation, story_of_sample};
 use etalon_reference::{Rules, Sample};
 use etalon_report::{judged_by, operations_text, sentence, story_text};
 use etalon_scene::Scene;
@@ -27,9 +27,9 @@ pub(crate) struct Arguments {
     /// Id of the case
     #[arg(value_name = "CASE")]
     pub(crate) case: String,
-    /// Column and row of the texel, counted from the top left corner
+    /// Column and row of the texel, counted from the top left corner. Default: the first wrong one
     #[arg(long, value_name = "X,Y", value_parser = parse_texel)]
-    pub(crate) texel: [u32; 2],
+    pub(crate) texel: Option<[u32; 2]>,
     /// Explain only this sample, counted from 0. Default: all samples of the texel
     #[arg(long, value_name = "S")]
     pub(crate) sample: Option<u32>,
@@ -55,8 +55,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let library = library(arguments.cases.as_ref())?;
     let found = find(&library, &arguments.case)?;
     let case = found.build().map_err(Failure::usage)?;
-    let scene = case.judged_scene();
-    refuse_outside(scene, arguments)?;
+    if let Some(texel) = arguments.texel {
+        refuse_outside(case.judged_scene(), texel, arguments.sample)?;
+    }
     let (limits, frames) = match (&arguments.run, &arguments.adapter) {
         (Some(run), adapter) => {
             let folder = arguments.unpack.folder(run)?;
@@ -66,9 +67,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         (None, None) => (CpuBackend::new("cpu").limits().clone(), Vec::new()),
         (None, Some(name)) => draw(name, arguments.file.adapter_file.as_deref(), &case)?,
     };
+    let texel = match arguments.texel {
+        Some(texel) => texel,
+        None => first_wrong(&case, &limits, &frames)?,
+    };
+    refuse_outside(case.judged_scene(), texel, arguments.sample)?;
     let asked = AskedTexel {
         case: &case,
-        texel: arguments.texel,
+        texel,
         sample: arguments.sample,
         frames: &frames,
     };
@@ -82,9 +88,27 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     })
 }
 
+/// Returns the first wrong texel of a drawn case. A case with only wrong counters has the first texel.
+fn first_wrong(case: &Case, limits: &Limits, frames: &[Frame]) -> Result<[u32; 2], Failure> {
+    if frames.is_empty() {
+        return Err(Failure::usage(
+            "name a texel by --texel X,Y; or a driver that draws the case by --adapter, whose first wrong texel is \
+             explained",
+        ));
+    }
+    let record = Judge::default().judge(0, case, "", limits, frames).record;
+    match record.wrong.first() {
+        Some(wrong) => Ok([wrong.x, wrong.y]),
+        None if record.verdict.is_violation() => Ok([0, 0]),
+        None => Err(Failure::nothing(format!(
+            "no texel of {} is wrong ({}); --texel X,Y explains any",
+            case.id, record.verdict
+        ))),
+    }
+}
+
 /// Refuses a texel or a sample that is in no attachment that the case reads back.
-fn refuse_outside(scene: &Scene, arguments: &Arguments) -> Result<(), Failure> {
-    let [x, y] = arguments.texel;
+fn refuse_outside(scene: &Scene, [x, y]: [u32; 2], sample: Option<u32>) -> Result<(), Failure> {
     let read = || scene.read.iter().map(|i| &scene.attachments[*i]);
     let inside = || read().filter(|a| x < a.size[0] && y < a.size[1]);
     if inside().next().is_none() {
@@ -94,7 +118,7 @@ fn refuse_outside(scene: &Scene, arguments: &Arguments) -> Result<(), Failure> {
             sizes.collect::<Vec<_>>().join(", ")
         )));
     }
-    if let Some(sample) = arguments.sample
+    if let Some(sample) = sample
         && !inside().any(|a| sample < a.samples)
     {
         let counts = inside().map(|a| match a.samples {

@@ -45,6 +45,8 @@ const BATCH: usize = 128;
 const WAITING: usize = 8;
 /// The number of scenes per adapter if neither their number nor a time is given.
 const COUNT: u64 = 1000;
+/// The longest part of `--time` that is kept for comparing failures with findings.
+const COMPARING: Duration = Duration::from_secs(120);
 /// The largest number of groups that are printed: new ones, and those like one finding.
 const MOST_NEW: usize = 20;
 const MOST_ALIKE: usize = 3;
@@ -62,8 +64,8 @@ pub(crate) struct Arguments {
     /// Number of scenes for each adapter [default: 1000, without --time]
     #[arg(long, value_name = "N", conflicts_with = "time", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) count: Option<u64>,
-    /// Time for each adapter, in seconds or as `10m` or `2h`; confirming failures in new processes and
-    /// comparing them with the findings takes additional time
+    /// Time for each adapter, in seconds or as `10m` or `2h`. If scenes fail, half of it, at most two minutes, is for
+    /// confirming them in new processes and comparing them with the findings
     #[arg(long, value_name = "T", value_parser = parse_time)]
     pub(crate) time: Option<Duration>,
     /// Folder for fuzz.jsonl and the failing scenes: new ones in `found`, those of known bugs in `known`;
@@ -222,23 +224,55 @@ impl FuzzSearch<'_> {
 
     /// Draws the scenes of one adapter, groups the failing ones, and compares the groups with findings.
     fn on_adapter(&self, launch: Launch, worker: Worker) -> Result<SceneTally, Failure> {
+        let Some(time) = self.arguments.time else {
+            return self.until_stopped(launch, worker, None, self.stop);
+        };
+        let end = Instant::now() + time;
+        let [late, done] = [AtomicBool::new(false), AtomicBool::new(false)];
+        thread::scope(|scope| {
+            scope.spawn(|| {
+                while !done.load(Ordering::Relaxed) && !self.is_stopped() && Instant::now() < end {
+                    thread::sleep(Duration::from_millis(20));
+                }
+                late.store(true, Ordering::Relaxed);
+            });
+            let limit = TimeLimit {
+                end,
+                comparing: COMPARING.min(time / 2),
+            };
+            let tally = self.until_stopped(launch, worker, Some(limit), &late);
+            done.store(true, Ordering::Relaxed);
+            tally
+        })
+    }
+
+    /// Does the same until the time is up; reductions end once `stop` is set.
+    fn until_stopped(
+        &self,
+        launch: Launch,
+        worker: Worker,
+        limit: Option<TimeLimit>,
+        stop: &AtomicBool,
+    ) -> Result<SceneTally, Failure> {
         let Arguments { seed, out, .. } = self.arguments;
         let adapter = AdapterRecord::from(&worker);
         let limits = &worker.hello.limits;
-        let reducer = || Reducer::new(launch.clone(), limits.clone(), self.timeout, self.stop);
+        let reducer = || Reducer::new(launch.clone(), limits.clone(), self.timeout, stop);
         let out = OutputFolder::open(out).map_err(Failure::usage)?;
         let mut failing = FailingScenes::new(reducer(), &out);
         let bug_reducer = reducer();
         let begun = Instant::now();
-        let count = match self.arguments.time {
+        let count = match limit {
             Some(_) => u64::MAX,
             None => self.arguments.count.unwrap_or(COUNT),
         };
+        let groups = AtomicUsize::new(0);
         let mut maker = SceneMaker {
             fuzzer: Fuzzer::new(*seed, Space::of([limits])),
             limits: limits.clone(),
             left: count,
-            until: self.arguments.time.map(|time| begun + time),
+            limit,
+            groups: &groups,
         };
         let bar = progress(if count == u64::MAX { 0 } else { count });
         bar.set_message(launch.adapter.clone());
@@ -250,6 +284,13 @@ impl FuzzSearch<'_> {
             bar.set_message(format!("{}: comparing with findings", tally.adapter));
             self.compare(&mut failing, &adapter, bug_reducer);
             tally.comparing = begun.elapsed().as_secs_f64() - tally.seconds;
+            if stop.load(Ordering::Relaxed) && !self.is_stopped() {
+                say!(
+                    "{}: the time ended before all failures were compared with the findings, so known bugs can be \
+                     among the new ones; a longer --time compares all",
+                    tally.adapter
+                );
+            }
         }
         bar.finish_and_clear();
         tally.groups = failing.finish();
@@ -260,12 +301,12 @@ impl FuzzSearch<'_> {
     fn draw(
         &self,
         mut batches: Batches,
-        maker: &mut SceneMaker,
+        maker: &mut SceneMaker<'_>,
         failing: &mut FailingScenes<'_>,
         tally: &mut SceneTally,
         bar: &ProgressBar,
     ) -> Result<(), Failure> {
-        let groups = AtomicUsize::new(0);
+        let groups = maker.groups;
         let (sender, receiver) = mpsc::sync_channel::<Vec<(RandomScene, Record)>>(WAITING);
         let mut next = maker.batch();
         thread::scope(|scope| {
@@ -330,21 +371,38 @@ impl FuzzSearch<'_> {
     }
 }
 
+/// The limit of `--time`.
+#[derive(Clone, Copy)]
+struct TimeLimit {
+    end: Instant,
+    /// The part for comparing failures with findings.
+    comparing: Duration,
+}
+
 /// Makes the scenes of an adapter.
-struct SceneMaker {
+struct SceneMaker<'a> {
     fuzzer: Fuzzer,
     limits: Limits,
     /// The number of scenes still to make.
     left: u64,
-    /// The time after which no scenes are made.
-    until: Option<Instant>,
+    limit: Option<TimeLimit>,
+    /// The number of groups of failing scenes so far.
+    groups: &'a AtomicUsize,
 }
 
-impl SceneMaker {
+impl SceneMaker<'_> {
     /// Makes the scenes of a batch; an empty one at the end.
     fn batch(&mut self) -> Vec<RandomScene> {
-        if self.until.is_some_and(|until| Instant::now() >= until) {
-            return Vec::new();
+        if let Some(limit) = self.limit {
+            let fails = self.groups.load(Ordering::Relaxed) > 0;
+            let reserved = if fails {
+                limit.comparing
+            } else {
+                Duration::ZERO
+            };
+            if Instant::now() + reserved >= limit.end {
+                return Vec::new();
+            }
         }
         let can_draw = |case: &Case| self.limits.missing(&case.requirements()).is_none();
         let count = (BATCH as u64).min(self.left);

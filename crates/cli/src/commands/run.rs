@@ -17,7 +17,7 @@ use crate::progress::progress;
 use crate::sizes::{SizeList, frame_sizes};
 use crate::worth::sort_by_worth;
 use crate::{dead, idle, provenance, shard, sizes, timed};
-use clap::{Args, ValueEnum};
+use clap::{Args, FromArgMatches, ValueEnum};
 use etalon_adapters::{Adapters, Query, cache, take_unstarted};
 use etalon_case::Case;
 use etalon_record::{
@@ -37,7 +37,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// The folder that each run without `--out` replaces.
+/// The folder of each run without `--out`.
 const LATEST: &str = "reports/latest";
 
 /// The state of the drivers' shader caches on disk.
@@ -61,7 +61,8 @@ pub(crate) struct Arguments {
     /// Folder for records and reports
     #[arg(long, value_name = "DIR", default_value = "reports/latest")]
     pub(crate) out: PathBuf,
-    /// Continue the run in the folder: draw what is missing
+    /// Continue the run in the folder: draw what is missing. With `--out` alone, the other flags are those of the
+    /// interrupted command
     #[arg(long, conflicts_with = "force")]
     pub(crate) resume: bool,
     /// Replace the run or bench in the folder
@@ -191,6 +192,47 @@ fn parse_percent(text: &str) -> Result<f64, String> {
 
 /// Draws the selected cases on the selected adapters, judges them, writes records and reports.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    match interrupted(arguments)? {
+        Some(interrupted) => drawn(&interrupted),
+        None => drawn(arguments),
+    }
+}
+
+/// Returns the flags of the interrupted command, if the folder to resume is the only one given.
+fn interrupted(arguments: &Arguments) -> Result<Option<Arguments>, Failure> {
+    let given = provenance::command();
+    let mut given = given.iter().skip(2).filter(|word| *word != "--resume");
+    let is_out = |word: &String| word == "--out" || word.starts_with("--out=");
+    let out = given
+        .next()
+        .is_none_or(|word| is_out(word) && (word != "--out" || given.next().is_some()));
+    if !arguments.resume
+        || !out
+        || given.next().is_some()
+        || FolderKind::of(&arguments.out) != Some(FolderKind::Run)
+    {
+        return Ok(None);
+    }
+    let header = Run::read(&arguments.out).map_err(Failure::usage)?.header;
+    let [_, command, words @ ..] = &header.provenance.command[..] else {
+        return Ok(None);
+    };
+    let flags = Arguments::augment_args(clap::Command::new("run").no_binary_name(true));
+    let read = flags
+        .try_get_matches_from(words)
+        .and_then(|m| Arguments::from_arg_matches(&m));
+    let Some(recorded) = read.ok().filter(|_| command == "run") else {
+        return Ok(None);
+    };
+    Ok(Some(Arguments {
+        out: arguments.out.clone(),
+        resume: true,
+        force: false,
+        ..recorded
+    }))
+}
+
+fn drawn(arguments: &Arguments) -> Result<u8, Failure> {
     if arguments.news.history.is_some() {
         arguments.news.check()?;
     } else {

@@ -2,17 +2,20 @@
 
 use crate::cases::{find, library};
 use crate::catalogue::drawn;
+use crate::counted::counted;
 use crate::failure::Failure;
 use crate::named_files::{Renewed, replace};
 use crate::output::{print, say};
 use crate::scene_text;
 use clap::Args;
-use std::collections::BTreeMap;
+use etalon_case::{CaseRef, Library, Profile, select};
+use etalon_scene::Shader;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Id of the case
+    /// Id of the case; or a glob or the beginning of ids, whose case files are listed
     #[arg(value_name = "CASE")]
     pub(crate) case: String,
     /// Write the reference picture of the first attachment that is read back to this file
@@ -29,13 +32,55 @@ pub(crate) struct Arguments {
     pub(crate) cases: Option<PathBuf>,
 }
 
+/// Prints the case files whose cases match a glob; the only one with the ids of these cases.
+fn family(library: &Library, arguments: &Arguments, unknown: Failure) -> Result<u8, Failure> {
+    let globs = [arguments.case.clone()];
+    let of_profile = |profile| select(library, profile, &globs).map_err(Failure::usage);
+    let full = of_profile(Profile::Full)?.cases;
+    if full.is_empty() || arguments.png.is_some() || arguments.kernels || arguments.page.is_some() {
+        return Err(unknown);
+    }
+    let quick: Vec<String> = of_profile(Profile::Quick)?
+        .cases
+        .iter()
+        .map(CaseRef::id)
+        .collect();
+    let files: BTreeSet<&str> = full.iter().map(|case| case.file().stem()).collect();
+    let mut text = String::new();
+    for file in &files {
+        let cases = || full.iter().filter(|case| case.file().stem() == *file);
+        let Some(first) = cases().next() else {
+            continue;
+        };
+        let ids: Vec<String> = cases().map(CaseRef::id).collect();
+        let in_quick = ids.iter().filter(|id| quick.contains(id)).count();
+        let count = counted(ids.len() as u64, "case");
+        text.push_str(&format!(
+            "{file}: {count}, {in_quick} in the quick profile\n"
+        ));
+        let case = first.build().map_err(Failure::usage)?;
+        text.push_str(&format!("  {}\n", case.about));
+        if files.len() == 1 {
+            case.spec
+                .iter()
+                .for_each(|clause| text.push_str(&format!("  {clause}\n")));
+            ids.iter().for_each(|id| text.push_str(&format!("{id}\n")));
+        }
+    }
+    print(&text)?;
+    Ok(0)
+}
+
 /// Prints a case: purpose, scene, JSON, shaders.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     if let Some(path) = &arguments.png {
         Renewed::Picture.check(path)?;
     }
     let library = library(arguments.cases.as_ref())?;
-    let found = find(&library, &arguments.case)?;
+    let found = match find(&library, &arguments.case) {
+        Ok(found) => found,
+        Err(unknown) => return family(&library, arguments, unknown),
+    };
     let case = found.build().map_err(Failure::usage)?;
     let mut text = format!("{}\n{}\n", case.id, case.about);
     for clause in &case.spec {
@@ -70,9 +115,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let json = serde_json::to_string_pretty(&json).unwrap_or_default();
     text.push_str(&format!("\n{json}\n"));
     let draws = case.scene.passes.iter().flat_map(|p| &p.draws);
-    let shaders: BTreeMap<&str, &str> = draws.map(|d| (d.shader.name(), d.shader.wgsl())).collect();
-    for (name, wgsl) in shaders {
-        text.push_str(&format!("\nshaders/{name}.wgsl\n{wgsl}"));
+    let shaders: BTreeMap<&str, Shader> = draws.map(|d| (d.shader.name(), d.shader)).collect();
+    for (name, shader) in shaders {
+        let (about, wgsl) = (shader.about(), shader.wgsl());
+        text.push_str(&format!("\nshaders/{name}.wgsl: {about}\n{wgsl}"));
     }
     print(&text)?;
     if let Some(path) = &arguments.png {

@@ -423,6 +423,49 @@ fn the_report_says_whether_the_newest_release_has_the_bug() {
 }
 
 #[test]
+fn a_line_without_releases_is_refused_before_a_driver_starts() {
+    let out = TempDir::new().unwrap();
+    let more = ["--latest", "nothing"];
+    // The adapter does not exist either, which only opening it shows.
+    let (code, _, error) = bundle(
+        "cull/points/cull=none/front_face=cw",
+        "gl:none",
+        out.path(),
+        &more,
+    );
+    assert_eq!(
+        (code, error.contains("line `nothing`")),
+        (64, true),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_program_begins_with_the_state_that_it_draws_with() {
+    let out = TempDir::new().unwrap();
+    let (code, summary, error) = bundle(
+        "cull/points/cull=none/front_face=cw",
+        "gl:softpipe",
+        out.path(),
+        &[],
+    );
+    assert_eq!(code, 0, "{error}");
+    let folder = Path::new(summary["folder"].as_str().unwrap());
+    let program = fs::read_to_string(folder.join("repro.c")).unwrap();
+    let screen: String = program.lines().take(50).collect::<Vec<_>>().join("\n");
+    for words in [
+        "What it draws:",
+        "front_facing",
+        "point-list",
+        "Build and run:",
+    ] {
+        assert!(screen.contains(words), "`{words}` in {screen}");
+    }
+    let head = screen.split("Build and run").next().unwrap();
+    assert!(head.lines().all(|line| line.len() <= 100), "{head}");
+}
+
+#[test]
 fn a_case_that_does_not_fail_has_no_bundle() {
     let out = TempDir::new().unwrap();
     for (case, adapter, code, words) in [

@@ -488,6 +488,44 @@ fn explain_tells_the_story_of_a_texel() {
 }
 
 #[test]
+fn explain_without_a_texel_takes_the_first_wrong_one() {
+    let id = "cull/points/cull=none/front_face=cw";
+    let explain = |more: &[&str]| etalon(&[&["explain", id], more].concat()).assert();
+    explain(&["--adapter", "gl:softpipe"])
+        .code(1)
+        .stdout(starts_with("texel 0,0 must be green"));
+    explain(&["--adapter", "cpu"])
+        .code(4)
+        .stderr(contains("no texel").and(contains("--texel X,Y")));
+    explain(&[]).code(64).stderr(contains("--texel X,Y"));
+}
+
+#[test]
+fn show_lists_the_cases_of_a_family_and_the_files_of_an_area() {
+    let shown = |name: &str| {
+        let output = etalon(&["show", name]).output().unwrap();
+        assert_eq!(output.status.code(), Some(0));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let family = shown("cull/points");
+    assert!(family.starts_with("cull/points: "), "{family}");
+    assert!(
+        family.contains("\n  No cull mode removes points"),
+        "{family}"
+    );
+    assert!(
+        family.contains("\ncull/points/cull=none/front_face=cw\n"),
+        "{family}"
+    );
+    let area = shown("cull");
+    assert!(
+        area.contains("\ncull/lines: ") && !area.contains("front_face="),
+        "{area}"
+    );
+    refused(&["show", "cull/points", "--kernels"], &["there is no case"]);
+}
+
+#[test]
 fn explain_shows_what_a_selftest_gets_wrong() {
     let id = "selftest/params-color";
     etalon(&[

@@ -310,6 +310,16 @@ fn an_interrupted_search_keeps_what_it_found() {
 }
 
 #[test]
+fn a_time_limit_also_holds_for_comparing_with_findings() {
+    let folder = TempDir::new().unwrap();
+    let begun = std::time::Instant::now();
+    let (_, out, error) = fuzz("gl:softpipe", folder.path(), &["--time", "4s"]);
+    // Comparing all groups takes half a minute.
+    assert!(begun.elapsed().as_secs() < 20, "{out}");
+    assert!(error.contains("a longer --time compares all"), "{error}");
+}
+
+#[test]
 fn earlier_results_and_wrong_flags_are_refused() {
     let folder = TempDir::new().unwrap();
     let out = folder.path();

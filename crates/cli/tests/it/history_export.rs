@@ -78,6 +78,16 @@ fn a_selection_of_no_run_writes_nothing() {
 }
 
 #[test]
+fn times_of_runs_without_times_are_nothing() {
+    let history = three_days();
+    for format in ["bencher", "github-action-benchmark"] {
+        let line = export(&history, "out", &["--format", format], 4);
+        assert!(line.contains("no frame times"), "{line}");
+        assert_eq!(fs::read_dir(history.path("out")).unwrap().count(), 0);
+    }
+}
+
+#[test]
 fn a_part_of_the_runs_is_selected() {
     let history = three_days();
     for (index, (flags, files)) in [

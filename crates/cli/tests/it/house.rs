@@ -299,7 +299,8 @@ fn targets(text: &str) -> (Vec<&str>, Vec<&str>) {
                 let (top, below) = path.split_once('/')?;
                 let ours = ["cases", "ci", "crates", "reports", "shaders"].contains(&top);
                 // New runs and patterns are not files.
-                let named = !below.contains("latest") && !path.contains(['<', '*', '{', '…']);
+                let is_new = below.contains("latest") || below.starts_with("earlier");
+                let named = !is_new && !path.contains(['<', '*', '{', '…']);
                 (ours && named).then_some(path)
             }));
         }

@@ -45,7 +45,7 @@ fn run(folder: &Path, adapter: &str, more: &[&str]) -> Assert {
 fn a_failure_of_a_users_own_case_is_known_by_its_look() {
     let folder = tempfile::tempdir().unwrap();
     drawn(folder.path(), &[]).code(1);
-    let known = contains("1 record is known by its look").and(contains("like blend/"));
+    let known = contains("1 failure looks like a known bug").and(contains("like blend/"));
     drawn(folder.path(), &[NAMED, "--known-by-look"])
         .code(0)
         .stdout(known);
@@ -104,7 +104,7 @@ fn a_shader_that_does_not_compile_is_known_by_its_look() {
     let point =
         "compare=less/early=*/format=depth32float-stencil8/mask=all/occlusion=any-*/stencil=off";
     let cases = ["early-z/shader-mask", "mine/mask"].map(|file| format!("{file}/{point}"));
-    let known = contains("known by their look").and(contains("like early-z/"));
+    let known = contains("look like known bugs").and(contains("like early-z/"));
     let arguments = [&cases[0], &cases[1], "--known-by-look"];
     run(folder.path(), "wgpu:gl:llvmpipe", &arguments)
         .code(0)

@@ -16,6 +16,7 @@ mod circles;
 mod commands;
 mod damaged_history;
 mod diff;
+mod documented;
 mod driven;
 mod driver_releases;
 mod ends;

@@ -69,9 +69,10 @@ fn news_come_first_and_what_is_settled_does_not_count() {
 
     // A run of another branch is not compared.
     add(&history, "well", "other");
-    compared(&history, "alone", &[])
-        .code(1)
-        .stdout(contains("no earlier run to compare with"));
+    compared(&history, "alone", &[]).code(1).stdout(
+        contains("no earlier run to compare with")
+            .and(contains(format!("{n} bad, nothing to compare"))),
+    );
     fs::remove_file(history.db()).unwrap();
 
     add(&history, "well", "main");
@@ -293,4 +294,30 @@ fn a_failure_that_became_a_crash_is_news_and_a_crash_that_is_not_drawn_is_not_fi
         contains("0 fixed since the last run")
             .and(contains(format!("{n} no longer counted, but not fixed"))),
     );
+}
+
+#[test]
+fn a_rehearsal_breaks_an_adapter_under_its_own_name() {
+    let history = HistoryFolder::new();
+    let adapter = ["--adapter", "gl:llvmpipe", "--out"];
+    let run = ["run", "cull/points"];
+    let night = history.path("night");
+    let mut first = etalon(&[&run[..], &adapter].concat());
+    first.arg(&night).assert().code(0);
+    history
+        .command(&["add", &night.display().to_string()])
+        .code(0);
+    // Runs are distinguished by the second in which they began.
+    std::thread::sleep(std::time::Duration::from_millis(1100));
+    let file = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../ci/adapters/rehearsal.json"
+    );
+    let mut second = etalon(&[&run[..], &["--adapters", file], &adapter].concat());
+    second
+        .arg(history.path("rehearsal"))
+        .arg("--history")
+        .arg(history.db());
+    let broken = contains("4 broken since the last run").and(contains("pass before"));
+    second.assert().code(1).stdout(broken);
 }

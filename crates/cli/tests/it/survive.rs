@@ -612,11 +612,17 @@ fn an_interrupted_run_says_how_to_go_on_and_does() {
             cut.records.iter().all(|r| !r.unexpected()),
             "nothing is blamed"
         );
-        // The printed words are a command.
+        // The printed words are a command, and the folder alone is enough.
         let command = said.rsplit("resume with: etalon ").next().unwrap();
         let words = shlex::split(command).unwrap();
         let words: Vec<&str> = words.iter().map(String::as_str).collect();
-        etalon(&words).assert().code(0);
+        match signal {
+            Signal::INT => etalon(&words).assert().code(0),
+            _ => {
+                let mut alone = etalon(&["run", "--resume", "--out"]);
+                alone.arg(out.path()).assert().code(0)
+            }
+        };
         let run = Run::read(out.path()).unwrap();
         assert_eq!(run.missing(), 0);
         assert_eq!(run.records[..cut.records.len()], cut.records[..]);
@@ -685,16 +691,40 @@ fn a_folder_in_use_or_with_a_run_is_left_alone() {
 }
 
 #[test]
-fn the_latest_run_is_replaced_without_asking() {
+fn a_run_without_a_folder_keeps_a_few_earlier_ones() {
     let work = folder();
-    for _ in 0..2 {
-        etalon(&["run", "cull/lines", "--adapter", "cpu"])
-            .current_dir(work.path())
-            .assert()
-            .code(0);
-        let run = Run::read(&work.path().join("reports/latest")).unwrap();
-        assert_eq!(run.missing(), 0);
+    let work = work.path();
+    let draw = |case: &str, more: &[&str]| {
+        let mut command = etalon(&["run", case, "--adapter", "cpu"]);
+        command.args(more).current_dir(work).assert().code(0);
+    };
+    let cases = |folder: &str| {
+        Run::read(&work.join("reports").join(folder))
+            .unwrap()
+            .header
+            .cases
+    };
+    draw("depth/compare", &[]);
+    let first = cases("latest");
+    fs::write(work.join("reports/latest/note.txt"), "mine").unwrap();
+    draw("cull/points", &[]);
+    assert_ne!(cases("latest"), first);
+    assert_eq!(cases("earlier/run-1"), first);
+    draw("cull/points", &["--force"]);
+    assert!(!work.join("reports/earlier/run-2").exists());
+    for _ in 0..5 {
+        draw("cull/points", &[]);
     }
+    let kept = |number: u32| {
+        work.join(format!("reports/earlier/run-{number}/run.jsonl"))
+            .exists()
+    };
+    assert_eq!(
+        [1, 2, 3, 4, 5, 6].map(kept),
+        [false, true, true, true, true, true]
+    );
+    let note = fs::read_to_string(work.join("reports/earlier/run-1/note.txt"));
+    assert_eq!(note.unwrap(), "mine");
 }
 
 #[test]

@@ -2,6 +2,10 @@
 
 use super::plot::{BOTTOM, LEFT, RIGHT, TOP};
 
+/// The height of letters above the baseline, and below it.
+const ABOVE: f64 = 11.0;
+const BELOW: f64 = 3.0;
+
 /// The distance between the samples of a line, in chart units.
 const STEP: f64 = 4.0;
 
@@ -45,16 +49,16 @@ impl LabelPlaces {
         let width: f64 = text.chars().map(advance).sum();
         let places = [
             (x + 6.0, y - 7.0),
-            (x + 8.0, y + 3.5),
-            (x + 6.0, y + 14.0),
-            (x - width - 8.0, y + 3.5),
+            (x + 8.0, y + 5.0),
+            (x + 6.0, y + 17.0),
+            (x - width - 8.0, y + 5.0),
             (x - width / 2.0, y - 9.0),
-            (x - width / 2.0, y + 17.0),
+            (x - width / 2.0, y + 20.0),
             (x - width - 6.0, y - 7.0),
-            (x - width - 6.0, y + 14.0),
+            (x - width - 6.0, y + 17.0),
         ];
         let found = places.into_iter().find(|(left, base)| {
-            let text = [*left, base - 8.5, left + width, base + 2.0];
+            let text = [*left, base - ABOVE, left + width, base + BELOW];
             let inside = text[0] >= LEFT + 2.0
                 && text[2] <= RIGHT - 2.0
                 && text[1] >= TOP + 1.0
@@ -65,7 +69,7 @@ impl LabelPlaces {
         })?;
         let (left, base) = found;
         self.taken
-            .push([left, base - 8.5, left + width, base + 2.0]);
+            .push([left, base - ABOVE, left + width, base + BELOW]);
         Some(found)
     }
 }
@@ -73,8 +77,8 @@ impl LabelPlaces {
 /// Returns an upper bound of a letter's width, in sans-serif fonts of the size of labels.
 fn advance(letter: char) -> f64 {
     match letter {
-        'm' | 'w' => 9.5,
-        _ => 5.8,
+        'm' | 'w' => 12.5,
+        _ => 7.7,
     }
 }
 
@@ -86,8 +90,8 @@ mod tests {
     fn labels_cover_nothing() {
         let mut labels = LabelPlaces::new([(100.0, 100.0), (112.0, 100.0)]);
         let (left, base) = labels.place("a method", (100.0, 100.0)).unwrap();
-        let across = left < 117.0 && left + 8.0 * 5.8 > 107.0;
-        let along = base - 8.5 < 105.0 && base + 2.0 > 95.0;
+        let across = left < 117.0 && left + 8.0 * 7.7 > 107.0;
+        let along = base - ABOVE < 105.0 && base + BELOW > 95.0;
         assert!(!(across && along), "{left} {base}");
         let places: Vec<_> = (0..20)
             .map_while(|_| labels.place("a method", (100.0, 100.0)))
@@ -106,7 +110,7 @@ mod tests {
         assert_ne!((x, y), (left, base));
         let line = base - 4.0;
         assert!(
-            y + 2.0 < line || y - 8.5 > line || x + 6.0 * 5.8 < 200.0,
+            y + BELOW < line || y - ABOVE > line || x + 6.0 * 7.7 < 200.0,
             "{x} {y}"
         );
     }

@@ -7,7 +7,7 @@ use maud::{Markup, html};
 pub(crate) const WIDTH: f64 = 400.0;
 pub(crate) const HEIGHT: f64 = 280.0;
 /// The edges of the plot within the chart.
-pub(crate) const LEFT: f64 = 74.0;
+pub(crate) const LEFT: f64 = 86.0;
 pub(crate) const RIGHT: f64 = WIDTH - 22.0;
 pub(crate) const TOP: f64 = 10.0;
 pub(crate) const BOTTOM: f64 = HEIGHT - 42.0;
@@ -51,21 +51,21 @@ impl Plot {
         html! {
             @if self.zero > 0.0 {
                 rect.zero x=(n(LEFT)) y=(n(BOTTOM - self.zero)) width=(n(RIGHT - LEFT)) height=(n(self.zero)) {}
-                text.tick x=(n(LEFT - 5.0)) y=(n(BOTTOM - self.zero / 2.0 + 3.5)) text-anchor="end" { "exact" }
+                text.tick x=(n(LEFT - 5.0)) y=(n(BOTTOM - self.zero / 2.0 + 5.0)) text-anchor="end" { "exact" }
             }
             @for tick in self.x.ticks(4) {
                 @let x = self.x(tick);
                 path.grid d={ "M" (n(x)) " " (n(TOP)) "V" (n(BOTTOM)) } {}
-                text.tick x=(n(x)) y=(n(BOTTOM + 14.0)) text-anchor="middle" { (x_label(tick)) }
+                text.tick x=(n(x)) y=(n(BOTTOM + 17.0)) text-anchor="middle" { (x_label(tick)) }
             }
             @for tick in self.y.ticks(7) {
                 @let y = self.y(tick);
                 path.grid d={ "M" (n(LEFT)) " " (n(y)) "H" (n(RIGHT)) } {}
-                text.tick x=(n(LEFT - 5.0)) y=(n(y + 3.5)) text-anchor="end" { (y_label(tick)) }
+                text.tick x=(n(LEFT - 5.0)) y=(n(y + 5.0)) text-anchor="end" { (y_label(tick)) }
             }
             rect.box x=(n(LEFT)) y=(n(TOP)) width=(n(RIGHT - LEFT)) height=(n(BOTTOM - TOP)) {}
             text.axis x=(n(f64::midpoint(LEFT, RIGHT))) y=(n(HEIGHT - 8.0)) text-anchor="middle" { (x_name) }
-            text.axis transform={ "translate(11 " (n(middle)) ") rotate(-90)" } text-anchor="middle" { (y_name) }
+            text.axis transform={ "translate(13 " (n(middle)) ") rotate(-90)" } text-anchor="middle" { (y_name) }
         }
     }
 }

@@ -5,7 +5,7 @@ use super::places::Line;
 use crate::lists::Interner;
 use etalon_history::{History, HistoryError};
 use etalon_stats::{Happening, Standing, happenings};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// The history of one case on one timeline. Runs are indices into the timeline.
 #[derive(Default)]
@@ -141,7 +141,8 @@ impl Courses {
 }
 
 impl Course {
-    /// Returns the standings of a case by run, without undecided ones.
+    /// Returns the standings of a case by run, without undecided ones. A run without a record counts only if runs of its
+    /// kind and profile have drawn the case: benches draw others than runs.
     fn standings(&self, gaps: &Gaps, line: &Line<'_>, looks: &Looks) -> Vec<(u32, Standing)> {
         let mut looks_by_run: Vec<Option<u32>> = vec![None; line.runs.len()];
         for (from, end, look) in self.ended() {
@@ -150,11 +151,14 @@ impl Course {
         for (from, runs) in gaps.list(self.gaps) {
             looks_by_run[from as usize..(from + runs) as usize].fill(None);
         }
+        let drawn = looks_by_run.iter().zip(&line.runs);
+        let drawn = drawn.filter_map(|(look, run)| look.map(|_| run.sort));
+        let sorts: HashSet<_> = drawn.collect();
         let each = looks_by_run.iter().zip(&line.runs).zip(0..);
         each.filter_map(|((look, run), index)| match look {
             Some(look) if looks.is_undecided(*look) => None,
             Some(look) => Some((index, looks.standing(*look))),
-            None => run.whole.then_some((index, Standing::Unknown)),
+            None => (run.whole && sorts.contains(&run.sort)).then_some((index, Standing::Unknown)),
         })
         .collect()
     }

@@ -30,6 +30,8 @@ pub(super) struct LineRun<'a> {
     /// The index of the run.
     pub(super) place: usize,
     pub(super) part: &'a AdapterRun,
+    /// The kind and the profile, which decide the cases that the run draws.
+    pub(super) sort: (Kind, Option<&'a str>),
     /// True if the run covers the whole suite and came to its end, so that a case without a record is
     /// missing.
     pub(super) whole: bool,
@@ -58,9 +60,11 @@ impl<'a> Places<'a> {
                 .get(&part.timeline)
                 .and_then(|n| timelines.get_mut(*n));
             if let (Some(place), Some(line)) = (numbers.get(&part.run), line) {
+                let run = runs[*place];
                 line.runs.push(LineRun {
                     place: *place,
                     part,
+                    sort: (run.kind, run.profile.as_deref()),
                     whole: false,
                 });
             }

@@ -119,11 +119,19 @@ impl RunNews {
                         news.broken
                             .push(entry(format!("{} before{expected}", was.verdict.name())));
                     }
+                    None if before.is_none() => {
+                        news.uncompared.push(entry("no earlier run".to_owned()));
+                    }
                     None => news.broken.push(entry("not in the run before".to_owned())),
                 }
             }
         }
-        for list in [&mut news.broken, &mut news.old, &mut news.triaged] {
+        for list in [
+            &mut news.broken,
+            &mut news.uncompared,
+            &mut news.old,
+            &mut news.triaged,
+        ] {
             list.sort_by_cached_key(|e| {
                 let severity = gravity.get(&(e.case.clone(), e.adapter.clone())).copied();
                 (Reverse(severity), e.case.clone(), e.adapter.clone())

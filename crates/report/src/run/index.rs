@@ -194,7 +194,8 @@ fn state(run: &Run, reasons: &PageReasons, news: Option<&RunNews>) -> Markup {
         @if let Some(news) = news {
             p.state.n {
                 b { "Since the last run: " }
-                a href="#changed" { (news.broken.len()) " broken, " (news.fixed.len()) " fixed" } "."
+                a href="#changed" { (news.broken.len()) " broken, " (news.fixed.len()) " fixed" }
+                @if !news.uncompared.is_empty() { ", " (news.uncompared.len()) " bad without an earlier run to compare" } "."
             }
         }
         @if !run.records.is_empty() {

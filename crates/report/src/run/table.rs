@@ -43,7 +43,12 @@ pub fn table(run: &Run, options: TableOptions) -> String {
         .iter()
         .map(|a| (*a, run.records.iter().filter(|r| r.adapter == *a).collect()))
         .collect();
-    let mut text = format!("{}\n{}", adapters(&rows, options), not_drawn(run, options));
+    let mut text = format!(
+        "{}\n{}{}",
+        adapters(&rows, options),
+        explanations(&rows),
+        not_drawn(run, options)
+    );
     if let Some(found) = methods::Methods::of(run) {
         text.push_str(&methods::lines(&found));
     }
@@ -59,6 +64,21 @@ pub fn table(run: &Run, options: TableOptions) -> String {
     text.push_str(&incomplete(run));
     text
 }
+
+/// Columns whose names do not say what they count, with what they count.
+const EXPLAINED: [(&str, &str); 5] = [
+    (
+        "imprecise",
+        "allowed, but less exact than 32-bit arithmetic",
+    ),
+    ("open", "nothing could be asserted"),
+    (
+        "broken",
+        "no picture to judge, because of a crash, a block or the like",
+    ),
+    ("expected", "bad, but a finding or --expect says so"),
+    ("selftests", "cases that must fail, and did"),
+];
 
 /// Columns that are shown only if a run has such a verdict.
 const RARE: [&str; 4] = ["measured", "required by CTS", "disputed", "skipped"];
@@ -134,6 +154,22 @@ fn adapters(rows: &[(&str, Vec<&Record>)], options: TableOptions) -> String {
     text
 }
 
+/// Returns what the columns count that have a number and need a word about it.
+fn explanations(rows: &[(&str, Vec<&Record>)]) -> String {
+    let tally = VerdictTally::of(rows.iter().flat_map(|(_, records)| records.iter().copied()));
+    let counts = |column: &str| match column {
+        "imprecise" => tally.plain(Verdict::Imprecise),
+        "open" => tally.plain(Verdict::Open),
+        "broken" => BROKEN.iter().map(|v| tally.plain(*v)).sum(),
+        "expected" => tally.known,
+        _ => tally.due,
+    };
+    let shown = EXPLAINED.iter().filter(|(column, _)| counts(column) > 0);
+    shown
+        .map(|(column, text)| format!("{column}: {text}\n"))
+        .collect()
+}
+
 /// Returns the number of records of cases that were not drawn, and the reasons, with counts per adapter.
 fn not_drawn(run: &Run, options: TableOptions) -> String {
     let reasons = undrawn(run);
@@ -196,7 +232,10 @@ fn unexpected(run: &Run, options: TableOptions) -> String {
         return String::new();
     }
     let mut text = format!("\n{}\n", count(bad.len() as u64, "unexpected record"));
-    for record in bad.iter().take(LISTED) {
+    let mut left = bad.len();
+    for group in blocked_together(bad).into_iter().take(LISTED) {
+        let record = group[0];
+        left -= group.len();
         let sign = match Tone::of(record) {
             Tone::Missed => symbol(Verdict::Fail),
             _ => symbol(record.verdict),
@@ -205,13 +244,33 @@ fn unexpected(run: &Run, options: TableOptions) -> String {
         let adapter = plain(&record.adapter, 60);
         // The whole record in one line: a terminal wraps it if necessary, and a program finds all of it.
         let (case, reason) = (plain(&record.case, 300), headline(record));
+        let case = match group.len() {
+            1 => case,
+            n => format!("{} (reasons above), first {case}", count(n as u64, "case")),
+        };
         text += &format!("{head}  {adapter}  {case}: {reason}\n");
     }
-    match bad.len().saturating_sub(LISTED) {
+    match left {
         0 => {}
         n => text.push_str(&format!("and {n} more\n")),
     }
     text
+}
+
+/// Groups the blocked records of each adapter; each other record is a group of its own.
+fn blocked_together(records: Vec<&Record>) -> Vec<Vec<&Record>> {
+    let mut groups: Vec<Vec<&Record>> = Vec::new();
+    for record in records {
+        let is_blocked = |other: &Record| {
+            [record.verdict, other.verdict] == [Verdict::Blocked; 2]
+                && record.adapter == other.adapter
+        };
+        match groups.iter_mut().find(|group| is_blocked(group[0])) {
+            Some(group) => group.push(record),
+            None => groups.push(vec![record]),
+        }
+    }
+    groups
 }
 
 fn incomplete(run: &Run) -> String {
@@ -227,4 +286,47 @@ fn incomplete(run: &Run) -> String {
         );
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etalon_record::{Expected, Header};
+
+    #[test]
+    fn blocked_records_are_one_line_and_columns_are_explained() {
+        let blocked = |case: &str| Record::new(case, "gl:x", Verdict::Blocked);
+        let mut known = Record::new("a/known", "gl:x", Verdict::Fail);
+        known.expected = Some(Expected {
+            reason: "a bug".to_owned(),
+        });
+        let run = Run {
+            header: Header::new(Vec::new(), 5),
+            records: vec![
+                blocked("a/b"),
+                blocked("a/c"),
+                blocked("b/c"),
+                Record::new("a/d", "gl:x", Verdict::Fail),
+                known,
+            ],
+            beside: Vec::new(),
+            truncated: false,
+        };
+        let text = table(&run, TableOptions::default());
+        assert!(text.contains("4 unexpected records"), "{text}");
+        let lines: Vec<&str> = text.lines().filter(|l| l.contains("⊗")).collect();
+        assert_eq!(lines.len(), 1, "{text}");
+        assert!(
+            lines[0].contains("3 cases (reasons above), first a/b"),
+            "{text}"
+        );
+        for (column, is_explained) in [
+            ("expected: ", true),
+            ("broken: ", true),
+            ("imprecise: ", false),
+        ] {
+            let found = text.lines().any(|line| line.starts_with(column));
+            assert_eq!(found, is_explained, "{text}");
+        }
+    }
 }

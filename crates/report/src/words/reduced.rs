@@ -25,7 +25,7 @@ impl ReducedCase<'_> {
     /// Returns the violated clause, or the text by which the record was judged.
     pub fn clause(&self) -> Option<String> {
         let story = self.record.story.as_ref()?;
-        let clause = violated_clause(story).map(str::to_owned);
+        let clause = violated_clause(self.record).map(str::to_owned);
         clause.or_else(|| judged_by(story))
     }
 

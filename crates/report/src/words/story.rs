@@ -34,6 +34,12 @@ pub(crate) fn clause(story: &Story) -> Option<&str> {
     };
     fn event(step: &DecidingStep) -> Option<&str> {
         match step {
+            // A shader that cites a clause can be wrong by more than the conversion of its value.
+            DecidingStep::Stored {
+                store,
+                shade: Some(shade),
+                ..
+            } => shade.citation.as_deref().or(store.citation.as_deref()),
             DecidingStep::Open(event)
             | DecidingStep::Stored { store: event, .. }
             | DecidingStep::Cleared(event)

@@ -6,7 +6,7 @@ use crate::worker::Worker;
 use etalon_case::Case;
 use etalon_diagnose::Symptom;
 use etalon_explore::{Candidate, Oracle, Reduction, ReductionLimits, reduce};
-use etalon_frame::Limits;
+use etalon_frame::{Limits, Story};
 use etalon_record::{Record, Verdict};
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -158,7 +158,7 @@ impl Oracle for DriverOracle<'_> {
         let timeout = trials.timeout;
         let mut found = |candidate: &Candidate, judged: Record| {
             let seen = Symptom::of(&judged);
-            if !symptom.covers(&seen) {
+            if !symptom.covers(&seen) || hides_draw(&judged) && !hides_draw(record) {
                 return false;
             }
             let fails_alone =
@@ -182,6 +182,12 @@ impl Oracle for DriverOracle<'_> {
     fn texel(&self) -> Option<[u32; 2]> {
         self.record.wrong.first().map(|w| [w.x, w.y])
     }
+}
+
+/// Returns true if the record's story is about a draw that stores what was there before.
+fn hides_draw(record: &Record) -> bool {
+    let story = record.story.as_ref();
+    story.is_some_and(Story::stores_initial_contents)
 }
 
 #[cfg(test)]

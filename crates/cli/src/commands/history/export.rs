@@ -69,7 +69,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
 fn failure(error: ExportError) -> Failure {
     match error {
         ExportError::History(error) => history_file::failure(error),
-        ExportError::NoRuns { .. } => Failure::nothing(error),
+        ExportError::NoRuns { .. } | ExportError::NoTimes { .. } => Failure::nothing(error),
         ExportError::NotEmpty { .. } | ExportError::Folder(_) | ExportError::Io { .. } => {
             Failure::of(error)
         }

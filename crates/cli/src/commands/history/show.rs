@@ -67,7 +67,21 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         )));
     }
     match arguments.format {
-        OutputFormat::Text => print(&text(&history, case, &states, &lines))?,
+        OutputFormat::Text => {
+            let is_shown = |(of_adapter, _): &(Verdicts, _)| {
+                !arguments.adapters.is_empty() || of_adapter.is_drawn()
+            };
+            let (shown, undrawn): (Vec<_>, Vec<_>) = lines.into_iter().partition(is_shown);
+            let mut text = text(&history, case, &states, &shown);
+            if !undrawn.is_empty() {
+                let names = undrawn
+                    .iter()
+                    .map(|(of_adapter, _)| plain(&of_adapter.timeline, 60));
+                let names = names.collect::<Vec<_>>().join(", ");
+                text += &format!("\nnever drawn on {names}; --adapter shows why\n");
+            }
+            print(&text)?;
+        }
         OutputFormat::Json => {
             let adapters = lines.iter().map(|(of_adapter, series)| {
                 let entry = states.get(&subject(case, &of_adapter.timeline));

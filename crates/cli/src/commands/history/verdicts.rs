@@ -79,6 +79,12 @@ impl Verdicts {
         }))
     }
 
+    /// Returns true if any run drew the case.
+    pub(super) fn is_drawn(&self) -> bool {
+        let mut records = self.records.iter();
+        records.any(|drawn| drawn.outcome.standing() != Standing::Unknown)
+    }
+
     /// Returns the last record.
     pub(super) fn last(&self) -> Option<&DrawnRecord> {
         self.records.last()

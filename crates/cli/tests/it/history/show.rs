@@ -48,6 +48,36 @@ fn a_case_is_told_with_what_happened_and_between_which_versions() {
 }
 
 #[test]
+fn nightly_benches_between_runs_are_no_news() {
+    let history = HistoryFolder::new();
+    for night in 1..=3 {
+        let run = history.run(2 * night, "1.0", &GOOD);
+        let bench = history.bench(2 * night + 1, 0.01, 0.01);
+        history.command(&["add", &run, &bench]).code(0);
+    }
+    let pages = history.path("pages").display().to_string();
+    history.command(&["report", "--out", &pages]).code(0);
+    let page = fs::read_to_string(history.path("pages/index.html")).unwrap();
+    assert!(!page.contains("without a verdict on"), "{page}");
+}
+
+#[test]
+fn an_adapter_that_never_drew_a_case_is_left_out_unless_it_is_named() {
+    let history = HistoryFolder::new();
+    let undrawn = [(CASE, etalon_record::Verdict::NotSupported)];
+    history
+        .command(&["add", &history.run(1, "1.0", &undrawn)])
+        .code(0);
+    history
+        .command(&["show", CASE])
+        .code(0)
+        .stdout(contains("never drawn on cpu").and(contains("now not-supported").not()));
+    history
+        .command(&["show", CASE, "--adapter", "cpu"])
+        .stdout(contains("now not-supported"));
+}
+
+#[test]
 fn runs_are_ordered_by_start_not_by_addition() {
     let history = HistoryFolder::new();
     history

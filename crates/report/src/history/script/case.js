@@ -45,7 +45,7 @@ function courseOf(known, [number, first, last, flat, gapList = [], eventList = [
   // A release that was not drawn differs only in the list of spans.
   let since = spans.length - 1;
   while (since > 0 && spans[since - 1].look.text === now.look.text) since--;
-  const gone = last < line.runs.length - 1 && line.runs.slice(last + 1).some(one => one.whole);
+  const gone = events.length > 0 && events[events.length - 1].kind === GONE;
   const section = make("section", { class: "course" },
     make("h2", {}, line.name),
     make("p", {},

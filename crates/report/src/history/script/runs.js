@@ -1,5 +1,6 @@
 // Runs, timelines and their drivers.
 const EVENTS = [["✗ broken", "f"], ["⇄ flaky", "o"], ["✓ fixed", "p"], ["+ appeared", "n"], ["− gone", "u"]];
+const GONE = EVENTS.length - 1;
 let all = null;
 
 function unpacked(data) {

@@ -24,6 +24,7 @@ pub(super) fn section(news: &RunNews) -> Markup {
             h2 { "Changed since the last run" }
             @if news.broken.is_empty() && news.fixed.is_empty() { p { "Nothing broke, and nothing was fixed." } }
             (kind("broken", &news.broken))
+            (kind("bad, nothing to compare", &news.uncompared))
             (kind("fixed", &news.fixed))
             (kind("no longer counted, but not fixed", &news.undecided))
             details {
