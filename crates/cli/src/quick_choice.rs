@@ -29,7 +29,7 @@ enum Power<'a> {
     Pair(usize, usize),
     /// A finding. The case is its shortest one.
     Finding(usize),
-    /// What a faulty call breaks: this case of those that exercise it, since not every driver draws each.
+    /// What a faulty call breaks, shown by this very case: not every driver draws each case.
     Call(usize),
     /// A file.
     File(&'a str),

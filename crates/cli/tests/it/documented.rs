@@ -48,8 +48,14 @@ const TREATED: &[(&str, Treatment)] = &[
         "ci/adapters/lines /tmp/chromium-131 /tmp/chromium-147 >lines.json",
         SCRIPT,
     ),
+    ("ci/adapters/lines /tmp/dawn /tmp/deno >lines.json", FETCHED),
     ("ci/adapters/mesa sid /tmp/mesa-sid", SCRIPT),
     ("ci/adapters/mesa-backports /tmp/mesa-25", SCRIPT),
+    ("ci/adapters/webgpu dawn 0.6.2 /tmp/dawn", FETCHED),
+    (
+        "NODE_PATH=/tmp/dawn/node_modules etalon run --adapter webgpu:dawn",
+        FETCHED,
+    ),
     ("ci/container /srv/etalon", SCRIPT),
     ("ci/mesa-request install runs/main", SCRIPT),
     (

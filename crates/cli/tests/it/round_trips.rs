@@ -88,7 +88,7 @@ fn cases_behind_a_failed_round_trip_are_blocked_and_the_rest_are_drawn() {
             .filter(|r| r.parts().area() == "capabilities")
             .count()
     };
-    assert_eq!((trips(&alone), trips(&full)), (0, 14));
+    assert_eq!((trips(&alone), trips(&full)), (0, 29));
 }
 
 #[test]
