@@ -164,7 +164,9 @@ fn hunt(class: &str) {
     let areas: BTreeSet<&str> = members.iter().map(|m| catching_area(m)).collect();
     let mut survivors = Vec::new();
     for area in areas {
-        let mut cases = Cases::new(Profile::Quick, |a| a == area);
+        // Formats of few channels and of 16 bits are drawn as capabilities.
+        let is_drawn = |a: &str| a == area || class == "format" && a == "capabilities";
+        let mut cases = Cases::new(Profile::Quick, is_drawn);
         // Stale state of a case shows if the next case differs only in that state.
         if class != "sticky" {
             cases = cases.scattered();
