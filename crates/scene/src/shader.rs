@@ -600,6 +600,7 @@ mod tests {
     const WRITE: &str = "ETALON_WRITE_SHADERS";
 
     #[test]
+    #[expect(clippy::unwrap_used, reason = "a test that panics has failed")]
     fn the_page_of_keys_lists_the_shaders() {
         let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/keys.md");
         let page = std::fs::read_to_string(&path).unwrap();

@@ -144,11 +144,9 @@ mod tests {
             ("cpu:slower=5", "slower=5%"),
             ("cpu:falt=abort", "call-fault, fault, limit"),
         ] {
-            let refused = Fault::in_name(name).unwrap_err().to_string();
-            assert!(
-                refused.contains(name) && refused.contains(known),
-                "{refused}"
-            );
+            let refused = Fault::in_name(name).map_err(|error| error.to_string());
+            let is_told = |text: String| text.contains(name) && text.contains(known);
+            assert!(refused.is_err_and(is_told), "{name}");
         }
     }
 

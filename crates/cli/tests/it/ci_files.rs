@@ -734,7 +734,12 @@ fn a_userland_is_not_made_in_a_folder_with_foreign_files() {
     fs::write(folder.path().join("own"), "kept").unwrap();
     let container = |arguments: &[&Path]| {
         let script = root().join("ci/container");
-        let output = Command::new(script).args(arguments).output().unwrap();
+        let mut command = Command::new(script);
+        let output = command
+            .args(arguments)
+            .env("ETALON", BINARY)
+            .output()
+            .unwrap();
         assert_eq!(output.status.code(), Some(64), "{}", printed(&output));
         String::from_utf8(output.stderr).unwrap()
     };
@@ -747,6 +752,12 @@ fn a_userland_is_not_made_in_a_folder_with_foreign_files() {
         "{refused}"
     );
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    let empty = tempfile::tempdir().unwrap();
+    let refused = container(&[empty.path(), Path::new("cull/points")]);
+    assert!(
+        refused.contains("is no command of etalon") || refused.contains("needs root"),
+        "{refused}"
+    );
 }
 
 #[test]

@@ -338,7 +338,7 @@ fn drawn(bench: &Bench, panel: &Panel<'_>) -> Markup {
                 path.grid d={ "M" (n(LEFT)) " " (n(y)) "H" (n(RIGHT)) } {}
                 text.tick x=(n(LEFT - 5.0)) y=(n(y + 3.5)) text-anchor="end" { (digits(tick, 2)) }
             }
-            text.axis transform={ "translate(11 " (n(middle)) ") rotate(-90)" } text-anchor="middle" { "← mean error, " (panel.unit) }
+            text.axis transform={ "translate(13 " (n(middle)) ") rotate(-90)" } text-anchor="middle" { "← error, " (panel.unit) }
         }
         rect.box x=(n(LEFT)) y=(n(TOP)) width=(n(RIGHT - LEFT)) height=(n(bottom - TOP)) {}
         text.axis x=(n(f64::midpoint(LEFT, RIGHT))) y=(n(bottom + 32.0)) text-anchor="middle" { "← faster: time per " (unit_of(panel.kind.measure())) }

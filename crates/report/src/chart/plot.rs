@@ -53,7 +53,7 @@ impl Plot {
                 rect.zero x=(n(LEFT)) y=(n(BOTTOM - self.zero)) width=(n(RIGHT - LEFT)) height=(n(self.zero)) {}
                 text.tick x=(n(LEFT - 5.0)) y=(n(BOTTOM - self.zero / 2.0 + 5.0)) text-anchor="end" { "exact" }
             }
-            @for tick in self.x.ticks(4) {
+            @for tick in self.x.ticks(3) {
                 @let x = self.x(tick);
                 path.grid d={ "M" (n(x)) " " (n(TOP)) "V" (n(BOTTOM)) } {}
                 text.tick x=(n(x)) y=(n(BOTTOM + 17.0)) text-anchor="middle" { (x_label(tick)) }

@@ -134,10 +134,10 @@ function plotMarks(card, adapter, all, most, limit) {
       drawn("path", { class: "spread wide", d: `M${x(one.time[0])} ${up}H${x(one.time[2])}` }), mark);
     group.classList.toggle("beyond", one.time[1] > most || one.error[1] > limit);
     const wide = name.length * 7.7;
-    const places = [[at + 7, up + 3.5], [at + 6, up - 7], [at + 6, up + 14], [at - wide - 8, up + 3.5], [at - wide / 2, up - 9], [at - wide / 2, up + 17]];
-    const free = places.find(([l, b]) => l > left && l + wide < right && b - 9 > top && b < bottom && !taken.some(other => meet(box(l, b, wide, 10), other)));
+    const places = [[at + 7, up + 5], [at + 6, up - 7], [at + 6, up + 17], [at - wide - 8, up + 5], [at - wide / 2, up - 9], [at - wide / 2, up + 20]];
+    const free = places.find(([l, b]) => l > left && l + wide < right && b - 12 > top && b < bottom && !taken.some(other => meet(box(l, b, wide, 14), other)));
     if (free) {
-      taken.push(box(...free, wide, 10));
+      taken.push(box(...free, wide, 14));
       group.append(drawn("text", { class: "label", x: free[0], y: free[1] }, name));
     }
     return group;
