@@ -14,6 +14,7 @@
 //! - Front faces: `ccw` is counter-clockwise as seen on the framebuffer.
 
 mod blits;
+mod call_fault;
 pub mod codes;
 #[cfg(feature = "faults")]
 mod fault;
@@ -24,10 +25,10 @@ mod halves;
 mod recording;
 
 pub use blits::{Blit, BlitPiece, Blits, doubled};
+pub use call_fault::CallFault;
 #[cfg(feature = "faults")]
 pub use fault::{
-    CallFault, DrawNumbers, Fault, FaultyCalls, FaultyScenes, LimitFault, OpenQuery, ProcessFault,
-    ReadFault,
+    DrawNumbers, Fault, FaultyCalls, FaultyScenes, LimitFault, OpenQuery, ProcessFault, ReadFault,
 };
 pub use fault_name::FaultNameError;
 #[cfg(not(feature = "faults"))]

@@ -7,20 +7,18 @@
   const inDeno = globalThis.Deno !== undefined;
   const [address, ...flags] = inDeno ? Deno.args : process.argv.slice(2);
   const define = (name, value) => Object.defineProperty(globalThis, name, { value, configurable: true });
-  const show = (text) => console.error(text);
   define("location", new URL(address));
   define("isSecureContext", true);
-  define("document", { getElementById: () => ({ set textContent(text) { show(text); } }) });
+  define("document", { getElementById: () => ({ set textContent(text) { console.error(text); } }) });
   if (!inDeno) {
     const { create, globals } = await dawn;
     Object.assign(globalThis, globals);
     const require = process.getBuiltinModule("module").createRequire(process.argv[1]);
     define("navigator", { gpu: create(flags), userAgent: `Dawn/${require("webgpu/package.json").version}` });
   }
-  const files = ["scenes.js", "device.js", "executor.js", "page.js"];
-  const texts = await Promise.all(
-    files.map(async (name) => (await fetch(new URL(name, address))).text()),
-  );
+  const text = async (name) => (await fetch(new URL(name, address))).text();
+  const scripts = (await text("")).matchAll(/<script src="(.+?)">/g);
+  const texts = await Promise.all(Array.from(scripts, ([, name]) => text(name)));
   // Scripts of a page share their names.
   new Function(texts.join("\n"))();
 })();

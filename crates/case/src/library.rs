@@ -149,15 +149,17 @@ impl Library {
         &'l self,
         ids: &BTreeSet<&str>,
     ) -> impl Iterator<Item = (String, CaseRef<'l>)> {
-        let has_some = |stem: &str| {
-            let mut from = ids.range(stem..);
-            from.next().is_some_and(|id| id.starts_with(stem))
-        };
-        let cases = self.files_where(has_some);
+        let cases = self.files_where(|stem| any_begins(ids, stem));
         let cases = cases.flat_map(|file| file.cases(Profile::Full));
         let named = cases.map(|case| (case.id(), case));
         named.filter(move |(id, _)| ids.contains(id.as_str()))
     }
+}
+
+/// Returns true if any of the ids begins like this.
+pub(crate) fn any_begins(ids: &BTreeSet<&str>, start: &str) -> bool {
+    let mut from = ids.range(start..);
+    from.next().is_some_and(|id| id.starts_with(start))
 }
 
 /// Files that mark folders into which a command recorded; their other files are not cases.

@@ -1,7 +1,7 @@
 //! Selecting cases by globs.
 
 use crate::file::{CaseRef, Profile};
-use crate::library::Library;
+use crate::library::{Library, any_begins};
 use etalon_frame::CaseId;
 use etalon_glob::{Glob, GlobError};
 use std::collections::BTreeSet;
@@ -83,8 +83,7 @@ pub fn select<'a>(
     for file in library.files_where(|stem| globs.can_begin_with(stem)) {
         let matching = |c: &CaseRef<'_>| globs.matches(&c.id());
         let mut selected: Vec<CaseRef<'_>> = file.cases(profile).filter(matching).collect();
-        let from = named.range(file.stem()..);
-        if from.into_iter().any(|id| id.starts_with(file.stem())) {
+        if any_begins(&named, file.stem()) {
             let ids: BTreeSet<String> = selected.iter().map(CaseRef::id).collect();
             let is_one = |id: &String| ids.contains(id) || named.contains(id.as_str());
             selected = file
@@ -121,6 +120,7 @@ pub fn left_out(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::slice;
 
     #[test]
     fn a_star_matches_slashes_and_a_plain_name_matches_all_below_it() {
@@ -147,7 +147,7 @@ mod tests {
             .iter()
             .find(|id| !area.contains(id))
             .expect("quick is a part");
-        assert_eq!(quick(&[other.clone()]), [other.clone()]);
+        assert_eq!(&quick(slice::from_ref(other)), slice::from_ref(other));
         let both = quick(&["depth".to_owned(), other.clone()]);
         let expected = full.iter().filter(|id| area.contains(id) || *id == other);
         assert!(both.iter().eq(expected), "{other}");

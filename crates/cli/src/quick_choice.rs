@@ -71,11 +71,8 @@ impl QuickChoice {
     ) -> Self {
         let powers = powers(library, cases, hunted, findings);
         let others = library.files().filter(|file| !file.is_measured());
-        let others = others
-            .flat_map(|file| file.cases(Profile::Candidates))
-            .count()
-            - cases.len();
-        let most = QUICK.saturating_sub(others);
+        let candidates = others.flat_map(|file| file.cases(Profile::Candidates));
+        let most = (QUICK + cases.len()).saturating_sub(candidates.count());
         let mut held_out = [0, 0];
         for part in 0..PARTS {
             let is_held = |power: &Power<'_>| matches!(power, Power::Bug(n) if n % PARTS == part);
@@ -169,15 +166,8 @@ fn powers<'a>(
     for finding in 0..findings.all().len() {
         let shows = |n: &usize| findings.names(finding, &cases[*n].id);
         let length = |n: &usize| {
-            (
-                cases[*n]
-                    .scene
-                    .passes
-                    .iter()
-                    .map(|pass| pass.draws.len())
-                    .sum::<usize>(),
-                &cases[*n].id,
-            )
+            let draws = cases[*n].scene.passes.iter().map(|pass| pass.draws.len());
+            (draws.sum::<usize>(), &cases[*n].id)
         };
         let shortest = (0..cases.len()).filter(shows).min_by_key(length);
         if let Some(shortest) = shortest {

@@ -257,7 +257,6 @@ const BROWSER: Lacks = Lacks {
         INTEGERS,
         "r32float rg32float rgba32float depth16unorm",
     ],
-    ..WGPU_VULKAN
 };
 /// Compatibility mode has no views in other formats, which are needed to read samples of sRGB.
 const COMPATIBILITY: Lacks = Lacks {

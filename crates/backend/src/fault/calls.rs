@@ -1,6 +1,6 @@
 //! The part of faulty calls that all APIs share.
 
-use super::CallFault;
+use crate::CallFault;
 use std::any::Any;
 use std::collections::{HashMap, HashSet};
 

@@ -5,18 +5,17 @@
 //! to calls, through [`FaultyCalls`], and to the values read back; `etalon` applies the other faults to the
 //! rasterizer's process.
 
-mod call;
 mod calls;
 mod limit;
 mod process;
 mod read;
 
-pub use call::CallFault;
 pub use calls::{DrawNumbers, FaultyCalls, OpenQuery};
 pub use limit::LimitFault;
 pub use process::{FaultyScenes, ProcessFault};
 pub use read::ReadFault;
 
+use crate::CallFault;
 use crate::fault_name::FaultNameError;
 use etalon_frame::{AdapterName, Api, ChannelEncoding};
 use serde::de::value::{Error, StrDeserializer};

@@ -69,7 +69,7 @@ pub(crate) struct Arguments {
         long,
         value_name = "FILE",
         requires = "full",
-        conflicts_with = "profile"
+        conflicts_with_all = ["globs", "case_globs", "profile"]
     )]
     pub(crate) redundant: Option<PathBuf>,
     /// Hunt with this many random scenes instead of cases; each bug is drawn until its first Fail

@@ -40,20 +40,16 @@ fn family(library: &Library, arguments: &Arguments, unknown: Failure) -> Result<
     if full.is_empty() || arguments.png.is_some() || arguments.kernels || arguments.page.is_some() {
         return Err(unknown);
     }
-    let quick: Vec<String> = of_profile(Profile::Quick)?
-        .cases
-        .iter()
-        .map(CaseRef::id)
-        .collect();
-    let files: BTreeSet<&str> = full.iter().map(|case| case.file().stem()).collect();
+    let quick = of_profile(Profile::Quick)?.cases;
+    let quick: BTreeSet<String> = quick.iter().map(CaseRef::id).collect();
+    let files = full.chunk_by(|a, b| a.file().stem() == b.file().stem());
+    let files: Vec<_> = files.collect();
     let mut text = String::new();
-    for file in &files {
-        let cases = || full.iter().filter(|case| case.file().stem() == *file);
-        let Some(first) = cases().next() else {
-            continue;
-        };
-        let ids: Vec<String> = cases().map(CaseRef::id).collect();
-        let in_quick = ids.iter().filter(|id| quick.contains(id)).count();
+    for cases in &files {
+        let first = cases[0];
+        let file = first.file().stem();
+        let ids: Vec<String> = cases.iter().map(CaseRef::id).collect();
+        let in_quick = ids.iter().filter(|id| quick.contains(*id)).count();
         let count = counted(ids.len() as u64, "case");
         text.push_str(&format!(
             "{file}: {count}, {in_quick} in the quick profile\n"

@@ -10,6 +10,7 @@ use crate::table::{Cell, Table, some};
 use crate::terminal::{self, TableOptions};
 use crate::words::{Tone, headline, name, plain, symbol};
 use etalon_record::{Record, Run, Verdict};
+use std::collections::BTreeMap;
 use tabled::settings::Color;
 
 /// The maximum number of unexpected records that are listed.
@@ -65,20 +66,41 @@ pub fn table(run: &Run, options: TableOptions) -> String {
     text
 }
 
-/// Columns whose names do not say what they count, with what they count.
-const EXPLAINED: [(&str, &str); 5] = [
-    (
-        "imprecise",
-        "allowed, but less exact than 32-bit arithmetic",
-    ),
-    ("open", "nothing could be asserted"),
-    (
-        "broken",
-        "no picture to judge, because of a crash, a block or the like",
-    ),
-    ("expected", "bad, but a finding or --expect says so"),
-    ("selftests", "cases that must fail, and did"),
+/// Columns whose names do not say what they count.
+const EXPLAINED: [Explained; 5] = [
+    Explained {
+        column: "imprecise",
+        text: "allowed, but less exact than 32-bit arithmetic",
+        count: |tally| tally.plain(Verdict::Imprecise),
+    },
+    Explained {
+        column: "open",
+        text: "nothing could be asserted",
+        count: |tally| tally.plain(Verdict::Open),
+    },
+    Explained {
+        column: "broken",
+        text: "no picture to judge, because of a crash, a block or the like",
+        count: |tally| BROKEN.iter().map(|v| tally.plain(*v)).sum(),
+    },
+    Explained {
+        column: "expected",
+        text: "bad, but a finding or --expect says so",
+        count: |tally| tally.known,
+    },
+    Explained {
+        column: "selftests",
+        text: "cases that must fail, and did",
+        count: |tally| tally.due,
+    },
 ];
+
+/// A column and what it counts.
+struct Explained {
+    column: &'static str,
+    text: &'static str,
+    count: fn(&VerdictTally) -> u64,
+}
 
 /// Columns that are shown only if a run has such a verdict.
 const RARE: [&str; 4] = ["measured", "required by CTS", "disputed", "skipped"];
@@ -157,16 +179,9 @@ fn adapters(rows: &[(&str, Vec<&Record>)], options: TableOptions) -> String {
 /// Returns what the columns count that have a number and need a word about it.
 fn explanations(rows: &[(&str, Vec<&Record>)]) -> String {
     let tally = VerdictTally::of(rows.iter().flat_map(|(_, records)| records.iter().copied()));
-    let counts = |column: &str| match column {
-        "imprecise" => tally.plain(Verdict::Imprecise),
-        "open" => tally.plain(Verdict::Open),
-        "broken" => BROKEN.iter().map(|v| tally.plain(*v)).sum(),
-        "expected" => tally.known,
-        _ => tally.due,
-    };
-    let shown = EXPLAINED.iter().filter(|(column, _)| counts(column) > 0);
+    let shown = EXPLAINED.iter().filter(|e| (e.count)(&tally) > 0);
     shown
-        .map(|(column, text)| format!("{column}: {text}\n"))
+        .map(|e| format!("{}: {}\n", e.column, e.text))
         .collect()
 }
 
@@ -260,15 +275,15 @@ fn unexpected(run: &Run, options: TableOptions) -> String {
 /// Groups the blocked records of each adapter; each other record is a group of its own.
 fn blocked_together(records: Vec<&Record>) -> Vec<Vec<&Record>> {
     let mut groups: Vec<Vec<&Record>> = Vec::new();
+    let mut blocked = BTreeMap::new();
     for record in records {
-        let is_blocked = |other: &Record| {
-            [record.verdict, other.verdict] == [Verdict::Blocked; 2]
-                && record.adapter == other.adapter
+        let next = groups.len();
+        let group = match record.verdict {
+            Verdict::Blocked => *blocked.entry(&record.adapter).or_insert(next),
+            _ => next,
         };
-        match groups.iter_mut().find(|group| is_blocked(group[0])) {
-            Some(group) => group.push(record),
-            None => groups.push(vec![record]),
-        }
+        groups.resize_with(next.max(group + 1), Vec::new);
+        groups[group].push(record);
     }
     groups
 }
