@@ -58,16 +58,17 @@ fn groups(out: &Path) -> Vec<Value> {
 fn a_failing_scene_is_kept_once_and_fails_again_with_any_number_of_workers() {
     let folder = TempDir::new().unwrap();
     let [first, other] = ["one", "three"].map(|name| folder.path().join(name));
-    let adapter = "gl:softpipe";
+    // Unlike bugs of real drivers, a planted one fails in the same way every time.
+    let adapter = "gl:llvmpipe:call-fault=scissor-kept";
     // Without findings, all groups are new.
     let search = |out: &Path, jobs: &str| {
-        let more = ["--count", "120", "--jobs", jobs, "--expect-only"];
+        let more = ["--count", "40", "--jobs", jobs, "--expect-only"];
         fuzz(adapter, out, &more)
     };
     let (code, summary, error) = search(&first, "1");
     assert_eq!(code, 1, "{error}");
     let adapters = summary["adapters"].as_array().unwrap();
-    assert_eq!(adapters[0]["scenes"], 120);
+    assert_eq!(adapters[0]["scenes"], 40);
     assert!(adapters[0]["pairs"].as_u64().unwrap() > 10_000, "{summary}");
     let (code, _, error) = search(&other, "3");
     assert_eq!(code, 1, "{error}");
@@ -167,23 +168,14 @@ fn known_bugs_are_named_by_their_findings() {
         assert!(groups.iter().all(|g| g["known"].is_null()), "{groups:?}");
     }
 
-    let base = [
-        "fuzz",
-        "--adapter",
-        adapter,
-        "--seed",
-        "604",
-        "--count",
-        "8",
-        "--force",
-    ];
+    let base = ["fuzz", "--adapter", adapter, "--count", "22", "--force"];
     let out = ["--out", out.to_str().unwrap()];
     let output = etalon(&[&base[..], &out].concat()).output().unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
     for expected in [
         "in 2 groups (0 new, 1 like a finding, 1 known)",
-        "\n  known: softpipe-snorm-results: softpipe takes 2n - f for the near depth when it clamps depth under the clip control ZERO_TO_ONE: 1 scene in 1 group\n",
-        "\n  looks like: softpipe-stencil-points",
+        "\n  known: softpipe-snorm-results: softpipe does not clamp negative destinations to 0 before it blends into signed bytes: 1 scene in 1 group\n",
+        "\n  looks like: softpipe-",
     ] {
         assert!(text.contains(expected), "{text}");
     }
