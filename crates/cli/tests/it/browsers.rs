@@ -208,7 +208,7 @@ fn the_browser_that_opens_the_page_becomes_the_adapter() {
         .iter()
         .filter(|r| r.verdict != Verdict::NotSupported)
         .partition(|r| r.verdict == Verdict::Pass);
-    assert!(right.len() >= 4, "{right:?}");
+    assert!(!right.is_empty(), "{wrong:?}");
     assert!(
         !wrong.is_empty() && wrong.iter().all(|r| r.verdict == Verdict::Fail),
         "{wrong:?}"

@@ -533,7 +533,7 @@ while [ $# -gt 0 ]; do
     shift
 done
 [ "${BROKEN:-}" = alone ] || set -- --adapter gl:llvmpipe
-"$BINARY" run 'cull/points/*' --adapter cpu "$@" --out "$out" --force || exit
+"$BINARY" run 'cull/points/*' --profile full --adapter cpu "$@" --out "$out" --force || exit
 sed -i "1s/\"driver_version\":\"[^\"]*\"/\"driver_version\":\"Mesa $DRIVER\"/g" "$out/run.jsonl"
 [ "${BROKEN:-}" != yes ] || sed -i '/cull=front\/front_face=ccw/s/"verdict":"[a-z]*"/"verdict":"fail"/' "$out/run.jsonl""#;
 

@@ -65,7 +65,7 @@ fn list_names_every_case_once_and_readably() {
 fn the_quick_profile_is_a_small_part_of_every_area() {
     let quick = lines(&["list"]);
     assert_eq!(lines(&["list", "--profile", "quick"]), quick);
-    assert!(quick.len() <= 2780, "{}", quick.len());
+    assert!(quick.len() <= 1800, "{}", quick.len());
     let full = lines(&["list", "--profile", "full"]);
     assert!(
         quick.len() * 5 < full.len(),

@@ -299,7 +299,15 @@ fn folder() -> TempDir {
         command.current_dir(folder.path()).assert().code(0);
     };
     for name in ["run-a", "run-b"] {
-        made(&["run", "cull/points", "--adapter", "cpu", "--out", name]);
+        let full = [
+            "run",
+            "cull/points",
+            "--profile",
+            "full",
+            "--adapter",
+            "cpu",
+        ];
+        made(&[&full[..], &["--out", name]].concat());
     }
     for name in ["bench-a", "bench-b"] {
         let bench = [

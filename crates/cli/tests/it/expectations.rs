@@ -469,12 +469,13 @@ fn failures_on_a_driver_are_blessed_by_globs_that_all_match() {
     let work = Work::new();
     let folder = work.path("findings");
     fs::create_dir(&folder).unwrap();
-    // Without the built-in findings, since most of these are about softpipe.
+    // Without the built-in findings, since most of these are about softpipe. Its outlines change between runs.
     let alone = "--expect-only";
     let run = [
         "run",
         "blend/*",
-        "cull/*",
+        "cull/points",
+        "cull/stencil-faces*",
         "--adapter",
         "gl:softpipe",
         alone,

@@ -46,7 +46,7 @@ fn info(name: &str) -> MutantInfo {
 fn cases(globs: &[&str]) -> Vec<Case> {
     let library = Library::built_in();
     let globs: Vec<String> = globs.iter().map(|g| (*g).to_owned()).collect();
-    let chosen = select(library, Profile::Quick, &globs).unwrap().cases;
+    let chosen = select(library, Profile::Candidates, &globs).unwrap().cases;
     chosen.iter().map(|c| c.build().unwrap()).collect()
 }
 

@@ -373,7 +373,7 @@ fn a_page_of_a_browser_shows_planted_faults() {
     let verdicts: Vec<Verdict> = serde_json::from_value(verdicts).unwrap();
     let count = |verdict| verdicts.iter().filter(|v| **v == verdict).count();
     assert!(
-        count(Verdict::Fail) >= 5 && count(Verdict::Blocked) >= 5,
+        count(Verdict::Fail) >= 5 && count(Verdict::Blocked) >= 3,
         "{verdicts:?}"
     );
     assert_eq!(count(Verdict::Pass), 0, "{verdicts:?}");

@@ -23,7 +23,7 @@ const DEPENDENTS: [&str; 5] = [
 fn run(out: &Path, globs: &[&str], more: &[&str], code: i32) -> Run {
     etalon(&["run"])
         .args(globs)
-        .args(["--adapter", ADAPTER, "--out"])
+        .args(["--profile", "full", "--adapter", ADAPTER, "--out"])
         .arg(out)
         .args(more)
         .assert()

@@ -274,6 +274,8 @@ fn expectations_are_compared_with_verdicts() {
             &out,
             &[
                 "depth/clear",
+                "--profile",
+                "full",
                 "--adapter",
                 "cpu",
                 "--expect",
@@ -573,7 +575,7 @@ fn a_site_is_made_of_a_run_and_replaced_only_when_asked() {
     let start = std::fs::read_to_string(to.join("index.html")).unwrap();
     for text in [
         "runs/run/index.html#gallery=cull",
-        "4 cases on cpu",
+        "2 cases on cpu",
         "nothing unexpected",
     ] {
         assert!(start.contains(text), "{text}: {start}");

@@ -68,7 +68,7 @@ fn nothing_is_left(folder: &Path) {
 #[test]
 fn a_server_ends_with_the_run() {
     let folder = tempfile::tempdir().unwrap();
-    etalon(&["run", "stencil/compare", "--jobs", "2"])
+    etalon(&["run", "stencil/compare", "--profile", "full", "--jobs", "2"])
         .args(["--adapter", "gl:virgl", "--adapter", "gl:es:virgl", "--out"])
         .arg(folder.path().join("out"))
         .env("TMPDIR", folder.path())

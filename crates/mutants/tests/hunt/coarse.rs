@@ -12,7 +12,7 @@ fn a_right_coarse_depth_changes_no_frame() {
     let library = Library::built_in();
     let areas = ["depth/", "stencil/", "multisample/depth", "size/hierarchy"];
     let cases: Vec<_> = library
-        .cases(Profile::Quick)
+        .cases(Profile::Candidates)
         .filter(|case| areas.iter().any(|area| case.id().starts_with(area)))
         .map(|case| case.build().unwrap())
         .collect();

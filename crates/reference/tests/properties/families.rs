@@ -53,23 +53,23 @@ fn all_cases() -> bool {
     std::env::var_os("ETALON_TESTS").is_some_and(|v| v == "all")
 }
 
-/// Returns the cases that represent a file, or all of its quick profile, or of the full one if the quick one
-/// is empty.
+/// Returns the cases that represent a file, or all of its candidates for quick, or of the full profile if there are
+/// none.
 fn representatives(file: &CaseFile) -> Vec<Case> {
-    let mut quick: Vec<_> = file.cases(Profile::Quick).collect();
-    if quick.is_empty() {
-        quick.extend(file.cases(Profile::Full));
+    let mut cases: Vec<_> = file.cases(Profile::Candidates).collect();
+    if cases.is_empty() {
+        cases.extend(file.cases(Profile::Full));
     }
-    assert!(!quick.is_empty(), "{} has no case", file.name());
+    assert!(!cases.is_empty(), "{} has no case", file.name());
     let mut places = if all_cases() {
-        (0..quick.len()).collect()
+        (0..cases.len()).collect()
     } else if file.is_measured() {
-        vec![quick.len() / 2]
+        vec![cases.len() / 2]
     } else {
-        vec![0, quick.len() / 2, quick.len() - 1]
+        vec![0, cases.len() / 2, cases.len() - 1]
     };
     places.dedup();
-    let built = places.into_iter().map(|i| quick[i].build());
+    let built = places.into_iter().map(|i| cases[i].build());
     built.map(|c| c.expect("built-in cases build")).collect()
 }
 
