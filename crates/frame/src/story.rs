@@ -278,7 +278,8 @@ pub enum ContentSource {
 }
 
 impl Story {
-    /// Returns true if a draw must store the value that the attachment has already, so that the picture does not show whether it did.
+    /// Returns true if a draw must or may store the value that the attachment has already, so that the picture does not show
+    /// whether it did.
     pub fn stores_initial_contents(&self) -> bool {
         let Some(Demand::Values(values)) = self.ruling.as_ref().map(|ruling| &ruling.demand) else {
             return false;
@@ -288,7 +289,9 @@ impl Story {
             .iter()
             .flatten()
             .any(|allowed| allowed.kept.is_some());
-        let stored = |step: &DecidingStep| matches!(step, DecidingStep::Stored { .. });
+        let stored = |step: &DecidingStep| {
+            matches!(step, DecidingStep::Stored { .. } | DecidingStep::Open(_))
+        };
         kept && values.reasons.iter().any(stored)
     }
 
