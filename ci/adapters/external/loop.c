@@ -252,8 +252,10 @@ static void triangle(Draw *d, const Vertex *v0, const Vertex *v1, const Vertex *
     for (int axis = 0; axis < 2; axis++) {
         double least = fmin(p[0][axis], fmin(p[1][axis], p[2][axis])) / 256;
         double most = fmax(p[0][axis], fmax(p[1][axis], p[2][axis])) / 256 + 1;
-        low[axis] = (int)fmax(0, fmax(least, d->scissor[axis]));
-        high[axis] = (int)fmin(axis ? any->height : any->width, fmin(most, d->scissor[axis] + d->scissor[axis + 2]));
+        /* Clipping at the sides of the view volume: viewports have whole texels here. */
+        low[axis] = (int)fmax(fmax(least, d->viewport[axis]), fmax(0, d->scissor[axis]));
+        high[axis] = (int)fmin(fmin(most, d->viewport[axis] + d->viewport[axis + 2]),
+                               fmin(axis ? any->height : any->width, d->scissor[axis] + d->scissor[axis + 2]));
     }
     for (int y = low[1]; y < high[1]; y++) {
         for (int x = low[0]; x < high[0]; x++) {

@@ -33,7 +33,9 @@ class Unsupported(Exception):
 
 def hello():
     is_float = lambda name: name.endswith("32float")
-    formats = {name: {"samples": [1] if is_float(name) else [1, 4], "blendable": not is_float(name)} for name in COLORS}
+    # Samples are read by a shader, which would decode and encode sRGB.
+    single = lambda name: is_float(name) or name.endswith("-srgb")
+    formats = {name: {"samples": [1] if single(name) else [1, 4], "blendable": not is_float(name)} for name in COLORS}
     formats |= {name: {"samples": [1, 4]} for name in DEPTHS}
     return {
         "protocol": 1, "device": adapter.info["device"], "driver": "wgpu-py over " + adapter.info["backend_type"],
@@ -46,8 +48,7 @@ def texture(format, size, samples):
     usage = USAGE.RENDER_ATTACHMENT | USAGE.TEXTURE_BINDING
     if samples == 1:
         usage |= USAGE.COPY_SRC | (USAGE.COPY_DST if format in COLORS else 0)
-    views = [format.removesuffix("-srgb")] if format.endswith("-srgb") else []
-    return device.create_texture(size=(*size, 1), format=format, usage=usage, sample_count=samples, view_formats=views)
+    return device.create_texture(size=(*size, 1), format=format, usage=usage, sample_count=samples)
 
 
 def attached(attachment):
@@ -183,16 +184,16 @@ def draw_into(encoder, scene, scene_pass, textures, draw):
         encoder.draw_indexed(len(data))
 
 
-def copied(made, size, texel, aspect="all"):
+def copied(made, size, texel):
     rows = {"bytes_per_row": size[0] * texel, "rows_per_image": size[1]}
-    return np.frombuffer(device.queue.read_texture({"texture": made, "aspect": aspect}, rows, (*size, 1)), np.uint8)
+    return np.frombuffer(device.queue.read_texture({"texture": made}, rows, (*size, 1)), np.uint8)
 
 
 def fetched(made, size, aspect, samples, sample):
     """Returns the bytes of one sample, through a shader: depth as a float, stencil as a 32-bit integer."""
     several, coordinate = "_multisampled" if samples > 1 else "", sample if samples > 1 else 0
     format, kind, value = {
-        "color": (made.format.removesuffix("-srgb"), f"texture{several}_2d<f32>", "t"),
+        "color": (made.format, f"texture{several}_2d<f32>", "t"),
         "depth": ("r32float", f"texture_depth{several}_2d", "vec4f(t)"),
         "stencil": ("r32uint", f"texture{several}_2d<u32>", "t"),
     }[aspect]
@@ -209,7 +210,8 @@ def fetched(made, size, aspect, samples, sample):
     types = {"color": "unfilterable-float", "depth": "depth", "stencil": "uint"}
     entry = {"binding": 0, "visibility": wgpu.ShaderStage.FRAGMENT, "texture": {"sample_type": types[aspect], "multisampled": samples > 1}}
     layout = device.create_bind_group_layout(entries=[entry])
-    view = {"format": format} if aspect == "color" else {"aspect": aspect + "-only"}
+    views = {"color": made.format, "depth": made.format.removesuffix("-stencil8"), "stencil": "stencil8"}
+    view = {"format": views[aspect], "aspect": "all" if aspect == "color" else aspect + "-only"}
     group = device.create_bind_group(layout=layout, entries=[{"binding": 0, "resource": made.create_view(**view)}])
     made_pipeline = device.create_render_pipeline(
         layout=device.create_pipeline_layout(bind_group_layouts=[layout]), vertex={"module": module, "entry_point": "vs"},
@@ -230,8 +232,6 @@ def read(attachment, made, aspect):
     size, samples = attachment["size"], attachment["samples"]
     if samples == 1 and aspect == "color":
         planes = [copied(made, size, COLORS[made.format])]
-    elif samples == 1 and aspect == "stencil":
-        planes = [copied(made, size, 1, "stencil-only")]
     else:
         chosen = [0] * samples if "one-sample" in MISTAKES else range(samples)
         planes = [fetched(made, size, aspect, samples, sample) for sample in chosen]

@@ -23,8 +23,8 @@ pub struct ShaderSource {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spirv: Option<String>,
     /// The texts in GLSL 4.50, by stage: `vertex` and `fragment`. Depths in clip space stay 0 to w, and y stays up.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    pub glsl: BTreeMap<&'static str, String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub glsl: Option<BTreeMap<&'static str, String>>,
 }
 
 /// Returns a shader in these languages.
@@ -49,14 +49,15 @@ pub(crate) fn sources(
             source.spirv = Some(spirv(&module, &info).map_err(fail)?);
         }
         if asks(ShaderLanguage::Glsl) {
-            for entry in &module.entry_points {
-                let text = glsl(&module, &info, entry.stage, &entry.name).map_err(fail)?;
+            let texts = module.entry_points.iter().map(|entry| {
                 let stage = match entry.stage {
                     ShaderStage::Vertex => "vertex",
                     _ => "fragment",
                 };
-                source.glsl.insert(stage, text);
-            }
+                let text = glsl(&module, &info, entry.stage, &entry.name).map_err(fail)?;
+                Ok((stage, text))
+            });
+            source.glsl = Some(texts.collect::<Result<_, BackendError>>()?);
         }
     }
     Ok(source)

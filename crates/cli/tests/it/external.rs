@@ -51,7 +51,11 @@ fn asked(arguments: &[&str], file: &Path) -> Command {
 
 fn run(globs: &[&str], file: &Path, code: i32) -> Run {
     let out = tempfile::tempdir().unwrap();
-    let arguments = [&["run", "--timeout", "3", "--memory", "500"], globs].concat();
+    let arguments = [
+        &["run", "--timeout", "3", "--memory", "500", "--jobs", "1"],
+        globs,
+    ]
+    .concat();
     let mut command = asked(&arguments, file);
     command
         .arg("--out")
@@ -106,7 +110,7 @@ fn a_program_in_c_is_judged() {
         0,
     );
     assert!(
-        count(&run, Verdict::Pass) > 150,
+        count(&run, Verdict::Pass) > 90,
         "{}",
         count(&run, Verdict::Pass)
     );
@@ -126,12 +130,12 @@ fn a_program_in_python_is_judged_and_its_mistakes_are_named() {
     names_mistakes(folder.path(), &command, 80);
     let file = described(folder.path(), &command);
     let run = run(
-        &["depth/*", "stencil/*", "blend/*", "cull/*", "multisample/*"],
+        &["depth/compare", "stencil/compare", "blend/*", "cull/*"],
         &file,
         0,
     );
     assert!(
-        count(&run, Verdict::Pass) > 400,
+        count(&run, Verdict::Pass) > 200,
         "{}",
         count(&run, Verdict::Pass)
     );
@@ -149,9 +153,10 @@ for line in sys.stdin:
     if '"depth":1.0' not in line:
         print(answer, end="", flush=True)
         continue
-    image = json.loads(answer)["frame"]["images"][0]
+    images = json.loads(answer)["frame"]["images"]
+    image = images.pop()
     number = json.loads(line)["number"]
-    frame = lambda **changed: json.dumps({"number": number, "frame": {"images": [image | changed]}})
+    frame = lambda **changed: json.dumps({"number": number, "frame": {"images": images + [image | changed]}})
     exec(sys.argv[1])
     sys.stdout.flush()
 "#;
@@ -195,17 +200,17 @@ const DEEDS: [(&str, Verdict, &str); 15] = [
         "color of",
     ),
     (
-        "print(json.dumps({'number': number, 'frame': {'images': []}}))",
+        "print(json.dumps({'number': number, 'frame': {'images': images}}))",
         Verdict::InternalError,
-        "0 images, 1 were requested",
+        "1 images, 2 were requested",
     ),
     (
-        "print(json.dumps({'number': number, 'frame': {'images': [image], 'counters': [1]}}))",
+        "print(json.dumps({'number': number, 'frame': {'images': images + [image], 'counters': [1]}}))",
         Verdict::InternalError,
         "1 counters",
     ),
     (
-        "print(json.dumps({'number': number, 'unsupported': 'a', 'frame': {'images': [image]}}))",
+        "print(json.dumps({'number': number, 'unsupported': 'a', 'frame': {'images': images}}))",
         Verdict::InternalError,
         "exactly one",
     ),
@@ -239,7 +244,7 @@ fn a_hostile_program_costs_a_case() {
     for (deed, verdict, part) in DEEDS.into_iter().chain([memory]) {
         let file = described(folder.path(), &["python3", "hostile.py", deed]);
         let run = run(
-            &["depth/clear/*format=depth32float*", "--recheck", "0"],
+            &["depth/clear/*format=depth32float*", "--recheck", "off"],
             &file,
             1,
         );
@@ -369,22 +374,16 @@ fn the_schema_of_the_protocol_takes_every_line_of_both_sides() {
 #[test]
 fn shaders_come_in_the_languages_that_a_program_asks_for() {
     let folder = compiled();
-    let script = "./loop <in | head -n 1 | sed 's/\"rules\"/\"shaders\":[\"spirv\",\"glsl\"],\"rules\"/'; cat >>in";
-    fs::write(folder.path().join("in"), "").unwrap();
+    let script = r#"tee -a in | ./loop | sed -u '1s/"rules"/"shaders":["spirv","glsl"],"rules"/'"#;
     let file = described(folder.path(), &["sh", "-c", script]);
-    run(
-        &[
-            "depth/compare/*less/format=depth32float/*",
-            "--recheck",
-            "0",
-        ],
-        &file,
-        1,
-    );
+    run(&["depth/compare/*format=depth32float*"], &file, 0);
     let text = fs::read_to_string(folder.path().join("in")).unwrap();
-    let request: Value = serde_json::from_str(text.lines().next().unwrap()).unwrap();
+    let requests = text
+        .lines()
+        .map(|line| serde_json::from_str::<Value>(line).unwrap());
+    let drawn = |request: &Value| request["scene"]["shaders"] != json!({});
+    let request = requests.into_iter().find(drawn).unwrap();
     let shaders = request["scene"]["shaders"].as_object().unwrap();
-    assert!(!shaders.is_empty());
     for shader in shaders.values() {
         assert_eq!(shader["wgsl"], Value::Null);
         // The magic number of SPIR-V, in base64.
