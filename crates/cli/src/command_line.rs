@@ -57,7 +57,7 @@ pub(crate) enum Command {
     #[cfg(feature = "history")]
     #[command(subcommand)]
     History(history::HistoryCommand),
-    /// Check an adapter with scenes whose pictures are exact, and say what its author should mend first
+    /// Check an adapter with scenes whose pictures are exact, and say what its author should fix first
     Conformance(conformance::Arguments),
     /// Find the releases of a driver that draw cases wrong
     Bisect(bisect::Arguments),

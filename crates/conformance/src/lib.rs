@@ -7,7 +7,7 @@
 //! fails, and each check draws on at least one of the drivers.
 //!
 //! The backends use this only as a development dependency, so that only their tests see cases. `etalon conformance` runs
-//! the same checks on any adapter ([`check_each()`]), and [`first_topic()`] says what its author should mend first.
+//! the same checks on any adapter ([`check_each()`]), and [`first_topic()`] says what its author should fix first.
 #![expect(clippy::unwrap_used, reason = "a check fails by panicking")]
 
 mod checks;

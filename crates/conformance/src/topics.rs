@@ -1,4 +1,4 @@
-//! The checks on an adapter whose author wants to know what to mend first.
+//! The checks on an adapter whose author wants to know what to fix first.
 
 use crate::checks::{CHECKS, DriverCheck};
 use crate::subject::{CheckResult, CheckedBackend};

@@ -57,11 +57,16 @@ impl RemoteBackend {
         let Some(worker) = process.as_mut() else {
             return Err(BackendError::internal("no worker is running"));
         };
+        let reads = matches!(request, Request::ReadBack { .. });
         let failure = match worker.ask(request, self.timeout) {
             Ok((payload, _)) => return Ok(payload),
             Err(failure) => failure,
         };
-        let ends = failure.ends_worker();
+        // A scene that was not drawn is an error to read back, and spoils nothing.
+        let ends = match &failure {
+            RequestError::Backend(error) => error.ends_drawing() && !reads,
+            RequestError::Lost(_) => true,
+        };
         let error = match failure {
             RequestError::Backend(error) => error,
             RequestError::Lost(loss) => {

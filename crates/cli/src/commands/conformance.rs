@@ -39,7 +39,7 @@ struct CheckResults {
     failed: Vec<(&'static str, String)>,
 }
 
-/// Runs every check on an adapter, and says what to mend first.
+/// Runs every check on an adapter, and says what to fix first.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let (launch, worker) = start(&arguments.adapter, arguments.file.adapter_file.as_deref())?;
     let backend = RemoteBackend::new(launch, worker, TIMEOUT);
@@ -84,12 +84,12 @@ impl CheckResults {
         );
         match first_topic(&self.names()) {
             Some((topic, checks)) => {
-                text += &format!("Mend first: {}. Expected: {}.\n", topic.name, topic.rule);
+                text += &format!("Fix first: {}. Expected: {}.\n", topic.name, topic.rule);
                 text += &format!("It is the subject of {}.\n", checks.join(", "));
             }
             None => {
                 if let Some((name, _)) = self.failed.first() {
-                    text += &format!("Mend first: {name}\n");
+                    text += &format!("Fix first: {name}\n");
                 }
             }
         }
@@ -111,7 +111,7 @@ impl CheckResults {
             "passed": self.passed,
             "skipped": self.skipped,
             "failed": failed,
-            "mend_first": first,
+            "fix_first": first,
         })
     }
 }

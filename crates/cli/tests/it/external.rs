@@ -72,7 +72,7 @@ fn count(run: &Run, verdict: Verdict) -> usize {
         .count()
 }
 
-/// Returns the topic that `conformance` says to mend first, its checks, and the number of checks that pass.
+/// Returns the topic that `conformance` says to fix first, its checks, and the number of checks that pass.
 fn conformance(file: &Path, code: i32) -> (Value, usize) {
     let assert = asked(&["conformance", "--format", "json"], file)
         .assert()
@@ -80,7 +80,7 @@ fn conformance(file: &Path, code: i32) -> (Value, usize) {
     let found: Value = serde_json::from_slice(&assert.get_output().stdout).unwrap();
     let passed = found["passed"].as_array().unwrap().len();
     assert_eq!(found["failed"] == json!([]), code == 0, "{found:#}");
-    (found["mend_first"]["topic"].clone(), passed)
+    (found["fix_first"]["topic"].clone(), passed)
 }
 
 /// Asserts that a program conforms, and that each of its mistakes is named.
