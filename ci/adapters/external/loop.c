@@ -44,14 +44,19 @@ static const char *after(const char *p) {
     return blank(p);
 }
 
-/* Returns the value at an index of a list; 0 after the last one. */
-static const char *item(const char *list, int index) {
+/* Returns the first value of a list, the one after a value, and the one at an index; 0 if there is none. */
+static const char *first(const char *list) {
     const char *p = blank(blank(list) + 1);
-    for (; *p != ']'; p = *p == ',' ? blank(p + 1) : p, index--) {
-        if (index == 0) return p;
-        p = after(p);
-    }
-    return 0;
+    return *p == ']' ? 0 : p;
+}
+static const char *next(const char *value) {
+    const char *p = after(value);
+    return *p == ',' ? blank(p + 1) : 0;
+}
+static const char *item(const char *list, int index) {
+    const char *p = first(list);
+    while (p && index--) p = next(p);
+    return p;
 }
 
 /* Returns the value of a key of an object; 0 if it has none, or null. */
@@ -72,7 +77,8 @@ static int is(const char *value, const char *text) {
     return value && *value == '"' && !strncmp(value + 1, text, strlen(text)) && value[1 + strlen(text)] == '"';
 }
 static void numbers(const char *list, int count, double *out) {
-    for (int i = 0; i < count; i++) out[i] = number(item(list, i));
+    const char *p = first(list);
+    for (int i = 0; p && i < count; i++, p = next(p)) out[i] = number(p);
 }
 
 /* Base64. */
@@ -196,10 +202,10 @@ typedef struct {
 } Vertex;
 
 typedef struct {
-    const char *json, *depth, *blend, *cull;
+    const char *depth, *blend, *cull;
     Image *color_image, *depth_image;
     double viewport[4], range[2], scissor[4], params[4], constant[4];
-    int mask, write_mask, to_coverage, from_vertex, writes_depth;
+    int ccw, mask, write_mask, to_coverage, from_vertex, writes_depth;
     uint64_t passed;
 } Draw;
 
@@ -246,7 +252,7 @@ static void triangle(Draw *d, const Vertex *v0, const Vertex *v1, const Vertex *
     }
     int64_t area = edge(p[0], p[1], p[2][0], p[2][1]);
     /* y points down here, so a positive area is clockwise. */
-    int front = (area < 0) == is(get(d->json, "front_face"), "ccw");
+    int front = (area < 0) == d->ccw;
     if (area == 0 || is(d->cull, front ? "front" : "back")) return;
     int b = area > 0 ? 1 : 2, c = 3 - b, low[2], high[2];
     for (int axis = 0; axis < 2; axis++) {
@@ -282,7 +288,7 @@ static void triangle(Draw *d, const Vertex *v0, const Vertex *v1, const Vertex *
 /* Draws; returns what is missing, or 0. */
 static const char *draw(const char *json, Image *color, Image *depth, uint64_t *counters) {
     Image *any = color ? color : depth;
-    Draw d = {.json = json, .color_image = color, .depth_image = depth, .write_mask = 15};
+    Draw d = {.color_image = color, .depth_image = depth, .write_mask = 15};
     const char *bias = get(json, "depth_bias"), *shader = get(json, "shader"), *topology = get(json, "topology");
     const char *viewport = get(json, "viewport"), *scissor = get(json, "scissor"), *target, *text, *index;
     int strip = is(topology, "triangle-strip");
@@ -293,6 +299,7 @@ static const char *draw(const char *json, Image *color, Image *depth, uint64_t *
     if (number(get(bias, "constant")) || number(get(bias, "slope"))) return "depth bias";
     d.depth = get(json, "depth");
     d.cull = get(json, "cull");
+    d.ccw = is(get(json, "front_face"), "ccw");
     numbers(get(viewport, "rect"), 4, d.viewport);
     numbers(get(viewport, "depth"), 2, d.range);
     numbers(get(get(json, "params"), "color"), 4, d.params);
@@ -312,10 +319,7 @@ static const char *draw(const char *json, Image *color, Image *depth, uint64_t *
     index = get(json, "indices");
     size_t *order = malloc(((index ? (size_t)(after(index) - index) : vertex_count) + 1) * sizeof *order);
     if (index) {
-        for (const char *p = blank(index + 1); *p != ']'; p = blank(*p == ',' ? p + 1 : p)) {
-            order[count++] = (size_t)number(p);
-            p = after(p);
-        }
+        for (const char *p = first(index); p; p = next(p)) order[count++] = (size_t)number(p);
     } else {
         for (; count < vertex_count; count++) order[count] = count;
     }
@@ -332,7 +336,7 @@ static const char *draw(const char *json, Image *color, Image *depth, uint64_t *
         if (strip && run % 2 == 0) triangle(&d, a, c, b);
         else triangle(&d, a, b, c);
     }
-    for (int i = 0; (index = item(get(json, "counters"), i)); i++) counters[(int)number(index)] += d.passed;
+    for (index = first(get(json, "counters")); index; index = next(index)) counters[(int)number(index)] += d.passed;
     free(vertices);
     free(order);
     return missing;
@@ -365,7 +369,7 @@ static const char *pass(const char *json, Image *images, uint64_t *counters) {
     const char *one, *missing = 0;
     if (color) operation(color_image, get(color, "load"));
     if (depth) operation(depth_image, get(get(depth, "depth"), "load"));
-    for (int i = 0; !missing && (one = item(draws, i)); i++) missing = draw(one, color_image, depth_image, counters);
+    for (one = first(draws); one && !missing; one = next(one)) missing = draw(one, color_image, depth_image, counters);
     if (color && get(color, "resolve")) resolve(color_image, images + (int)number(get(color, "resolve")));
     return missing;
 }
@@ -373,10 +377,10 @@ static const char *pass(const char *json, Image *images, uint64_t *counters) {
 static void answer(const char *line) {
     const char *scene = get(line, "scene"), *all = get(scene, "attachments"), *one, *missing = 0, *kind;
     Image images[64] = {0};
-    uint64_t counters[64] = {0};
+    uint64_t counters[64] = {0}, *count_of;
     int count = 0;
-    for (; count < 64 && (one = item(all, count)); count++) {
-        Image *image = images + count;
+    for (one = first(all); one && count < 64; one = next(one)) {
+        Image *image = images + count++;
         double color[4] = {0}, size[2];
         numbers(get(one, "size"), 2, size);
         image->width = (int)size[0], image->height = (int)size[1];
@@ -392,24 +396,25 @@ static void answer(const char *line) {
         else numbers(get(one, "clear"), 4, color);
         clear(image, color);
     }
-    for (int i = 0; !missing && (one = item(get(scene, "passes"), i)); i++) missing = pass(one, images, counters);
+    for (one = first(get(scene, "passes")); one && !missing; one = next(one)) missing = pass(one, images, counters);
     printf("{\"number\":%.0f,", number(get(line, "number")));
     if (missing) {
         printf("\"unsupported\":\"%s\"}\n", missing);
     } else {
         printf("\"frame\":{\"images\":[");
-        for (int i = 0; (one = item(get(scene, "read"), i)); i++) {
+        for (one = first(get(scene, "read")); one; one = next(one)) {
             Image *image = images + (int)number(one);
             const char *name = get(item(all, (int)number(one)), "name");
-            printf("%s{\"attachment\":%.*s,", i ? "," : "", (int)strcspn(name + 1, "\"") + 2, name);
+            printf("{\"attachment\":%.*s,", (int)strcspn(name + 1, "\"") + 2, name);
             printf("\"aspect\":\"%s\",\"texels\":\"", image->is_depth ? "depth" : "color");
             encode(image->bytes, 4 * samples_of(image));
-            printf("\"}");
+            printf(next(one) ? "\"}," : "\"}");
         }
         printf("],\"counters\":[");
-        for (int i = 0; (kind = item(get(scene, "counters"), i)); i++) {
-            uint64_t value = is(kind, "any-samples-passed") ? counters[i] > 0 : counters[i];
-            printf("%s%llu", i ? "," : "", (unsigned long long)value);
+        count_of = counters;
+        for (kind = first(get(scene, "counters")); kind; kind = next(kind), count_of++) {
+            uint64_t value = is(kind, "any-samples-passed") ? *count_of > 0 : *count_of;
+            printf(next(kind) ? "%llu," : "%llu", (unsigned long long)value);
         }
         printf("]}}\n");
     }

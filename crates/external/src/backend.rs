@@ -209,7 +209,7 @@ impl Prepared for ExternalScene<'_> {
             .backend
             .next_number
             .replace(self.backend.next_number.get() + 1);
-        let scene = self.scene.clone();
+        let scene = &self.scene;
         let mut line = serde_json::to_vec(&Request { number, scene })
             .map_err(|error| BackendError::internal_of("a scene is not sent", error.to_string()))?;
         line.push(b'\n');

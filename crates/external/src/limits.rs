@@ -5,7 +5,7 @@ use etalon_backend::codes::webgpu_layout;
 use etalon_frame::{
     Feature, FormatSupport, Limits, ReadPath, Requirement, TextureFormat, standard_sample_positions,
 };
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The features that no message of the protocol expresses.
 const NOT_EXPRESSED: [Feature; 21] = [
@@ -32,6 +32,9 @@ const NOT_EXPRESSED: [Feature; 21] = [
     Feature::UpperLeftDomain,
 ];
 
+/// The largest size that a program can have: no case needs more.
+const MAX_SIZE: u32 = 1 << 16;
+
 /// Returns the limits of a program, or what is wrong with its description.
 pub(crate) fn limits(hello: &Hello) -> Result<Limits, String> {
     if let Some(feature) = hello.features.iter().find(|f| NOT_EXPRESSED.contains(f)) {
@@ -39,7 +42,7 @@ pub(crate) fn limits(hello: &Hello) -> Result<Limits, String> {
             "`features` has {feature}, which the protocol cannot express: remove it"
         ));
     }
-    let mut formats = std::collections::BTreeMap::new();
+    let mut formats = BTreeMap::new();
     let mut sample_positions = hello.sample_positions.clone();
     for (format, offer) in &hello.formats {
         if format.is_color() && webgpu_layout(*format).is_empty() {
@@ -64,7 +67,7 @@ pub(crate) fn limits(hello: &Hello) -> Result<Limits, String> {
     Ok(Limits {
         version: hello.version,
         sub_pixel_bits: hello.sub_pixel_bits,
-        max_size: hello.max_size,
+        max_size: hello.max_size.min(MAX_SIZE),
         max_color_attachments: hello.max_color_attachments,
         formats,
         features: hello.features.clone(),

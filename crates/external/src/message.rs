@@ -195,7 +195,7 @@ pub fn schema() -> Value {
     let mut generator = schemars::SchemaGenerator::default();
     let messages = [
         generator.subschema_for::<Hello>(),
-        generator.subschema_for::<Request>(),
+        generator.subschema_for::<Request<'_>>(),
         generator.subschema_for::<Answer>(),
     ];
     json!({

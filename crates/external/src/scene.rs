@@ -21,11 +21,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// A line to a program: draw this scene and read it back.
 #[derive(Debug, Serialize, JsonSchema)]
-pub struct Request {
+pub struct Request<'s> {
     /// The number of the request, which the answer repeats.
     pub number: u64,
     /// The scene.
-    pub scene: SentScene,
+    pub scene: &'s SentScene,
 }
 
 /// Everything that is drawn. All lists are in the order of execution.
