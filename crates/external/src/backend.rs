@@ -18,6 +18,8 @@ use std::time::{Duration, Instant};
 
 /// The largest length of a description in bytes, and of an answer without its texels.
 const MOST_WORDS: u64 = 1 << 20;
+/// The time in which a program must send its description.
+const GREETING: Duration = Duration::from_secs(30);
 /// The most characters of a text that a program gives.
 const MOST_TEXT: usize = 400;
 
@@ -42,7 +44,7 @@ pub fn open(name: &str, mut command: Command) -> Result<ExternalBackend, Unavail
     };
     let mut program = Program::start(&mut command)
         .map_err(|error| failed(format!("it cannot be started: {error}")))?;
-    let line = program.greeting(MOST_WORDS).map_err(failed)?;
+    let line = program.greeting(MOST_WORDS, GREETING).map_err(failed)?;
     let hello = hello(&line).map_err(failed)?;
     let limits = limits(&hello).map_err(failed)?;
     Ok(ExternalBackend {

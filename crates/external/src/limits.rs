@@ -1,6 +1,6 @@
 //! The limits of a program, from its description.
 
-use crate::message::Hello;
+use crate::message::{Hello, ShaderLanguage};
 use etalon_backend::codes::webgpu_layout;
 use etalon_frame::{
     Feature, FormatSupport, Limits, ReadPath, Requirement, TextureFormat, standard_sample_positions,
@@ -8,9 +8,12 @@ use etalon_frame::{
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The features that no message of the protocol expresses.
-const NOT_EXPRESSED: [Feature; 21] = [
+const NOT_EXPRESSED: [Feature; 23] = [
     Feature::BaseVertex,
     Feature::ClearCommands,
+    // Backends change the shader for these two.
+    Feature::CullDistances,
+    Feature::StencilExport,
     Feature::DepthResolveAverage,
     Feature::DepthResolveMax,
     Feature::DepthResolveMin,
@@ -32,6 +35,13 @@ const NOT_EXPRESSED: [Feature; 21] = [
     Feature::UpperLeftDomain,
 ];
 
+/// The features whose shaders only WGSL expresses: the translation to other languages is wrong.
+const ONLY_WGSL: [Feature; 3] = [
+    Feature::SampleMaskInput,
+    Feature::SampleMaskOutput,
+    Feature::SampleMaskOutputWithAlphaToCoverage,
+];
+
 /// The largest size that a program can have: no case needs more.
 const MAX_SIZE: u32 = 1 << 16;
 
@@ -40,6 +50,13 @@ pub(crate) fn limits(hello: &Hello) -> Result<Limits, String> {
     if let Some(feature) = hello.features.iter().find(|f| NOT_EXPRESSED.contains(f)) {
         return Err(format!(
             "`features` has {feature}, which the protocol cannot express: remove it"
+        ));
+    }
+    let translated = hello.shaders.iter().any(|s| *s != ShaderLanguage::Wgsl);
+    let only_wgsl = hello.features.iter().find(|f| ONLY_WGSL.contains(f));
+    if let Some(feature) = only_wgsl.filter(|_| translated) {
+        return Err(format!(
+            "`features` has {feature}, whose shaders are in WGSL only: remove it, or the other languages of `shaders`"
         ));
     }
     let mut formats = BTreeMap::new();

@@ -7,8 +7,6 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// The time in which a program must send its description.
-const GREETING: Duration = Duration::from_secs(30);
 /// The time that a program has to end after its input ended.
 const GRACE: Duration = Duration::from_secs(1);
 /// The pause between checks of a program.
@@ -48,12 +46,12 @@ impl Program {
     }
 
     /// Returns the first line, for which the program has a limited time.
-    pub(crate) fn greeting(&mut self, most: u64) -> Result<Vec<u8>, String> {
+    pub(crate) fn greeting(&mut self, most: u64, within: Duration) -> Result<Vec<u8>, String> {
         let child = Arc::clone(&self.child);
         let (done, waits) = std::sync::mpsc::channel::<()>();
         let watched = thread::Builder::new().spawn(move || {
             let timed_out =
-                waits.recv_timeout(GREETING) == Err(std::sync::mpsc::RecvTimeoutError::Timeout);
+                waits.recv_timeout(within) == Err(std::sync::mpsc::RecvTimeoutError::Timeout);
             if timed_out {
                 // It might have ended already.
                 let _ = lock(&child).kill();
@@ -64,7 +62,7 @@ impl Program {
         let line = self.line(most);
         drop(done);
         if watched.join().unwrap_or(false) {
-            return Err(format!("it said nothing within {} s", GREETING.as_secs()));
+            return Err(format!("it said nothing within {} s", within.as_secs()));
         }
         line.map_err(|none| match none {
             NoLine::Ended => match self.status() {
@@ -169,4 +167,40 @@ fn lock(child: &Mutex<Child>) -> MutexGuard<'_, Child> {
 /// Returns the error for a line that is not an answer.
 pub(crate) fn garbage(why: &str) -> BackendError {
     BackendError::internal_of("the program's line is not an answer", why)
+}
+
+#[cfg(all(test, unix))]
+#[expect(clippy::unwrap_used, reason = "a test that panics has failed")]
+mod tests {
+    use super::*;
+
+    fn program(script: &str) -> Program {
+        Program::start(Command::new("sh").args(["-c", script])).unwrap()
+    }
+
+    #[test]
+    fn a_silent_program_is_not_waited_for() {
+        let begun = Instant::now();
+        let silent = program("exec sleep 1000").greeting(10, Duration::from_secs(1));
+        assert_eq!(silent, Err("it said nothing within 1 s".to_owned()));
+        assert!(begun.elapsed() < Duration::from_secs(60));
+    }
+
+    #[test]
+    fn a_program_that_does_not_read_its_input_can_answer() {
+        let mut program = program("echo hello; echo answer; exec sleep 1000");
+        let hello = program.greeting(10, Duration::from_secs(60));
+        assert_eq!(hello, Ok(b"hello".to_vec()));
+        // Less than a pipe holds is sent, whoever reads it.
+        let answer = program.exchange(&[b'x'; 1000], 10);
+        assert_eq!(answer, Ok(b"answer".to_vec()));
+    }
+
+    #[test]
+    fn a_flood_ends_while_the_scene_is_still_being_sent() {
+        let mut program = program("exec cat /dev/zero");
+        let flood = program.exchange(&vec![b'x'; 1 << 20], 1000);
+        let long = "it is longer than 1000 bytes, the most that an answer to this scene needs";
+        assert_eq!(flood, Err(garbage(long)));
+    }
 }

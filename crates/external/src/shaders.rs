@@ -19,7 +19,7 @@ pub struct ShaderSource {
     /// The text in WGSL.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wgsl: Option<String>,
-    /// The module in SPIR-V 1.3, little-endian, in base64.
+    /// The module in SPIR-V 1.3, little-endian, in base64. It leaves y up, so Vulkan needs a viewport of negative height.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spirv: Option<String>,
     /// The texts in GLSL 4.50, by stage: `vertex` and `fragment`. Depths in clip space stay 0 to w, and y stays up.

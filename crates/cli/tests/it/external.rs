@@ -310,6 +310,10 @@ fn a_program_without_a_description_is_unavailable() {
             "which the protocol cannot express",
         ),
         (
+            hello(",\"formats\":{},\"features\":[\"sample-mask-input\"],\"shaders\":[\"glsl\"]"),
+            "whose shaders are in WGSL only",
+        ),
+        (
             hello(",\"formats\":{\"bgra4unorm\":{\"samples\":[1]}}"),
             "which has no layout in WebGPU",
         ),
