@@ -24,4 +24,6 @@ pub enum BackendName {
     WgpuMetal,
     /// A browser's WebGPU.
     Webgpu,
+    /// A program that speaks the open protocol.
+    External,
 }

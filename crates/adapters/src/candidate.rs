@@ -64,6 +64,7 @@ fn open(name: &str, backend: BackendName) -> OpenRequest {
         device: None,
         egl: None,
         browser: None,
+        program: None,
         server: None,
         listen: None,
         validate: false,
@@ -241,6 +242,7 @@ impl Candidate {
                 device: description.device,
                 egl: resolved.egl.clone(),
                 browser: resolved.browser.clone(),
+                program: resolved.drawing.clone(),
                 server: resolved.server.clone(),
                 listen: resolved.listen.clone(),
                 fault: description.fault,
@@ -343,16 +345,18 @@ fn guarded(launcher: &[String]) -> Vec<String> {
 
 /// Returns true if a backend can have a fault.
 fn fits(fault: Fault, backend: BackendName) -> bool {
-    fault.fits(match backend {
-        BackendName::Cpu => None,
-        BackendName::Vulkan => Some(Api::Vulkan),
-        BackendName::Gl | BackendName::GlEs => Some(Api::OpenGl),
-        BackendName::WgpuVulkan
-        | BackendName::WgpuGl
-        | BackendName::WgpuDx12
-        | BackendName::WgpuMetal
-        | BackendName::Webgpu => Some(Api::WebGpu),
-    })
+    backend != BackendName::External
+        && fault.fits(match backend {
+            BackendName::Cpu => None,
+            BackendName::Vulkan => Some(Api::Vulkan),
+            BackendName::Gl | BackendName::GlEs => Some(Api::OpenGl),
+            BackendName::WgpuVulkan
+            | BackendName::WgpuGl
+            | BackendName::WgpuDx12
+            | BackendName::WgpuMetal
+            | BackendName::Webgpu
+            | BackendName::External => Some(Api::WebGpu),
+        })
 }
 
 /// Returns true if the name of the device or driver contains the word, ignoring case.

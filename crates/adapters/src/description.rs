@@ -4,10 +4,11 @@ use crate::backend_name::BackendName;
 use crate::error::AdapterError;
 use crate::listen::Listen;
 use crate::names::{MAX_NAME, is_name};
+use crate::open::DrawingProgram;
 use etalon_backend::Fault;
 use etalon_browser::Browser;
 use etalon_case::parse_json;
-use etalon_frame::without_mark;
+use etalon_frame::{AdapterName, without_mark};
 use etalon_keeper::Server;
 use etalon_record::Release;
 use serde::Deserialize;
@@ -21,6 +22,8 @@ use thiserror::Error;
 
 /// The maximum size of a file in bytes.
 const MAX_BYTES: u64 = 1 << 20;
+/// The first part of the names of programs.
+const EXTERNAL: &str = "external";
 /// The maximum number of entries of a file; each starts a process.
 const MAX_ENTRIES: usize = 64;
 
@@ -61,6 +64,9 @@ pub(crate) struct Description {
     /// Files of the browser's profile: names and contents.
     #[serde(default)]
     profile: BTreeMap<String, String>,
+    /// The words of the command of a program, for the backend `external`.
+    #[serde(default)]
+    command: Vec<String>,
     /// The address at which a browser, possibly on another machine, opens the worker's page, for the backend
     /// `webgpu`.
     pub(crate) listen: Option<SocketAddr>,
@@ -102,6 +108,7 @@ pub(crate) struct Resolved {
     pub(crate) egl: Option<PathBuf>,
     pub(crate) library_path: Vec<PathBuf>,
     pub(crate) browser: Option<Browser>,
+    pub(crate) drawing: Option<DrawingProgram>,
     pub(crate) server: Option<Server>,
     /// The address of the page, with a token of this run.
     pub(crate) listen: Option<Listen>,
@@ -276,6 +283,7 @@ impl Description {
         }
         self.check_launcher()?;
         self.check_browser()?;
+        self.check_command()?;
         if let Some(fault) = self.server.as_ref().and_then(Server::fault) {
             return Err(fault.to_owned());
         }
@@ -331,6 +339,31 @@ impl Description {
         }
         let fault = self.browser().and_then(|browser| browser.fault());
         fault.map_or(Ok(()), |fault| Err(fault.to_owned()))
+    }
+
+    fn check_command(&self) -> Result<(), String> {
+        let has = !self.command.is_empty();
+        if self.backend != BackendName::External {
+            return if has {
+                Err("`command` is for the backend external; remove it".to_owned())
+            } else {
+                Ok(())
+            };
+        }
+        if self.command.first().is_none_or(String::is_empty)
+            || self.command.iter().any(|word| word.contains('\0'))
+        {
+            return Err(
+                "the backend external needs `command`, words without zero bytes".to_owned(),
+            );
+        }
+        if self.device.is_some() {
+            return Err("the backend external has no `device`; remove it".to_owned());
+        }
+        if AdapterName::new(&self.name).backend() != EXTERNAL {
+            return Err(format!("the name of a program begins with `{EXTERNAL}:`"));
+        }
+        Ok(())
     }
 
     /// Returns the browser, with the words unresolved.
@@ -435,6 +468,22 @@ impl Description {
                 }
             }
             resolved.browser = Some(browser);
+        }
+        if !self.command.is_empty() {
+            let words = self.command.iter().map(|word| expand(word, variable));
+            let mut command = words.collect::<Result<Vec<_>, _>>()?;
+            if let Some(program) = command.first_mut() {
+                if program.contains(is_separator) {
+                    *program = folder.join(&*program).to_string_lossy().into_owned();
+                }
+                if here && !is_program(program, variable) {
+                    return Err(missing(format!("the program {program} does not exist")));
+                }
+            }
+            resolved.drawing = Some(DrawingProgram {
+                command,
+                folder: here.then(|| folder.to_owned()),
+            });
         }
         if let Some(mut server) = self.server.clone() {
             let values = server.environment.values_mut().flatten();
@@ -551,6 +600,8 @@ mod tests {
         let descriptions = built_in().unwrap();
         assert!(descriptions.len() >= 9);
         for entry in &descriptions {
+            // Only a user's own file names programs.
+            assert_ne!(entry.backend, BackendName::External);
             let needs = entry.backend != BackendName::Cpu;
             assert_eq!(needs, !entry.remedy.is_empty(), "{}", entry.name);
             assert_eq!(needs, entry.answers.is_some(), "{}", entry.name);
@@ -629,6 +680,18 @@ mod tests {
             (
                 r#"[{"name":"a","backend":"cpu","device":0}]"#,
                 "entry 1 (`a`): the backend cpu has no `device` and no `manifests`; remove them",
+            ),
+            (
+                r#"[{"name":"a","backend":"gl","command":["x"]}]"#,
+                "entry 1 (`a`): `command` is for the backend external; remove it",
+            ),
+            (
+                r#"[{"name":"external:a","backend":"external"}]"#,
+                "entry 1 (`external:a`): the backend external needs `command`, words without zero bytes",
+            ),
+            (
+                r#"[{"name":"a","backend":"external","command":["x"]}]"#,
+                "entry 1 (`a`): the name of a program begins with `external:`",
             ),
             (
                 r#"[{"name":"a","backend":"gl","launcher":[""]}]"#,

@@ -30,7 +30,7 @@ pub use discovery::{Adapters, discover};
 pub use error::AdapterError;
 pub use guard::guard;
 pub use listen::Listen;
-pub use open::{FROM_INPUT, OpenRequest};
+pub use open::{DrawingProgram, FROM_INPUT, OpenRequest};
 pub use origin::Origin;
 pub use query::Query;
 pub use unstarted::take_unstarted;

@@ -28,6 +28,9 @@ pub struct OpenRequest {
     /// The browser that the worker starts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub browser: Option<Browser>,
+    /// The program that draws, which the worker starts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub program: Option<DrawingProgram>,
     /// The server of the driver, which the worker starts.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub server: Option<Server>,
@@ -43,6 +46,16 @@ pub struct OpenRequest {
     /// The planted fault, which the end of the name states: `cpu:fault=abort`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fault: Option<Fault>,
+}
+
+/// A program that speaks the open protocol.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DrawingProgram {
+    /// The words of its command.
+    pub command: Vec<String>,
+    /// The folder in which it runs: that of the user's file. `None` behind a launcher.
+    pub folder: Option<PathBuf>,
 }
 
 fn is_false(value: &bool) -> bool {

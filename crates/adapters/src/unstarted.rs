@@ -20,6 +20,8 @@ pub fn take_unstarted(adapters: &mut Adapters) -> Vec<(AdapterRecord, String)> {
             | BackendName::WgpuDx12
             | BackendName::WgpuMetal => ("wgpu", Api::WebGpu),
             BackendName::Webgpu => ("webgpu", Api::WebGpu),
+            // Only a program that has started says which rules bind it.
+            BackendName::External => ("external", Api::Vulkan),
         };
         let adapter = AdapterRecord {
             info: AdapterInfo {

@@ -3,10 +3,40 @@
 //! A frame holds codes, and a backend that reads back floats or packed bytes must recover the codes without
 //! rounding. The backends share this arithmetic, so that a code means the same on each.
 
-use etalon_frame::ChannelEncoding;
+use etalon_frame::{ChannelEncoding, TextureFormat};
 
 /// The first bit and the width of each channel in a little-endian texel, in the order red to alpha.
 pub type TexelLayout = [(u32, u32)];
+
+/// Returns the layout of a colour format in WebGPU's buffers; empty if WebGPU lacks the format.
+pub fn webgpu_layout(format: TextureFormat) -> &'static TexelLayout {
+    match format {
+        TextureFormat::R8Unorm | TextureFormat::R8Snorm | TextureFormat::R8Uint => &[(0, 8)],
+        TextureFormat::Rg8Unorm | TextureFormat::Rg8Snorm => &[(0, 8), (8, 8)],
+        TextureFormat::R16Unorm | TextureFormat::R16Uint | TextureFormat::R16Float => &[(0, 16)],
+        TextureFormat::Rg16Unorm | TextureFormat::Rg16Uint | TextureFormat::Rg16Float => {
+            &[(0, 16), (16, 16)]
+        }
+        TextureFormat::Rgba8Unorm
+        | TextureFormat::Rgba8UnormSrgb
+        | TextureFormat::Rgba8Snorm
+        | TextureFormat::Rgba8Uint => &[(0, 8), (8, 8), (16, 8), (24, 8)],
+        TextureFormat::Bgra8Unorm | TextureFormat::Bgra8UnormSrgb => {
+            &[(16, 8), (8, 8), (0, 8), (24, 8)]
+        }
+        TextureFormat::Rgb10a2Unorm | TextureFormat::Rgb10a2Uint => {
+            &[(0, 10), (10, 10), (20, 10), (30, 2)]
+        }
+        TextureFormat::Rg11b10Ufloat => &[(0, 11), (11, 11), (22, 10)],
+        TextureFormat::Rgba16Unorm | TextureFormat::Rgba16Uint | TextureFormat::Rgba16Float => {
+            &[(0, 16), (16, 16), (32, 16), (48, 16)]
+        }
+        TextureFormat::R32Float => &[(0, 32)],
+        TextureFormat::Rg32Float => &[(0, 32), (32, 32)],
+        TextureFormat::Rgba32Float => &[(0, 32), (32, 32), (64, 32), (96, 32)],
+        _ => &[],
+    }
+}
 
 /// Returns the size of a texel in bytes.
 pub fn texel_bytes(layout: &TexelLayout) -> usize {

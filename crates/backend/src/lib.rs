@@ -108,6 +108,9 @@ pub enum BackendError {
     /// occurs only if a driver denies what it advertises.
     #[error("not supported: {0}")]
     NotSupported(Requirement),
+    /// The program that draws for the adapter does not support something in the scene, by its own words.
+    #[error("not supported: {0}")]
+    Unsupported(String),
     /// The backend or its driver failed.
     #[error("{}", failed(kind, message))]
     Failed {
@@ -122,7 +125,7 @@ impl BackendError {
     /// Returns the kind of the failure; `None` if the scene is not supported.
     pub fn kind(&self) -> Option<&ErrorKind> {
         match self {
-            Self::NotSupported(_) => None,
+            Self::NotSupported(_) | Self::Unsupported(_) => None,
             Self::Failed { kind, .. } => Some(kind),
         }
     }

@@ -5,8 +5,8 @@ use crate::commands::history;
 #[cfg(feature = "mutants")]
 use crate::commands::mutants;
 use crate::commands::{
-    adapters, bench, bisect, bundle, check, completions, diff, expectations, explain, fuzz, list,
-    man, merge, reduce, report, run, show, site,
+    adapters, bench, bisect, bundle, check, completions, conformance, diff, expectations, explain,
+    fuzz, list, man, merge, reduce, report, run, schema, show, site,
 };
 use crate::worker;
 use clap::{Parser, Subcommand};
@@ -36,8 +36,8 @@ pub(crate) enum Command {
     Check(check::Arguments),
     /// Show a case: its purpose, scene, JSON, shaders and picture
     Show(show::Arguments),
-    /// Print the JSON schema of case files
-    Schema,
+    /// Print the JSON schema of case files, or of the open protocol
+    Schema(schema::Arguments),
     /// Draw cases on adapters, judge every texel, write records and reports
     Run(run::Arguments),
     /// Rebuild the reports of run and bench folders
@@ -57,6 +57,8 @@ pub(crate) enum Command {
     #[cfg(feature = "history")]
     #[command(subcommand)]
     History(history::HistoryCommand),
+    /// Check an adapter with scenes whose pictures are exact, and say what its author should fix first
+    Conformance(conformance::Arguments),
     /// Find the releases of a driver that draw cases wrong
     Bisect(bisect::Arguments),
     /// Explain one texel, operation by operation, with rules and citations

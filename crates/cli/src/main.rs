@@ -87,7 +87,7 @@ fn main() -> ExitCode {
         Command::List(arguments) => commands::list::run(&arguments),
         Command::Check(arguments) => commands::check::run(&arguments),
         Command::Show(arguments) => commands::show::run(&arguments),
-        Command::Schema => commands::schema::run(),
+        Command::Schema(arguments) => commands::schema::run(&arguments),
         Command::Run(arguments) => commands::run::run(&arguments),
         Command::Report(arguments) => commands::report::run(&arguments),
         Command::Merge(arguments) => commands::merge::run(&arguments),
@@ -97,6 +97,7 @@ fn main() -> ExitCode {
         #[cfg(feature = "history")]
         Command::History(command) => commands::history::run(&command),
         Command::Site(arguments) => commands::site::run(&arguments),
+        Command::Conformance(arguments) => commands::conformance::run(&arguments),
         Command::Bisect(arguments) => commands::bisect::run(&arguments),
         Command::Explain(arguments) => commands::explain::run(&arguments),
         Command::Reduce(arguments) => commands::reduce::run(&arguments),

@@ -168,6 +168,7 @@ fn open(request: &OpenRequest, pipe: File) -> Result<Box<dyn Backend>, Unavailab
         #[cfg(feature = "wgpu")]
         BackendName::WgpuMetal => wgpu(request, etalon_wgpu::Via::Metal),
         BackendName::Webgpu => browser(request),
+        BackendName::External => external(request),
         #[cfg(not(feature = "full"))]
         backend => Err(without(backend)),
     }
@@ -284,10 +285,23 @@ fn browser(request: &OpenRequest) -> Result<Box<dyn Backend>, Unavailable> {
     etalon_browser::open(&request.name, options).map(|b| Box::new(b) as Box<dyn Backend>)
 }
 
+/// Starts the program of an adapter.
+fn external(request: &OpenRequest) -> Result<Box<dyn Backend>, Unavailable> {
+    let missing = || Unavailable::new("the adapter has no `command`", "correct its entry");
+    let program = request.program.as_ref().ok_or_else(missing)?;
+    let (name, words) = program.command.split_first().ok_or_else(missing)?;
+    let mut command = Command::new(name);
+    command.args(words);
+    if let Some(folder) = &program.folder {
+        command.current_dir(folder);
+    }
+    etalon_external::open(&request.name, command).map(|b| Box::new(b) as Box<dyn Backend>)
+}
+
 /// Returns the hardware devices; software drivers are described in the data file.
 fn enumerate(backend: BackendName) -> Result<Vec<HardwareDevice>, Unavailable> {
     match backend {
-        BackendName::Cpu | BackendName::Webgpu => Ok(Vec::new()),
+        BackendName::Cpu | BackendName::Webgpu | BackendName::External => Ok(Vec::new()),
         #[cfg(feature = "vulkan")]
         BackendName::Vulkan => etalon_vulkan::enumerate().map(hardware),
         #[cfg(feature = "gl")]

@@ -6,7 +6,8 @@
 //! The features that software drivers lack are listed by name: a check that is skipped for anything else
 //! fails, and each check draws on at least one of the drivers.
 //!
-//! The backends use this only as a development dependency, so that only their tests see cases.
+//! The backends use this only as a development dependency, so that only their tests see cases. `etalon conformance` runs
+//! the same checks on any adapter ([`check_each()`]), and [`first_topic()`] says what its author should fix first.
 #![expect(clippy::unwrap_used, reason = "a check fails by panicking")]
 
 mod checks;
@@ -20,6 +21,7 @@ mod library;
 mod prediction;
 mod scenes;
 mod subject;
+mod topics;
 
 pub use checks::{CHECKS, DriverCheck};
 pub use child::in_child;
@@ -34,3 +36,4 @@ pub use library::{Share, draw_area, draw_library};
 pub use scenes::{scene, with};
 pub use serde_json::{Value, json};
 pub use subject::{CheckResult, CheckedBackend, Missing};
+pub use topics::{Topic, check_each, first_topic};

@@ -1,24 +1,26 @@
 //! An open backend under test: draws scenes, and records the scenes that its limits deny.
 
 use crate::scenes::scene;
-use etalon_backend::{Backend, BackendError, Prepared};
-use etalon_frame::{AdapterInfo, Feature, Frame, Limits, PathValue, Requirement};
+use etalon_backend::{Backend, BackendError, FrameTime, Prepared};
+use etalon_frame::{
+    AdapterInfo, Feature, FormatSupport, Frame, Limits, PathValue, Requirement, TextureFormat,
+};
 use etalon_scene::Scene;
 use serde_json::Value;
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::time::Duration;
 
-/// The error for a scene that the limits deny, with the requirement.
+/// The error for a scene that the limits deny, or that the backend does not support by its own words.
 #[derive(Clone, Copy, Debug)]
-pub struct Missing(pub Requirement);
+pub struct Missing;
 
 /// The result of a check that did not fail.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum CheckResult {
     /// Everything was drawn except scenes that need one of these.
     Passed(BTreeSet<Requirement>),
-    /// Nothing was drawn, because every scene needs one of these.
+    /// Nothing was drawn, because every scene needs one of these, or is not supported by the backend's own words.
     Skipped(BTreeSet<Requirement>),
 }
 
@@ -32,6 +34,8 @@ pub struct CheckedBackend<'a> {
     limits: Limits,
     drawn: Cell<bool>,
     missing: RefCell<BTreeSet<Requirement>>,
+    /// True if a scene is not supported by the backend's own words.
+    unsupported: Cell<bool>,
 }
 
 impl<'a> CheckedBackend<'a> {
@@ -43,6 +47,7 @@ impl<'a> CheckedBackend<'a> {
             limits: backend.limits().clone(),
             drawn: Cell::default(),
             missing: RefCell::default(),
+            unsupported: Cell::default(),
         }
     }
 
@@ -85,10 +90,20 @@ impl<'a> CheckedBackend<'a> {
         self.limits().features.contains(&feature)
     }
 
+    /// Returns the support of a format.
+    pub(crate) fn support(&self, format: TextureFormat) -> Result<&FormatSupport, Missing> {
+        self.limits.formats.get(&format).ok_or_else(|| {
+            let needed = Requirement::Format(format);
+            self.missing.borrow_mut().insert(needed);
+            Missing
+        })
+    }
+
     /// Returns the result of everything that was drawn since the last call.
     pub(crate) fn outcome(&self) -> CheckResult {
         let missing = self.missing.take();
-        if self.drawn.take() || missing.is_empty() {
+        let denied = self.unsupported.take() || !missing.is_empty();
+        if self.drawn.take() || !denied {
             CheckResult::Passed(missing)
         } else {
             CheckResult::Skipped(missing)
@@ -107,15 +122,29 @@ impl<'a> CheckedBackend<'a> {
             assert_eq!(refused, Some(BackendError::NotSupported(denied)));
         }
         self.missing.borrow_mut().insert(requirement);
-        Err(Missing(requirement))
+        Err(Missing)
     }
 
     /// Prepares a scene that the limits allow.
     pub(crate) fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, Missing> {
         self.check_offered(scene)?;
         let prepared = self.backend.prepare(scene);
-        self.drawn.set(true);
         Ok(prepared.unwrap_or_else(|e| panic!("the scene is not prepared: {e}")))
+    }
+
+    /// Draws a prepared scene, unless the backend does not support it by its own words.
+    pub(crate) fn submit(&self, prepared: &mut dyn Prepared) -> Result<FrameTime, Missing> {
+        match prepared.submit() {
+            Ok(time) => {
+                self.drawn.set(true);
+                Ok(time)
+            }
+            Err(BackendError::Unsupported(_)) => {
+                self.unsupported.set(true);
+                Err(Missing)
+            }
+            Err(error) => panic!("the scene is not drawn: {error}"),
+        }
     }
 
     /// Draws a scene twice, and asserts that both frames are complete and equal, and that validation
@@ -123,14 +152,15 @@ impl<'a> CheckedBackend<'a> {
     pub(crate) fn draw(&self, scene: &Scene) -> Result<Frame, Missing> {
         let mut prepared = self.prepare(scene)?;
         let mut draw = || {
-            let time = prepared.submit().expect("the scene is drawn");
+            let time = self.submit(prepared.as_mut())?;
             assert!(
                 time.cpu <= time.wall && time.wall > Duration::ZERO,
                 "{time:?}"
             );
-            prepared.read_back().expect("the frame is read back")
+            let frame = prepared.read_back();
+            Ok(frame.unwrap_or_else(|e| panic!("the frame is not read back: {e}")))
         };
-        let (first, second) = (draw(), draw());
+        let (first, second) = (draw()?, draw()?);
         drop(prepared);
         assert_eq!(first, second, "two submits give the same frame");
         check_shape(scene, &first);

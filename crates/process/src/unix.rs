@@ -3,8 +3,8 @@
 use rustix::event::{PollFd, PollFlags, poll};
 use rustix::io::Errno;
 use rustix::process::{
-    Pid, Resource, Rlimit, Signal, getpgrp, getpid, getppid, kill_process, kill_process_group,
-    setrlimit,
+    Pid, Resource, Rlimit, Signal, getpgid, getpgrp, getpid, getppid, kill_process,
+    kill_process_group, setrlimit,
 };
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -157,15 +157,38 @@ pub fn signal(status: ExitStatus) -> Option<i32> {
     status.signal()
 }
 
-/// Returns the bytes of memory that a process uses, resident and swapped; `None` if the system does not
-/// report it.
+/// Returns the bytes of memory that a process and its descendants of the same group use, resident and swapped;
+/// `None` if the system does not report it.
 pub fn memory(child: &Child) -> Option<u64> {
-    let status = fs::read_to_string(format!("/proc/{}/status", child.id())).ok()?;
+    let leader = Pid::from_raw(i32::try_from(child.id()).ok()?)?;
+    memory_of(leader, getpgid(Some(leader)).ok()?)
+}
+
+fn memory_of(process: Pid, group: Pid) -> Option<u64> {
+    let id = process.as_raw_nonzero();
+    let status = fs::read_to_string(format!("/proc/{id}/status")).ok()?;
     let field = |name: &str| -> Option<u64> {
         let line = status.lines().find_map(|l| l.strip_prefix(name))?;
         line.trim_end_matches("kB").trim().parse().ok()
     };
-    Some((field("VmRSS:")? + field("VmSwap:").unwrap_or(0)) * 1024)
+    let own = (field("VmRSS:")? + field("VmSwap:").unwrap_or(0)) * 1024;
+    let threads = fs::read_dir(format!("/proc/{id}/task"))
+        .into_iter()
+        .flatten();
+    let children = threads.flatten().filter_map(|thread| {
+        let numbers = fs::read_to_string(thread.path().join("children")).ok()?;
+        let pids = numbers
+            .split_whitespace()
+            .filter_map(|n| Pid::from_raw(n.parse().ok()?));
+        let of_group = pids.filter(|pid| getpgid(Some(*pid)) == Ok(group));
+        // A child can end at any time.
+        Some(
+            of_group
+                .filter_map(|pid| memory_of(pid, group))
+                .sum::<u64>(),
+        )
+    });
+    Some(own + children.sum::<u64>())
 }
 
 /// Writes to standard output.

@@ -7,7 +7,7 @@ use std::io::{self, BufRead, Read, Write};
 /// The first words of each greeting.
 const WORDS: &str = "etalon worker ";
 /// The version of the messages after it. Any change of the messages needs a new version.
-const PROTOCOL: u32 = 1;
+const PROTOCOL: u32 = 2;
 /// The longest line, in bytes, that is read or quoted.
 const MOST: u64 = 200;
 

@@ -24,6 +24,7 @@ mod process;
 mod process_end;
 mod protocol;
 mod reduction;
+mod remote;
 mod run;
 mod serve;
 mod sized;
@@ -47,6 +48,7 @@ pub use protocol::Hello;
 pub use reduction::{
     Flakiness, Looked, Lost, Reducer, ReductionError, Smallest, Unconfirmed, confirm, smallest,
 };
+pub use remote::RemoteBackend;
 pub use run::{
     Drawn, FrameSizes, KeptFrames, Plan, Rechecks, RunError, RunOptions, RunSummary, run,
 };

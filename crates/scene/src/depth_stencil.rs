@@ -81,7 +81,7 @@ state_enum! {
 }
 
 /// The stencil test of a draw.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 pub struct StencilState {
     /// The test for front faces.
     pub front: StencilFace,
@@ -90,7 +90,7 @@ pub struct StencilState {
 }
 
 /// The stencil test for one face.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 pub struct StencilFace {
     /// The comparison: masked reference on the left, masked stored value on the right.
     pub compare: CompareFunction,

@@ -12,6 +12,7 @@ use crate::sampler::Sampler;
 use crate::shader::Shader;
 use crate::tessellation::Tessellation;
 use etalon_frame::{Aspect, TextureFormat};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// One draw call with all its state.
@@ -182,7 +183,7 @@ fn all_clip_distances() -> u8 {
 }
 
 /// The parameter block: 32 bytes of uniform memory, in this order.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[repr(C)]
 pub struct Params {
     /// A colour, or four other numbers, as the shader uses them.

@@ -1,38 +1,7 @@
 //! The layout of colour texels in buffers.
 
-use etalon_backend::codes::{self, TexelLayout};
+use etalon_backend::codes::{self, webgpu_layout as layout};
 use etalon_frame::TextureFormat;
-
-/// Returns the first bit and the width of each channel in a texel of little-endian bytes, in the order red to
-/// alpha.
-fn layout(format: TextureFormat) -> &'static TexelLayout {
-    match format {
-        TextureFormat::R8Unorm | TextureFormat::R8Snorm | TextureFormat::R8Uint => &[(0, 8)],
-        TextureFormat::Rg8Unorm | TextureFormat::Rg8Snorm => &[(0, 8), (8, 8)],
-        TextureFormat::R16Unorm | TextureFormat::R16Uint | TextureFormat::R16Float => &[(0, 16)],
-        TextureFormat::Rg16Unorm | TextureFormat::Rg16Uint | TextureFormat::Rg16Float => {
-            &[(0, 16), (16, 16)]
-        }
-        TextureFormat::Rgba8Unorm
-        | TextureFormat::Rgba8UnormSrgb
-        | TextureFormat::Rgba8Snorm
-        | TextureFormat::Rgba8Uint => &[(0, 8), (8, 8), (16, 8), (24, 8)],
-        TextureFormat::Bgra8Unorm | TextureFormat::Bgra8UnormSrgb => {
-            &[(16, 8), (8, 8), (0, 8), (24, 8)]
-        }
-        TextureFormat::Rgb10a2Unorm | TextureFormat::Rgb10a2Uint => {
-            &[(0, 10), (10, 10), (20, 10), (30, 2)]
-        }
-        TextureFormat::Rg11b10Ufloat => &[(0, 11), (11, 11), (22, 10)],
-        TextureFormat::Rgba16Unorm | TextureFormat::Rgba16Uint | TextureFormat::Rgba16Float => {
-            &[(0, 16), (16, 16), (32, 16), (48, 16)]
-        }
-        TextureFormat::R32Float => &[(0, 32)],
-        TextureFormat::Rg32Float => &[(0, 32), (32, 32)],
-        TextureFormat::Rgba32Float => &[(0, 32), (32, 32), (64, 32), (96, 32)],
-        _ => &[],
-    }
-}
 
 /// Returns the first bit and the width of each channel.
 pub(crate) fn places(format: TextureFormat) -> Vec<[u32; 2]> {

@@ -6,6 +6,7 @@ pub(crate) mod bisect;
 pub(crate) mod bundle;
 pub(crate) mod check;
 pub(crate) mod completions;
+pub(crate) mod conformance;
 pub(crate) mod diff;
 pub(crate) mod expectations;
 pub(crate) mod explain;

@@ -2,9 +2,22 @@
 
 use crate::failure::Failure;
 use crate::output::print_json;
+use clap::Args;
 
-/// Prints the JSON schema of case files.
-pub(crate) fn run() -> Result<u8, Failure> {
-    print_json(&etalon_case::schema())?;
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Print instead the JSON schema of the open protocol, by which a program of your own draws scenes
+    #[arg(long)]
+    pub(crate) protocol: bool,
+}
+
+/// Prints the JSON schema of case files, or of the protocol.
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let schema = if arguments.protocol {
+        etalon_external::schema()
+    } else {
+        etalon_case::schema()
+    };
+    print_json(&schema)?;
     Ok(0)
 }

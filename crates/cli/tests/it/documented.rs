@@ -8,10 +8,11 @@ use std::path::Path;
 use tempfile::TempDir;
 
 /// The pages.
-const PAGES: [&str; 7] = [
+const PAGES: [&str; 8] = [
     "README.md",
     "ci/README.md",
     "ci/adapters/README.md",
+    "ci/adapters/external.md",
     "ci/conformance.md",
     "ci/dashboards.md",
     "crates/commands.md",
@@ -129,6 +130,14 @@ const TREATED: &[(&str, Treatment)] = &[
         Not("takes minutes; check.rs runs it on a few files"),
     ),
     ("etalon check DIR", As("check cases")),
+    (
+        "etalon conformance --adapters FILE --adapter external:mine",
+        As("conformance --adapter cpu"),
+    ),
+    (
+        "etalon run --adapters FILE --adapter external:mine",
+        As("run cull/points/* --adapter cpu --out {new}"),
+    ),
     ("etalon completions SHELL", As("completions bash")),
     ("etalon diff A B", As("diff run-a run-b")),
     ("etalon diff BEFORE AFTER", As("diff bench-a bench-b")),

@@ -22,6 +22,7 @@ mod driver_releases;
 mod ends;
 mod etalon;
 mod expectations;
+mod external;
 mod findings;
 mod folders;
 mod fuzz;

@@ -221,7 +221,7 @@ pub(crate) fn blendable_formats_blend(s: &CheckedBackend) -> CheckEnd {
 pub(crate) fn srgb_codes_are_the_stored_bytes(s: &CheckedBackend) -> CheckEnd {
     let half = json!({ "kind": "rect", "texels": [0, 0, 16, 4], "value": 0.5 });
     let draws = json!([{ "mesh": half, "shader": "flat_color" }]);
-    for samples in &s.limits().formats[&TextureFormat::Rgba8UnormSrgb].samples {
+    for samples in &s.support(TextureFormat::Rgba8UnormSrgb)?.samples {
         let cleared = |format: &str| json!({ "format": format, "samples": samples, "clear": [0.5, 0.5, 0.5, 0.5] });
         let frame = s.show(json!({
             "attachments": { "a": cleared("rgba8unorm-srgb"), "b": cleared("rgba8unorm") },

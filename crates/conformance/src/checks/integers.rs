@@ -8,7 +8,7 @@ use etalon_frame::{Api, ReadPath, TextureFormat};
 use serde_json::json;
 
 pub(crate) fn integers_are_cleared_and_uploaded(s: &CheckedBackend) -> CheckEnd {
-    let support = &s.limits().formats[&TextureFormat::Rgba8Uint];
+    let support = s.support(TextureFormat::Rgba8Uint)?;
     assert_eq!((support.read, support.blendable), (ReadPath::Copy, false));
     let rows: Vec<_> = (0..16).map(|y| [y, 255 - y, 7 * y, 128]).collect();
     let frame = s.show(json!({

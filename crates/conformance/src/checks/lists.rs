@@ -68,7 +68,7 @@ pub(crate) fn a_full_pool_drops_the_rest(s: &CheckedBackend) -> CheckEnd {
     let scene = scene(listed(&[(ALL, 0.3, RED), (ALL, 0.4, RED)], 20));
     let mut prepared = s.prepare(&scene)?;
     for _ in 0..3 {
-        prepared.submit().expect("the scene is drawn");
+        s.submit(prepared.as_mut())?;
         let frame = prepared.read_back().expect("the frame is read back");
         let mut nodes = 0;
         for texel in texels([4, 4]) {

@@ -1,0 +1,267 @@
+//! The backend that draws in a program.
+
+use crate::limits::{limits, read_path};
+use crate::message::{Answer, FrameAnswer, Hello, ImageAnswer, PROTOCOL, ShaderLanguage};
+use crate::program::{Program, garbage};
+use crate::scene::{Request, SentScene};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use etalon_backend::{Backend, BackendError, FrameTime, Prepared, Unavailable, codes};
+use etalon_frame::{
+    AdapterInfo, Aspect, ChannelEncoding, Frame, Image, Limits, ReadPath, printable,
+};
+use etalon_scene::{Attachment, Scene};
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeSet;
+use std::process::Command;
+use std::time::{Duration, Instant};
+
+/// The largest length of a description in bytes, and of an answer without its texels.
+const MOST_WORDS: u64 = 1 << 20;
+/// The time in which a program must send its description.
+const GREETING: Duration = Duration::from_secs(30);
+/// The most characters of a text that a program gives.
+const MOST_TEXT: usize = 400;
+
+/// A device in a program.
+pub struct ExternalBackend {
+    info: AdapterInfo,
+    limits: Limits,
+    shaders: BTreeSet<ShaderLanguage>,
+    program: RefCell<Program>,
+    next_number: Cell<u64>,
+}
+
+/// Starts a program and waits for its description.
+///
+/// # Errors
+/// If it cannot be started, or sends no valid description.
+pub fn open(name: &str, mut command: Command) -> Result<ExternalBackend, Unavailable> {
+    let word = command.get_program().to_string_lossy().into_owned();
+    let failed = |reason: String| {
+        let remedy = "see ci/adapters/external.md, and `etalon schema --protocol`";
+        Unavailable::new(format!("the program `{word}`: {reason}"), remedy)
+    };
+    let mut program = Program::start(&mut command)
+        .map_err(|error| failed(format!("it cannot be started: {error}")))?;
+    let line = program.greeting(MOST_WORDS, GREETING).map_err(failed)?;
+    let hello = hello(&line).map_err(failed)?;
+    let limits = limits(&hello).map_err(failed)?;
+    Ok(ExternalBackend {
+        info: AdapterInfo {
+            name: name.to_owned(),
+            backend: "external".to_owned(),
+            device: hello.device,
+            driver: hello.driver,
+            driver_version: hello.driver_version,
+            driver_id: String::new(),
+            api_version: format!("protocol {PROTOCOL}"),
+            software: hello.software,
+            offer: None,
+        },
+        limits,
+        shaders: hello.shaders,
+        program: RefCell::new(program),
+        next_number: Cell::new(0),
+    })
+}
+
+/// Reads a description.
+fn hello(line: &[u8]) -> Result<Hello, String> {
+    let wrong = |error| format!("its first line is not a description: {error}");
+    // Another version has other keys.
+    let value: serde_json::Value = serde_json::from_slice(line).map_err(wrong)?;
+    match &value["protocol"] {
+        version if *version == PROTOCOL => serde_json::from_value(value).map_err(wrong),
+        serde_json::Value::Number(version) => Err(format!(
+            "it speaks protocol {version}, and this etalon protocol {PROTOCOL}"
+        )),
+        _ => Err("its first line has no number `protocol`".to_owned()),
+    }
+}
+
+impl Backend for ExternalBackend {
+    fn adapter(&self) -> &AdapterInfo {
+        &self.info
+    }
+
+    fn limits(&self) -> &Limits {
+        &self.limits
+    }
+
+    fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
+        if let Some(missing) = self.limits.missing(&scene.requirements()) {
+            return Err(BackendError::NotSupported(missing));
+        }
+        let read = scene.read.iter().map(|i| scene.attachments[*i].clone());
+        Ok(Box::new(ExternalScene {
+            backend: self,
+            scene: SentScene::new(scene, &self.shaders)?,
+            read: read.collect(),
+            frame: None,
+        }))
+    }
+}
+
+/// A scene, which is sent for each frame.
+struct ExternalScene<'a> {
+    backend: &'a ExternalBackend,
+    scene: SentScene,
+    read: Vec<Attachment>,
+    frame: Option<Frame>,
+}
+
+impl ExternalScene<'_> {
+    /// Returns the images that a frame must have, without codes.
+    fn images(&self) -> impl Iterator<Item = Image> + '_ {
+        self.read.iter().flat_map(|attachment| {
+            let aspects = attachment.format.aspects().iter();
+            aspects.map(|aspect| {
+                let (channels, read) = match aspect {
+                    Aspect::Color => (attachment.format.color_channels().to_vec(), ReadPath::Copy),
+                    Aspect::Depth => (vec![ChannelEncoding::Float32], read_path(attachment.format)),
+                    Aspect::Stencil => (vec![ChannelEncoding::Uint(8)], ReadPath::Copy),
+                };
+                Image {
+                    attachment: attachment.name.clone(),
+                    aspect: *aspect,
+                    size: attachment.size,
+                    samples: attachment.samples,
+                    channels,
+                    read,
+                    codes: Vec::new(),
+                }
+            })
+        })
+    }
+
+    /// Returns the layout of a texel's bytes in an answer.
+    fn layout(&self, image: &Image) -> &'static codes::TexelLayout {
+        let format = self.read.iter().find(|a| a.name == image.attachment);
+        match image.aspect {
+            Aspect::Color => format.map_or(&[], |a| codes::webgpu_layout(a.format)),
+            Aspect::Depth => &[(0, 32)],
+            Aspect::Stencil => &[(0, 8)],
+        }
+    }
+
+    /// Returns the most bytes that an answer needs.
+    fn most_bytes(&self) -> u64 {
+        let texels = self.images().map(|image| {
+            let bytes = codes::texel_bytes(self.layout(&image)) as u64;
+            let [width, height] = image.size.map(u64::from);
+            // Base64 has four characters for three bytes.
+            (width * height * u64::from(image.samples) * bytes / 3 + 1) * 4
+        });
+        MOST_WORDS + texels.sum::<u64>()
+    }
+
+    /// Returns the frame of an answer, or what is wrong with it.
+    fn frame(&self, answer: &FrameAnswer) -> Result<Frame, String> {
+        let expected: Vec<Image> = self.images().collect();
+        let (came, counters) = (answer.images.len(), answer.counters.len());
+        if came != expected.len() {
+            return Err(format!("{came} images, {} were requested", expected.len()));
+        }
+        if counters != self.scene.counters.len() {
+            let requested = self.scene.counters.len();
+            return Err(format!("{counters} counters, {requested} were requested"));
+        }
+        let images = expected.into_iter().zip(&answer.images);
+        let images = images.map(|(image, came)| self.image(image, came));
+        Ok(Frame {
+            images: images.collect::<Result<_, _>>()?,
+            counters: answer.counters.clone(),
+        })
+    }
+
+    /// Fills an image with the codes of an answer.
+    fn image(&self, mut image: Image, came: &ImageAnswer) -> Result<Image, String> {
+        let name = format!("{} of {}", image.aspect, image.attachment);
+        if came.attachment != image.attachment || came.aspect != image.aspect {
+            let other = printable(&came.attachment, MOST_TEXT);
+            return Err(format!("{} of {other} in place of {name}", came.aspect));
+        }
+        let bytes = STANDARD.decode(&came.texels);
+        let bytes = bytes.map_err(|error| format!("{name} is not base64: {error}"))?;
+        let layout = self.layout(&image);
+        let size = codes::texel_bytes(layout);
+        let texels = image.size[0] as usize * image.size[1] as usize * image.samples as usize;
+        if bytes.len() != texels * size {
+            let [width, height] = image.size;
+            return Err(format!(
+                "{name} has {} bytes, but {width} by {height} texels of {} samples of {size} bytes have {}",
+                bytes.len(),
+                image.samples,
+                texels * size
+            ));
+        }
+        image.codes.reserve(texels * layout.len());
+        for texel in bytes.chunks(size.max(1)) {
+            codes::unpack(layout, texel, &mut image.codes);
+        }
+        Ok(image)
+    }
+}
+
+impl Prepared for ExternalScene<'_> {
+    fn submit(&mut self) -> Result<FrameTime, BackendError> {
+        self.frame = None;
+        let number = self
+            .backend
+            .next_number
+            .replace(self.backend.next_number.get() + 1);
+        let scene = &self.scene;
+        let mut line = serde_json::to_vec(&Request { number, scene })
+            .map_err(|error| BackendError::internal_of("a scene is not sent", error.to_string()))?;
+        line.push(b'\n');
+        let begun = Instant::now();
+        let answer = self
+            .backend
+            .program
+            .borrow_mut()
+            .exchange(&line, self.most_bytes())?;
+        let elapsed = begun.elapsed().max(Duration::from_nanos(1));
+        let answer: Answer = serde_json::from_slice(&answer)
+            .map_err(|error| garbage(&printable(&error.to_string(), MOST_TEXT)))?;
+        if answer.number != number {
+            return Err(garbage(&format!(
+                "it has number {} instead of {number}",
+                answer.number
+            )));
+        }
+        let frame = match (answer.frame, answer.unsupported, answer.error) {
+            (Some(frame), None, None) => frame,
+            (None, Some(what), None) => {
+                return Err(BackendError::Unsupported(printable(&what, MOST_TEXT)));
+            }
+            (None, None, Some(mut failure)) => {
+                failure.message = printable(&failure.message, MOST_TEXT);
+                return Err(failure.into());
+            }
+            _ => {
+                return Err(garbage(
+                    "it has not exactly one of `frame`, `unsupported` and `error`",
+                ));
+            }
+        };
+        let wall = match answer.seconds {
+            None => elapsed,
+            Some(seconds) => match Duration::try_from_secs_f64(seconds) {
+                Ok(told) if told <= elapsed => told.max(Duration::from_nanos(1)),
+                _ => return Err(garbage("its `seconds` are impossible")),
+            },
+        };
+        self.frame = Some(self.frame(&frame).map_err(|why| garbage(&why))?);
+        Ok(FrameTime {
+            cpu: wall,
+            gpu: None,
+            wall,
+        })
+    }
+
+    fn read_back(&mut self) -> Result<Frame, BackendError> {
+        let none = || BackendError::internal("read back before anything was drawn");
+        self.frame.clone().ok_or_else(none)
+    }
+}
