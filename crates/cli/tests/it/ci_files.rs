@@ -592,7 +592,7 @@ fn a_request_of_mesa_is_compared_with_the_main_branch() {
         "{text}"
     );
     assert!(
-        text.contains("Not compared: `gl:llvmpipe` has 4 records in the run of main"),
+        text.contains("Not compared: `gl:llvmpipe` has 8 records in the run of main"),
         "{text}"
     );
 
