@@ -116,7 +116,8 @@ fn build_all(file: &CaseFile) -> Vec<CaseError> {
     errors
 }
 
-fn limits(api: Api) -> Limits {
+/// Returns the limits of the rasterizer with the coarsest grid of vertices that an API allows.
+pub(crate) fn limits(api: Api) -> Limits {
     let version = match api {
         Api::Vulkan => ApiVersion::new(1, 4),
         Api::OpenGl => ApiVersion::new(4, 6),

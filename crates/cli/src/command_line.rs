@@ -6,7 +6,7 @@ use crate::commands::history;
 use crate::commands::mutants;
 use crate::commands::{
     adapters, bench, bisect, bundle, check, completions, conformance, diff, expectations, explain,
-    fuzz, list, man, merge, reduce, report, run, schema, show, site,
+    export, fuzz, judge, list, man, merge, reduce, report, run, schema, show, site,
 };
 use crate::worker;
 use clap::{Parser, Subcommand};
@@ -36,10 +36,14 @@ pub(crate) enum Command {
     Check(check::Arguments),
     /// Show a case: its purpose, scene, JSON, shaders and picture
     Show(show::Arguments),
-    /// Print the JSON schema of case files, or of the open protocol
+    /// Print the JSON schema of case files, of the open protocol, or of frames in files
     Schema(schema::Arguments),
     /// Draw cases on adapters, judge every texel, write records and reports
     Run(run::Arguments),
+    /// Write cases for programs in any language: scene, shaders, least and largest legal values
+    Export(export::Arguments),
+    /// Judge frames that another program drew, from files; write records and reports
+    Judge(judge::Arguments),
     /// Rebuild the reports of run and bench folders
     Report(report::Arguments),
     /// Build a static site from the pages of recorded folders

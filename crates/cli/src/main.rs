@@ -28,6 +28,8 @@ mod failure_groups;
 #[cfg(feature = "faults")]
 mod faulty;
 mod flags;
+mod frame_folders;
+mod frame_limits;
 mod gltf;
 mod group_text;
 #[cfg(feature = "history")]
@@ -89,6 +91,8 @@ fn main() -> ExitCode {
         Command::Show(arguments) => commands::show::run(&arguments),
         Command::Schema(arguments) => commands::schema::run(&arguments),
         Command::Run(arguments) => commands::run::run(&arguments),
+        Command::Export(arguments) => commands::export::run(&arguments),
+        Command::Judge(arguments) => commands::judge::run(&arguments),
         Command::Report(arguments) => commands::report::run(&arguments),
         Command::Merge(arguments) => commands::merge::run(&arguments),
         Command::Expectations(command) => commands::expectations::run(&command),

@@ -1,16 +1,16 @@
 //! The backend that draws in a program.
 
-use crate::limits::{limits, read_path};
-use crate::message::{Answer, FrameAnswer, Hello, ImageAnswer, PROTOCOL, ShaderLanguage};
+use crate::limits::limits;
+use crate::message::{Answer, FrameAnswer, Hello, ImageAnswer, PROTOCOL};
 use crate::program::{Program, garbage};
 use crate::scene::{Request, SentScene};
+use crate::shaders::ShaderLanguage;
+use crate::texels::AspectForm;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use etalon_backend::{Backend, BackendError, FrameTime, Prepared, Unavailable, codes};
-use etalon_frame::{
-    AdapterInfo, Aspect, ChannelEncoding, Frame, Image, Limits, ReadPath, printable,
-};
-use etalon_scene::{Attachment, Scene};
+use etalon_backend::{Backend, BackendError, FrameTime, Prepared, Unavailable};
+use etalon_frame::{AdapterInfo, Frame, Image, Limits, printable};
+use etalon_scene::Scene;
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::process::Command;
@@ -93,11 +93,10 @@ impl Backend for ExternalBackend {
         if let Some(missing) = self.limits.missing(&scene.requirements()) {
             return Err(BackendError::NotSupported(missing));
         }
-        let read = scene.read.iter().map(|i| scene.attachments[*i].clone());
         Ok(Box::new(ExternalScene {
             backend: self,
             scene: SentScene::new(scene, &self.shaders)?,
-            read: read.collect(),
+            read: AspectForm::of_scene(scene),
             frame: None,
         }))
     }
@@ -107,101 +106,49 @@ impl Backend for ExternalBackend {
 struct ExternalScene<'a> {
     backend: &'a ExternalBackend,
     scene: SentScene,
-    read: Vec<Attachment>,
+    read: Vec<AspectForm>,
     frame: Option<Frame>,
 }
 
 impl ExternalScene<'_> {
-    /// Returns the images that a frame must have, without codes.
-    fn images(&self) -> impl Iterator<Item = Image> + '_ {
-        self.read.iter().flat_map(|attachment| {
-            let aspects = attachment.format.aspects().iter();
-            aspects.map(|aspect| {
-                let (channels, read) = match aspect {
-                    Aspect::Color => (attachment.format.color_channels().to_vec(), ReadPath::Copy),
-                    Aspect::Depth => (vec![ChannelEncoding::Float32], read_path(attachment.format)),
-                    Aspect::Stencil => (vec![ChannelEncoding::Uint(8)], ReadPath::Copy),
-                };
-                Image {
-                    attachment: attachment.name.clone(),
-                    aspect: *aspect,
-                    size: attachment.size,
-                    samples: attachment.samples,
-                    channels,
-                    read,
-                    codes: Vec::new(),
-                }
-            })
-        })
-    }
-
-    /// Returns the layout of a texel's bytes in an answer.
-    fn layout(&self, image: &Image) -> &'static codes::TexelLayout {
-        let format = self.read.iter().find(|a| a.name == image.attachment);
-        match image.aspect {
-            Aspect::Color => format.map_or(&[], |a| codes::webgpu_layout(a.format)),
-            Aspect::Depth => &[(0, 32)],
-            Aspect::Stencil => &[(0, 8)],
-        }
-    }
-
     /// Returns the most bytes that an answer needs.
     fn most_bytes(&self) -> u64 {
-        let texels = self.images().map(|image| {
-            let bytes = codes::texel_bytes(self.layout(&image)) as u64;
-            let [width, height] = image.size.map(u64::from);
-            // Base64 has four characters for three bytes.
-            (width * height * u64::from(image.samples) * bytes / 3 + 1) * 4
-        });
+        // Base64 has four characters for three bytes.
+        let texels = self.read.iter();
+        let texels = texels.map(|form| (form.all_bytes() as u64 / 3 + 1) * 4);
         MOST_WORDS + texels.sum::<u64>()
     }
 
     /// Returns the frame of an answer, or what is wrong with it.
     fn frame(&self, answer: &FrameAnswer) -> Result<Frame, String> {
-        let expected: Vec<Image> = self.images().collect();
-        let (came, counters) = (answer.images.len(), answer.counters.len());
-        if came != expected.len() {
-            return Err(format!("{came} images, {} were requested", expected.len()));
+        let (expected, came) = (self.read.len(), answer.images.len());
+        let counters = answer.counters.len();
+        if came != expected {
+            return Err(format!("{came} images, {expected} were requested"));
         }
         if counters != self.scene.counters.len() {
             let requested = self.scene.counters.len();
             return Err(format!("{counters} counters, {requested} were requested"));
         }
-        let images = expected.into_iter().zip(&answer.images);
-        let images = images.map(|(image, came)| self.image(image, came));
+        let images = self.read.iter().zip(&answer.images);
+        let images = images.map(|(form, came)| image(form, came));
         Ok(Frame {
             images: images.collect::<Result<_, _>>()?,
             counters: answer.counters.clone(),
         })
     }
+}
 
-    /// Fills an image with the codes of an answer.
-    fn image(&self, mut image: Image, came: &ImageAnswer) -> Result<Image, String> {
-        let name = format!("{} of {}", image.aspect, image.attachment);
-        if came.attachment != image.attachment || came.aspect != image.aspect {
-            let other = printable(&came.attachment, MOST_TEXT);
-            return Err(format!("{} of {other} in place of {name}", came.aspect));
-        }
-        let bytes = STANDARD.decode(&came.texels);
-        let bytes = bytes.map_err(|error| format!("{name} is not base64: {error}"))?;
-        let layout = self.layout(&image);
-        let size = codes::texel_bytes(layout);
-        let texels = image.size[0] as usize * image.size[1] as usize * image.samples as usize;
-        if bytes.len() != texels * size {
-            let [width, height] = image.size;
-            return Err(format!(
-                "{name} has {} bytes, but {width} by {height} texels of {} samples of {size} bytes have {}",
-                bytes.len(),
-                image.samples,
-                texels * size
-            ));
-        }
-        image.codes.reserve(texels * layout.len());
-        for texel in bytes.chunks(size.max(1)) {
-            codes::unpack(layout, texel, &mut image.codes);
-        }
-        Ok(image)
+/// Returns the image of an answer, or what is wrong with it.
+fn image(form: &AspectForm, came: &ImageAnswer) -> Result<Image, String> {
+    let name = format!("{} of {}", form.aspect, form.attachment);
+    if came.attachment != form.attachment || came.aspect != form.aspect {
+        let other = printable(&came.attachment, MOST_TEXT);
+        return Err(format!("{} of {other} in place of {name}", came.aspect));
     }
+    let bytes = STANDARD.decode(&came.texels);
+    let bytes = bytes.map_err(|error| format!("{name} is not base64: {error}"))?;
+    form.image(&bytes)
 }
 
 impl Prepared for ExternalScene<'_> {

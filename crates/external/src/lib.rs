@@ -5,15 +5,22 @@
 //! drawing, and the program answers each with one [`message::Answer`]. `ci/adapters/external.md` is the page for authors of
 //! such programs, and [`schema()`] the JSON schema of all messages.
 //!
+//! [`files`] has frames in files instead, whose texels have the same bytes.
+//!
 //! A program can do no more than a driver: whatever it sends becomes a frame of the expected size, or an error. It runs
 //! in the worker's process group and ends with the worker.
 
 mod backend;
+pub mod files;
 mod limits;
 pub mod message;
+mod npy;
 mod program;
 pub mod scene;
 mod shaders;
+mod texels;
 
 pub use backend::{ExternalBackend, open};
+pub use limits::{description, file_limits, languages, limits, not_expressed};
 pub use message::schema;
+pub use texels::AspectForm;

@@ -1,10 +1,13 @@
 //! The limits of a program, from its description.
 
-use crate::message::{Hello, ShaderLanguage};
+use crate::message::{FormatOffer, Hello, PROTOCOL};
+use crate::shaders::ShaderLanguage;
 use etalon_backend::codes::webgpu_layout;
 use etalon_frame::{
-    Feature, FormatSupport, Limits, ReadPath, Requirement, TextureFormat, standard_sample_positions,
+    AdapterInfo, Feature, FormatSupport, Limits, ReadPath, Requirement, TextureFormat,
+    standard_sample_positions,
 };
+use etalon_scene::Scene;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The features that no message of the protocol expresses.
@@ -45,8 +48,11 @@ const ONLY_WGSL: [Feature; 3] = [
 /// The largest size that a program can have: no case needs more.
 const MAX_SIZE: u32 = 1 << 16;
 
-/// Returns the limits of a program, or what is wrong with its description.
-pub(crate) fn limits(hello: &Hello) -> Result<Limits, String> {
+/// Returns the limits of a program.
+///
+/// # Errors
+/// If the protocol cannot express what it describes.
+pub fn limits(hello: &Hello) -> Result<Limits, String> {
     if let Some(feature) = hello.features.iter().find(|f| NOT_EXPRESSED.contains(f)) {
         return Err(format!(
             "`features` has {feature}, which the protocol cannot express: remove it"
@@ -92,6 +98,92 @@ pub(crate) fn limits(hello: &Hello) -> Result<Limits, String> {
         sample_positions,
         ..Limits::nothing(hello.rules.into())
     })
+}
+
+/// Returns the description of an adapter, without the features that the protocol cannot express.
+pub fn description(info: &AdapterInfo, limits: &Limits) -> Hello {
+    let formats = limits
+        .formats
+        .iter()
+        .filter(|(format, _)| has_form(**format));
+    let offer = |support: &FormatSupport| FormatOffer {
+        samples: support.samples.clone(),
+        blendable: support.blendable,
+    };
+    Hello {
+        protocol: PROTOCOL,
+        device: info.device.clone(),
+        driver: info.driver.clone(),
+        driver_version: info.driver_version.clone(),
+        software: info.software,
+        rules: limits.api.into(),
+        version: limits.version,
+        sub_pixel_bits: limits.sub_pixel_bits,
+        max_size: limits.max_size,
+        max_color_attachments: limits.max_color_attachments,
+        formats: formats
+            .map(|(format, support)| (*format, offer(support)))
+            .collect(),
+        features: limits
+            .features
+            .iter()
+            .copied()
+            .filter(is_expressed)
+            .collect(),
+        sample_positions: limits.sample_positions.clone(),
+        shaders: [ShaderLanguage::Wgsl].into(),
+    }
+}
+
+/// Returns true if texels of a format have bytes.
+fn has_form(format: TextureFormat) -> bool {
+    !format.is_color() || !webgpu_layout(format).is_empty()
+}
+
+/// Returns true if the protocol expresses a feature.
+fn is_expressed(feature: &Feature) -> bool {
+    !NOT_EXPRESSED.contains(feature)
+}
+
+/// Returns the first requirement of a scene that the protocol cannot express.
+pub fn not_expressed(scene: &Scene) -> Option<Requirement> {
+    let requirements = scene.requirements().into_iter();
+    let mut others = requirements.filter(|requirement| match requirement {
+        Requirement::Feature(feature) => !is_expressed(feature),
+        Requirement::Format(format) => !has_form(*format),
+        _ => false,
+    });
+    others.next()
+}
+
+/// Returns the languages in which a scene's shaders mean the same.
+pub fn languages(scene: &Scene) -> BTreeSet<ShaderLanguage> {
+    use ShaderLanguage::{Glsl, Spirv, Wgsl};
+    if features(scene).any(|feature| ONLY_WGSL.contains(&feature)) {
+        [Wgsl].into()
+    } else {
+        [Wgsl, Spirv, Glsl].into()
+    }
+}
+
+fn features(scene: &Scene) -> impl Iterator<Item = Feature> {
+    let requirements = scene.requirements().into_iter();
+    requirements.filter_map(|requirement| match requirement {
+        Requirement::Feature(feature) => Some(feature),
+        _ => None,
+    })
+}
+
+/// Returns limits for frames in files, whose depths are floats and whose colours have a layout in WebGPU. The files do
+/// not say how depths were stored.
+pub fn file_limits(mut limits: Limits) -> Limits {
+    limits.formats.retain(|format, _| has_form(*format));
+    for (format, support) in &mut limits.formats {
+        support.depth = format.depth_encodings().to_vec();
+        support.read = read_path(*format);
+    }
+    limits.exempt = exempt();
+    limits
 }
 
 /// Returns how depths are read: as floats, which are exact only for formats of floats.

@@ -1,6 +1,7 @@
 //! The messages of a program, and the schema of all messages.
 
 use crate::scene::Request;
+use crate::shaders::ShaderLanguage;
 use etalon_backend::BackendError;
 use etalon_frame::{Api, ApiVersion, Aspect, Feature, TextureFormat};
 use schemars::JsonSchema;
@@ -12,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub const PROTOCOL: u32 = 1;
 
 /// The first line of a program: the device, and what it can draw.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Hello {
     /// The version of the protocol: 1.
@@ -62,7 +63,7 @@ fn wgsl() -> BTreeSet<ShaderLanguage> {
 }
 
 /// The API whose rules bind frames.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RulesApi {
     /// Vulkan.
@@ -78,6 +79,17 @@ pub enum RulesApi {
     WebGpu,
 }
 
+impl From<Api> for RulesApi {
+    fn from(api: Api) -> Self {
+        match api {
+            Api::Vulkan => Self::Vulkan,
+            Api::OpenGl => Self::OpenGl,
+            Api::OpenGlEs => Self::OpenGlEs,
+            Api::WebGpu => Self::WebGpu,
+        }
+    }
+}
+
 impl From<RulesApi> for Api {
     fn from(api: RulesApi) -> Self {
         match api {
@@ -90,7 +102,7 @@ impl From<RulesApi> for Api {
 }
 
 /// The support of a format.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FormatOffer {
     /// Sample counts of attachments that can be drawn to, such as `[1, 4]`.
@@ -98,20 +110,6 @@ pub struct FormatOffer {
     /// True if attachments can be blended into.
     #[serde(default)]
     pub blendable: bool,
-}
-
-/// A shading language.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
-)]
-#[serde(rename_all = "lowercase")]
-pub enum ShaderLanguage {
-    /// WGSL.
-    Wgsl,
-    /// SPIR-V 1.3 for Vulkan.
-    Spirv,
-    /// GLSL 4.50.
-    Glsl,
 }
 
 /// The answer to a request: exactly one of `frame`, `unsupported` and `error`.

@@ -3,8 +3,7 @@
 //! A key that belongs to an optional [`Feature`](etalon_frame::Feature) is absent unless the scene needs the feature, so
 //! a program that lists no features never sees it.
 
-use crate::message::ShaderLanguage;
-use crate::shaders::{ShaderSource, sources};
+use crate::shaders::{ShaderLanguage, ShaderSource, sources};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use etalon_backend::{BackendError, codes};

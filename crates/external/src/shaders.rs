@@ -1,6 +1,5 @@
 //! The shaders of a scene in the languages that a program asks for.
 
-use crate::message::ShaderLanguage;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use etalon_backend::BackendError;
@@ -9,8 +8,22 @@ use naga::proc::BoundsCheckPolicies;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Module, ShaderStage};
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
+
+/// A shading language.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+)]
+#[serde(rename_all = "lowercase")]
+pub enum ShaderLanguage {
+    /// WGSL.
+    Wgsl,
+    /// SPIR-V 1.3 for Vulkan.
+    Spirv,
+    /// GLSL 4.50.
+    Glsl,
+}
 
 /// A shader in the languages of the description. In WGSL and SPIR-V, its entry points are `vs` and, unless it has no
 /// fragment shader, `fs`.
@@ -25,6 +38,25 @@ pub struct ShaderSource {
     /// The texts in GLSL 4.50, by stage: `vertex` and `fragment`. Depths in clip space stay 0 to w, and y stays up.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub glsl: Option<BTreeMap<&'static str, String>>,
+}
+
+impl ShaderSource {
+    /// Returns the texts and the module as files with their names.
+    pub fn files(&self, name: &str) -> Vec<(String, Vec<u8>)> {
+        let name = name.replace(':', "-");
+        let text =
+            |ending: &str, text: &String| (format!("{name}.{ending}"), text.clone().into_bytes());
+        let mut files: Vec<_> = self.wgsl.iter().map(|wgsl| text("wgsl", wgsl)).collect();
+        // The module was encoded here.
+        let module = self
+            .spirv
+            .iter()
+            .filter_map(|module| STANDARD.decode(module).ok());
+        files.extend(module.map(|module| (format!("{name}.spv"), module)));
+        let stages = self.glsl.iter().flatten();
+        files.extend(stages.map(|(stage, glsl)| text(&format!("{stage}.glsl"), glsl)));
+        files
+    }
 }
 
 /// Returns a shader in these languages.

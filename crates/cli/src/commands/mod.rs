@@ -10,9 +10,11 @@ pub(crate) mod conformance;
 pub(crate) mod diff;
 pub(crate) mod expectations;
 pub(crate) mod explain;
+pub(crate) mod export;
 pub(crate) mod fuzz;
 #[cfg(feature = "history")]
 pub(crate) mod history;
+pub(crate) mod judge;
 pub(crate) mod list;
 pub(crate) mod man;
 pub(crate) mod merge;

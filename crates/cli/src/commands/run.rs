@@ -156,7 +156,7 @@ pub(crate) enum KeepFrames {
 }
 
 /// Returns the number of records of each verdict on each adapter.
-fn verdicts(run: &Run) -> BTreeMap<&str, BTreeMap<&str, u64>> {
+pub(crate) fn verdicts(run: &Run) -> BTreeMap<&str, BTreeMap<&str, u64>> {
     let mut counts: BTreeMap<&str, BTreeMap<&str, u64>> = BTreeMap::new();
     for adapter in &run.header.adapters {
         counts.entry(&adapter.info.name).or_default();

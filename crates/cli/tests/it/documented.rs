@@ -8,11 +8,12 @@ use std::path::Path;
 use tempfile::TempDir;
 
 /// The pages.
-const PAGES: [&str; 8] = [
+const PAGES: [&str; 9] = [
     "README.md",
     "ci/README.md",
     "ci/adapters/README.md",
     "ci/adapters/external.md",
+    "ci/adapters/frames.md",
     "ci/conformance.md",
     "ci/dashboards.md",
     "crates/commands.md",
@@ -33,7 +34,7 @@ const SCRIPT: Treatment =
 const FETCHED: Treatment = Not("needs releases of drivers that a script fetches from the network");
 
 /// The commands that do not run as they are written. The folder has `run-a` and `run-b` with a run each, `bench-a` and
-/// `bench-b`, `cases`, `adapters.json` and `known`.
+/// `bench-b`, `frames`, `cases`, `adapters.json` and `known`.
 const TREATED: &[(&str, Treatment)] = &[
     ("ci/adapters/angle /tmp/angle", SCRIPT),
     (
@@ -153,6 +154,18 @@ const TREATED: &[(&str, Treatment)] = &[
     (
         "etalon explain CASE --adapter gl:softpipe",
         As("explain cull/points/cull=none/front_face=cw --adapter gl:softpipe"),
+    ),
+    (
+        "etalon export CASE --out DIR",
+        As("export cull/points --adapter cpu --no-values --out {new}"),
+    ),
+    (
+        "etalon judge --frame DIR --rules vulkan",
+        As("judge --frame frames --rules vulkan --out {new}"),
+    ),
+    (
+        "etalon judge CASE --frame DIR",
+        As("judge cull/points --frame frames --out {new}"),
     ),
     (
         "etalon fuzz --adapter gl:softpipe --count 300 --seed 7 --out DIR",
@@ -331,6 +344,8 @@ fn folder() -> TempDir {
         ];
         made(&[&bench[..], &["--out", name]].concat());
     }
+    let frames = ["export", "cull/points", "--adapter", "cpu", "--no-values"];
+    made(&[&frames[..], &["--out", "frames"]].concat());
     made(&["history", "add", "run-a", "bench-a", "--db", "history.db"]);
     folder
 }

@@ -52,7 +52,17 @@ fn asked(arguments: &[&str], file: &Path) -> Command {
 fn run(globs: &[&str], file: &Path, code: i32) -> Run {
     let out = tempfile::tempdir().unwrap();
     let arguments = [
-        &["run", "--timeout", "3", "--memory", "500", "--jobs", "1"],
+        &[
+            "run",
+            "--profile",
+            "full",
+            "--timeout",
+            "3",
+            "--memory",
+            "500",
+            "--jobs",
+            "1",
+        ],
         globs,
     ]
     .concat();

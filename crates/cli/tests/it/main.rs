@@ -25,6 +25,7 @@ mod expectations;
 mod external;
 mod findings;
 mod folders;
+mod frames;
 mod fuzz;
 mod help;
 mod hidden;

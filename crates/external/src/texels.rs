@@ -1,0 +1,121 @@
+//! The texels of an aspect as bytes, which programs send and files hold.
+
+use crate::limits::read_path;
+use etalon_backend::codes::{TexelLayout, pack, texel_bytes, unpack, webgpu_layout};
+use etalon_frame::{Aspect, ChannelEncoding, Image, ReadPath, TextureFormat};
+use etalon_scene::{Attachment, Scene};
+
+/// One aspect of an attachment, and the form of its texels: rows from the top, texels from the left, the samples of a
+/// texel after each other. A colour has the little-endian bytes of its format in WebGPU, depth is a 32-bit float,
+/// stencil one byte.
+#[derive(Clone, Debug)]
+pub struct AspectForm {
+    /// The attachment's name.
+    pub attachment: String,
+    /// The aspect.
+    pub aspect: Aspect,
+    /// The attachment's format.
+    pub format: TextureFormat,
+    /// Width and height in texels.
+    pub size: [u32; 2],
+    /// Samples per texel.
+    pub samples: u32,
+}
+
+impl AspectForm {
+    /// Returns all aspects that a scene reads back, depth before stencil.
+    pub fn of_scene(scene: &Scene) -> Vec<Self> {
+        let read = scene.read.iter().map(|i| &scene.attachments[*i]);
+        read.flat_map(Self::of_attachment).collect()
+    }
+
+    fn of_attachment(attachment: &Attachment) -> impl Iterator<Item = Self> + '_ {
+        let aspects = attachment.format.aspects().iter();
+        aspects.map(|aspect| Self {
+            attachment: attachment.name.clone(),
+            aspect: *aspect,
+            format: attachment.format,
+            size: attachment.size,
+            samples: attachment.samples,
+        })
+    }
+
+    /// Returns the layout of a texel's bytes; empty if WebGPU lacks the format.
+    pub fn layout(&self) -> &'static TexelLayout {
+        match self.aspect {
+            Aspect::Color => webgpu_layout(self.format),
+            Aspect::Depth => &[(0, 32)],
+            Aspect::Stencil => &[(0, 8)],
+        }
+    }
+
+    /// Returns the encodings of the channels.
+    pub fn channels(&self) -> &'static [ChannelEncoding] {
+        match self.aspect {
+            Aspect::Color => self.format.color_channels(),
+            Aspect::Depth => &[ChannelEncoding::Float32],
+            Aspect::Stencil => &[ChannelEncoding::Uint(8)],
+        }
+    }
+
+    /// Returns the number of samples in all texels.
+    pub fn all_samples(&self) -> usize {
+        self.size[0] as usize * self.size[1] as usize * self.samples as usize
+    }
+
+    /// Returns the number of bytes in all texels.
+    pub fn all_bytes(&self) -> usize {
+        self.all_samples() * texel_bytes(self.layout())
+    }
+
+    /// Returns the image with these texels.
+    ///
+    /// # Errors
+    /// If the number of bytes is wrong.
+    pub fn image(&self, bytes: &[u8]) -> Result<Image, String> {
+        let (layout, samples) = (self.layout(), self.all_samples());
+        let size = texel_bytes(layout);
+        if bytes.len() != self.all_bytes() {
+            let [width, height] = self.size;
+            return Err(format!(
+                "{} of {} has {} bytes, but {width} by {height} texels of {} samples of {size} bytes have {}",
+                self.aspect,
+                self.attachment,
+                bytes.len(),
+                self.samples,
+                self.all_bytes()
+            ));
+        }
+        let mut codes = Vec::with_capacity(samples * layout.len());
+        for texel in bytes.chunks(size.max(1)) {
+            unpack(layout, texel, &mut codes);
+        }
+        Ok(Image {
+            attachment: self.attachment.clone(),
+            aspect: self.aspect,
+            size: self.size,
+            samples: self.samples,
+            channels: self.channels().to_vec(),
+            read: match self.aspect {
+                Aspect::Depth => read_path(self.format),
+                Aspect::Color | Aspect::Stencil => ReadPath::Copy,
+            },
+            codes,
+        })
+    }
+
+    /// Returns the bytes of codes, which have these encodings.
+    pub fn bytes(&self, encodings: &[ChannelEncoding], codes: &[u32]) -> Vec<u8> {
+        let mut bytes = Vec::with_capacity(self.all_bytes());
+        for codes in codes.chunks(encodings.len().max(1)) {
+            match (self.aspect, encodings) {
+                (Aspect::Depth, [encoding]) if *encoding != ChannelEncoding::Float32 => {
+                    let value = encoding.value_of_order(encoding.order_of_code(codes[0]));
+                    pack(self.layout(), &[(value as f32).to_bits()], &mut bytes);
+                }
+                _ => pack(self.layout(), codes, &mut bytes),
+            }
+        }
+        bytes
+    }
+}
