@@ -72,6 +72,26 @@ pub fn unpack(layout: &TexelLayout, texel: &[u8], out: &mut Vec<u32>) {
     }));
 }
 
+/// Returns texels with these codes, channel by channel.
+pub fn pack_all(layout: &TexelLayout, codes: &[u32]) -> Vec<u8> {
+    let texels = codes.chunks_exact(layout.len().max(1));
+    let mut bytes = Vec::with_capacity(texels.len() * texel_bytes(layout));
+    for texel in texels {
+        pack(layout, texel, &mut bytes);
+    }
+    bytes
+}
+
+/// Returns the codes of texels of `size` bytes, channel by channel.
+pub fn unpack_all(layout: &TexelLayout, size: usize, bytes: &[u8]) -> Vec<u32> {
+    let texels = bytes.chunks_exact(size.max(1));
+    let mut codes = Vec::with_capacity(texels.len() * layout.len());
+    for texel in texels {
+        unpack(layout, texel, &mut codes);
+    }
+    codes
+}
+
 /// Returns the code whose value the 32-bit float with these bits represents, exactly or as nearly as a float
 /// can. This undoes a conversion and adds no rounding.
 pub fn code_of_float(encoding: ChannelEncoding, float: u32) -> u32 {

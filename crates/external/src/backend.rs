@@ -141,13 +141,12 @@ impl ExternalScene<'_> {
 
 /// Returns the image of an answer, or what is wrong with it.
 fn image(form: &AspectForm, came: &ImageAnswer) -> Result<Image, String> {
-    let name = format!("{} of {}", form.aspect, form.attachment);
-    if came.attachment != form.attachment || came.aspect != form.aspect {
+    if !form.is(&came.attachment, came.aspect) {
         let other = printable(&came.attachment, MOST_TEXT);
-        return Err(format!("{} of {other} in place of {name}", came.aspect));
+        return Err(format!("{} of {other} in place of {form}", came.aspect));
     }
     let bytes = STANDARD.decode(&came.texels);
-    let bytes = bytes.map_err(|error| format!("{name} is not base64: {error}"))?;
+    let bytes = bytes.map_err(|error| format!("{form} is not base64: {error}"))?;
     form.image(&bytes)
 }
 

@@ -2,7 +2,7 @@
 
 use crate::npy::{self, Array};
 use crate::texels::AspectForm;
-use etalon_backend::codes::{pack, texel_bytes};
+use etalon_backend::codes::{pack_all, texel_bytes};
 use etalon_frame::{Aspect, ChannelEncoding, Frame, Image};
 use png::{BitDepth, ColorType, Decoder};
 use schemars::JsonSchema;
@@ -73,8 +73,7 @@ pub fn frame(
         ));
     }
     let known = |files: &&ImageFiles| {
-        let same =
-            |form: &&AspectForm| form.attachment == files.attachment && form.aspect == files.aspect;
+        let same = |form: &&AspectForm| form.is(&files.attachment, files.aspect);
         forms.iter().filter(same).count() == 1
     };
     if let Some(other) = named.images.iter().find(|files| !known(files)) {
@@ -82,15 +81,12 @@ pub fn frame(
         return Err(format!("the scene does not read {aspect} of {attachment}"));
     }
     let images = forms.iter().map(|form| {
-        let of_form = |f: &&ImageFiles| f.attachment == form.attachment && f.aspect == form.aspect;
+        let of_form = |files: &&ImageFiles| form.is(&files.attachment, files.aspect);
         let mut files = named.images.iter().filter(of_form);
         match (files.next(), files.next()) {
             (Some(files), None) => image(form, &files.files, read),
-            (None, _) => Err(format!("{} of {} is missing", form.aspect, form.attachment)),
-            _ => Err(format!(
-                "{} of {} is there twice",
-                form.aspect, form.attachment
-            )),
+            (None, _) => Err(format!("{form} is missing")),
+            _ => Err(format!("{form} is there twice")),
         }
     });
     Ok(Frame {
@@ -111,9 +107,7 @@ fn image(form: &AspectForm, files: &[String], read: &ReadFile<'_>) -> Result<Ima
     }
     if files.len() != form.samples as usize {
         return Err(format!(
-            "{} of {} has {} files: name one, or one for each of {} samples",
-            form.aspect,
-            form.attachment,
+            "{form} has {} files: name one, or one for each of {} samples",
             files.len(),
             form.samples
         ));
@@ -210,11 +204,9 @@ fn of_array(form: &AspectForm, array: &Array<'_>) -> Result<Vec<u8>, String> {
         |shape: &[usize]| -> Vec<usize> { shape.iter().copied().filter(|n| *n != 1).collect() };
     if !fits || told(&array.shape) != told(&expected) {
         return Err(format!(
-            "it is an array of {} with shape {:?}, but {} of {} ({}) has {} with shape {expected:?}",
+            "it is an array of {} with shape {:?}, but {form} ({}) has {} with shape {expected:?}",
             array.kind,
             array.shape,
-            form.aspect,
-            form.attachment,
             form.format,
             items.kind()
         ));
@@ -281,9 +273,5 @@ fn of_picture(form: &AspectForm, content: &[u8]) -> Result<Vec<u8>, String> {
                 .fold(0, |code, byte| code << 8 | u32::from(*byte))
         })
         .collect();
-    let mut texels = Vec::with_capacity(form.all_bytes());
-    for texel in codes.chunks(form.layout().len()) {
-        pack(form.layout(), texel, &mut texels);
-    }
-    Ok(texels)
+    Ok(pack_all(form.layout(), &codes))
 }

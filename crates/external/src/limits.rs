@@ -53,7 +53,7 @@ const MAX_SIZE: u32 = 1 << 16;
 /// # Errors
 /// If the protocol cannot express what it describes.
 pub fn limits(hello: &Hello) -> Result<Limits, String> {
-    if let Some(feature) = hello.features.iter().find(|f| NOT_EXPRESSED.contains(f)) {
+    if let Some(feature) = hello.features.iter().find(|f| !is_expressed(f)) {
         return Err(format!(
             "`features` has {feature}, which the protocol cannot express: remove it"
         ));
@@ -68,7 +68,7 @@ pub fn limits(hello: &Hello) -> Result<Limits, String> {
     let mut formats = BTreeMap::new();
     let mut sample_positions = hello.sample_positions.clone();
     for (format, offer) in &hello.formats {
-        if format.is_color() && webgpu_layout(*format).is_empty() {
+        if !has_form(*format) {
             return Err(format!(
                 "`formats` has {format}, which has no layout in WebGPU: remove it"
             ));

@@ -242,11 +242,7 @@ fn attachment(attachment: &Attachment) -> SentAttachment {
             sent.stencil = format.has_stencil().then_some(*stencil);
         }
         AttachmentContents::Texels(texels) => {
-            let layout = codes::webgpu_layout(format);
-            let mut bytes = Vec::new();
-            for texel in texels.chunks(layout.len().max(1)) {
-                codes::pack(layout, texel, &mut bytes);
-            }
+            let bytes = codes::pack_all(codes::webgpu_layout(format), texels);
             sent.texels = Some(STANDARD.encode(bytes));
         }
     }

@@ -1,9 +1,10 @@
 //! The texels of an aspect as bytes, which programs send and files hold.
 
 use crate::limits::read_path;
-use etalon_backend::codes::{TexelLayout, pack, texel_bytes, unpack, webgpu_layout};
+use etalon_backend::codes::{TexelLayout, pack_all, texel_bytes, unpack_all, webgpu_layout};
 use etalon_frame::{Aspect, ChannelEncoding, Image, ReadPath, TextureFormat};
 use etalon_scene::{Attachment, Scene};
+use std::fmt;
 
 /// One aspect of an attachment, and the form of its texels: rows from the top, texels from the left, the samples of a
 /// texel after each other. A colour has the little-endian bytes of its format in WebGPU, depth is a 32-bit float,
@@ -22,6 +23,12 @@ pub struct AspectForm {
     pub samples: u32,
 }
 
+impl fmt::Display for AspectForm {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} of {}", self.aspect, self.attachment)
+    }
+}
+
 impl AspectForm {
     /// Returns all aspects that a scene reads back, depth before stencil.
     pub fn of_scene(scene: &Scene) -> Vec<Self> {
@@ -38,6 +45,11 @@ impl AspectForm {
             size: attachment.size,
             samples: attachment.samples,
         })
+    }
+
+    /// Returns true if this is the aspect of the attachment with this name.
+    pub(crate) fn is(&self, attachment: &str, aspect: Aspect) -> bool {
+        self.attachment == attachment && self.aspect == aspect
     }
 
     /// Returns the layout of a texel's bytes; empty if WebGPU lacks the format.
@@ -73,22 +85,16 @@ impl AspectForm {
     /// # Errors
     /// If the number of bytes is wrong.
     pub fn image(&self, bytes: &[u8]) -> Result<Image, String> {
-        let (layout, samples) = (self.layout(), self.all_samples());
+        let layout = self.layout();
         let size = texel_bytes(layout);
         if bytes.len() != self.all_bytes() {
             let [width, height] = self.size;
             return Err(format!(
-                "{} of {} has {} bytes, but {width} by {height} texels of {} samples of {size} bytes have {}",
-                self.aspect,
-                self.attachment,
+                "{self} has {} bytes, but {width} by {height} texels of {} samples of {size} bytes have {}",
                 bytes.len(),
                 self.samples,
                 self.all_bytes()
             ));
-        }
-        let mut codes = Vec::with_capacity(samples * layout.len());
-        for texel in bytes.chunks(size.max(1)) {
-            unpack(layout, texel, &mut codes);
         }
         Ok(Image {
             attachment: self.attachment.clone(),
@@ -100,22 +106,21 @@ impl AspectForm {
                 Aspect::Depth => read_path(self.format),
                 Aspect::Color | Aspect::Stencil => ReadPath::Copy,
             },
-            codes,
+            codes: unpack_all(layout, size, bytes),
         })
     }
 
     /// Returns the bytes of codes, which have these encodings.
     pub fn bytes(&self, encodings: &[ChannelEncoding], codes: &[u32]) -> Vec<u8> {
-        let mut bytes = Vec::with_capacity(self.all_bytes());
-        for codes in codes.chunks(encodings.len().max(1)) {
-            match (self.aspect, encodings) {
-                (Aspect::Depth, [encoding]) if *encoding != ChannelEncoding::Float32 => {
-                    let value = encoding.value_of_order(encoding.order_of_code(codes[0]));
-                    pack(self.layout(), &[(value as f32).to_bits()], &mut bytes);
-                }
-                _ => pack(self.layout(), codes, &mut bytes),
+        match (self.aspect, encodings) {
+            (Aspect::Depth, [encoding]) if *encoding != ChannelEncoding::Float32 => {
+                let depths = codes.iter().map(|code| {
+                    let value = encoding.value_of_order(encoding.order_of_code(*code));
+                    (value as f32).to_bits()
+                });
+                pack_all(self.layout(), &depths.collect::<Vec<_>>())
             }
+            _ => pack_all(self.layout(), codes),
         }
-        bytes
     }
 }

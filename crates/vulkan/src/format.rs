@@ -274,23 +274,13 @@ pub(crate) fn copied_layout(raw: vk::Format, aspect: Aspect) -> &'static TexelLa
 
 /// Returns the codes of copied texels, channel by channel.
 pub(crate) fn decode(bytes: &[u8], raw: vk::Format, aspect: Aspect) -> Vec<u32> {
-    let layout = copied_layout(raw, aspect);
-    let texels = bytes.chunks_exact(texel_bytes(raw, aspect).max(1));
-    let mut codes = Vec::with_capacity(texels.len() * layout.len());
-    for texel in texels {
-        codes::unpack(layout, texel, &mut codes);
-    }
-    codes
+    let size = texel_bytes(raw, aspect);
+    codes::unpack_all(copied_layout(raw, aspect), size, bytes)
 }
 
 /// Returns colour codes as the bytes of texels in a buffer.
 pub(crate) fn encode(codes: &[u32], raw: vk::Format) -> Vec<u8> {
-    let layout = layout(raw);
-    let mut bytes = Vec::new();
-    for texel in codes.chunks_exact(layout.len().max(1)) {
-        codes::pack(layout, texel, &mut bytes);
-    }
-    bytes
+    codes::pack_all(layout(raw), codes)
 }
 
 #[cfg(test)]
