@@ -345,18 +345,17 @@ fn guarded(launcher: &[String]) -> Vec<String> {
 
 /// Returns true if a backend can have a fault.
 fn fits(fault: Fault, backend: BackendName) -> bool {
-    backend != BackendName::External
-        && fault.fits(match backend {
-            BackendName::Cpu => None,
-            BackendName::Vulkan => Some(Api::Vulkan),
-            BackendName::Gl | BackendName::GlEs => Some(Api::OpenGl),
-            BackendName::WgpuVulkan
-            | BackendName::WgpuGl
-            | BackendName::WgpuDx12
-            | BackendName::WgpuMetal
-            | BackendName::Webgpu
-            | BackendName::External => Some(Api::WebGpu),
-        })
+    fault.fits(match backend {
+        BackendName::Cpu => None,
+        BackendName::Vulkan => Some(Api::Vulkan),
+        BackendName::Gl | BackendName::GlEs => Some(Api::OpenGl),
+        BackendName::WgpuVulkan
+        | BackendName::WgpuGl
+        | BackendName::WgpuDx12
+        | BackendName::WgpuMetal
+        | BackendName::Webgpu => Some(Api::WebGpu),
+        BackendName::External => return false,
+    })
 }
 
 /// Returns true if the name of the device or driver contains the word, ignoring case.

@@ -4,6 +4,7 @@ use crate::launch::Launch;
 use crate::loss::RequestError;
 use crate::process::WorkerProcess;
 use crate::protocol::{Hello, Payload, Request};
+use crate::supervisor::MAX_FAILED_STARTS;
 use crate::worker::Worker;
 use etalon_backend::{Backend, BackendError, FrameTime, Prepared};
 use etalon_frame::{AdapterInfo, Frame, Limits};
@@ -11,9 +12,6 @@ use etalon_scene::Scene;
 use std::borrow::Cow;
 use std::cell::{Cell, RefCell};
 use std::time::Duration;
-
-/// The number of failed starts after which no worker is started.
-const MAX_FAILED_STARTS: u32 = 3;
 
 /// An adapter in a worker, which is started again after a loss.
 pub struct RemoteBackend {

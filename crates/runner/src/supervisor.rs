@@ -15,7 +15,7 @@ use etalon_record::{AdapterRecord, Expectations, ProcessEnd, Reason, Record, Ver
 use std::sync::{Arc, Mutex};
 
 /// The number of consecutive failed starts after which an adapter's worker is not started again.
-const MAX_FAILED_STARTS: u32 = 3;
+pub(crate) const MAX_FAILED_STARTS: u32 = 3;
 
 /// The failed starts of one adapter's workers. All supervisors of the adapter share this, so that a driver
 /// that no longer starts is not tried again by each supervisor.

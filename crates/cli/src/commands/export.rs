@@ -191,12 +191,11 @@ fn add_values(folders: &mut Folders, folder: &str, scene: &Scene) -> Result<(), 
         let below = format!("{folder}/{api}");
         for (form, info) in forms.iter().zip(&first.legal.images) {
             let hulls = hulls(info, &judgements);
-            for (name, of) in [
-                ("least", least as fn(&CodeInterval) -> i64),
-                ("largest", largest),
-            ] {
-                let codes = hulls.iter().zip(info.channels.iter().cycle());
-                let codes: Vec<u32> = codes.map(|(h, e)| e.code_of_order(of(h))).collect();
+            let (least, largest): (Vec<i64>, Vec<i64>) =
+                hulls.iter().map(|hull| (hull.low, hull.high)).unzip();
+            for (name, orders) in [("least", least), ("largest", largest)] {
+                let codes = orders.iter().zip(info.channels.iter().cycle());
+                let codes: Vec<u32> = codes.map(|(o, e)| e.code_of_order(*o)).collect();
                 let name = format!("{}.{name}", file_name(form));
                 let bytes = form.bytes(&info.channels, &codes);
                 folders.add(&below, &format!("{name}.npy"), array_file(form, &bytes));
@@ -212,14 +211,6 @@ fn add_values(folders: &mut Folders, folder: &str, scene: &Scene) -> Result<(), 
         folders.add_json(folder, "counters.json", &by_api)?;
     }
     Ok(())
-}
-
-fn least(hull: &CodeInterval) -> i64 {
-    hull.low
-}
-
-fn largest(hull: &CodeInterval) -> i64 {
-    hull.high
 }
 
 fn picture(image: Image) -> Option<Vec<u8>> {

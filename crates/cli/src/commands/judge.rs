@@ -1,5 +1,6 @@
 //! `etalon judge`.
 
+use super::run::{LATEST, verdicts};
 use crate::cases::library;
 use crate::catalogue::{CataloguePictures, catalogue};
 use crate::expectations::ExpectArguments;
@@ -26,9 +27,6 @@ use etalon_report::RunReport;
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-
-/// The folder of each run without `--out`.
-const LATEST: &str = "reports/latest";
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -164,7 +162,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         print_json(&json!({
             "records": run.records.len(),
             "unexpected": run.unexpected(),
-            "verdicts": super::run::verdicts(&run),
+            "verdicts": verdicts(&run),
             "folder": arguments.out,
             "report": written.html,
         }))?;

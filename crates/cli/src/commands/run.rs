@@ -38,7 +38,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 /// The folder of each run without `--out`.
-const LATEST: &str = "reports/latest";
+pub(crate) const LATEST: &str = "reports/latest";
 
 /// The state of the drivers' shader caches on disk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -59,7 +59,7 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     pub(crate) file: AdapterFileArguments,
     /// Folder for records and reports
-    #[arg(long, value_name = "DIR", default_value = "reports/latest")]
+    #[arg(long, value_name = "DIR", default_value = LATEST)]
     pub(crate) out: PathBuf,
     /// Continue the run in the folder: draw what is missing. With `--out` alone, the other flags are those of the
     /// interrupted command

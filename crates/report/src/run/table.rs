@@ -282,7 +282,9 @@ fn blocked_together(records: Vec<&Record>) -> Vec<Vec<&Record>> {
             Verdict::Blocked => *blocked.entry(&record.adapter).or_insert(next),
             _ => next,
         };
-        groups.resize_with(next.max(group + 1), Vec::new);
+        if group == next {
+            groups.push(Vec::new());
+        }
         groups[group].push(record);
     }
     groups
