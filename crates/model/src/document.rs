@@ -47,6 +47,14 @@ fn validated(bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), String> {
     if attributes.any(|accessor| accessor.value() >= json.accessors.len()) {
         return Err("an attribute names an accessor that is missing".to_owned());
     }
+    // Nor does it ask whether an image has data, and in a view a type, before it takes them.
+    let has_data = |image: &gltf::json::Image| match image.buffer_view {
+        Some(_) => image.mime_type.is_some(),
+        None => image.uri.is_some(),
+    };
+    if let Some(image) = json.images.iter().position(|image| !has_data(image)) {
+        return Err(format!("image {image} lacks its data or their type"));
+    }
     let document = Document::from_json(json).map_err(|e| e.to_string())?;
     Ok((document, blob))
 }

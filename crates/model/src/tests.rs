@@ -232,6 +232,56 @@ fn an_alpha_mask_cuts_the_holes_of_its_texture() {
     assert_eq!(red(&holes), 28);
 }
 
+/// Bytes of `.glb` before its JSON: the header, and the length and kind of the chunk.
+const BEFORE_JSON: usize = 20;
+
+/// Parses a `.glb` with other JSON.
+fn with_json(bytes: &[u8], document: &Value) -> Result<Model, String> {
+    let length = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes"));
+    let binary = &bytes[BEFORE_JSON + length(12) as usize..];
+    let mut json = serde_json::to_vec(document).expect("it is JSON");
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let total = (BEFORE_JSON + json.len() + binary.len()) as u32;
+    let mut file = bytes[..8].to_vec();
+    file.extend(total.to_le_bytes());
+    file.extend((json.len() as u32).to_le_bytes());
+    file.extend(&bytes[16..BEFORE_JSON]);
+    file.extend(json);
+    file.extend(binary);
+    parse(&file, Path::new("")).map_err(|error| error.to_string())
+}
+
+/// What damage of single bytes reaches by chance only: each member missing, or of another name.
+#[test]
+fn no_missing_member_panics() {
+    let glb = bytes("greenhouse.glb");
+    let mut stream = serde_json::Deserializer::from_slice(&glb[BEFORE_JSON..]).into_iter();
+    let greenhouse: Value = stream.next().expect("a document").expect("it is JSON");
+    let avenue: Value = serde_json::from_slice(&bytes("avenue.gltf")).expect("it is JSON");
+    assert!(with_json(&glb, &greenhouse).is_ok());
+    for (document, is_binary) in [(&greenhouse, true), (&avenue, false)] {
+        let mut members = Vec::new();
+        paths(document, &mut String::new(), &mut members, Value::is_object);
+        let mut refused = 0;
+        for path in members {
+            let object = document.pointer(&path).and_then(Value::as_object);
+            for key in object.into_iter().flat_map(|object| object.keys()) {
+                let mut changed = document.clone();
+                let object = changed.pointer_mut(&path).and_then(Value::as_object_mut);
+                object.expect("it was found").remove(key);
+                let result = if is_binary {
+                    with_json(&glb, &changed)
+                } else {
+                    let bytes = serde_json::to_vec(&changed).expect("it is JSON");
+                    parse(&bytes, Path::new("")).map_err(|error| error.to_string())
+                };
+                refused += usize::from(result.is_err());
+            }
+        }
+        assert!(refused > 10, "{refused} of the files were refused");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -259,24 +309,26 @@ proptest! {
     ])) {
         let _result = changed(|document| {
             let mut numbers = Vec::new();
-            paths(document, &mut String::new(), &mut numbers);
+            paths(document, &mut String::new(), &mut numbers, Value::is_number);
             let path = &numbers[place.index(numbers.len())];
             *document.pointer_mut(path).expect("it was found") = number;
         });
     }
 }
 
-/// Collects the JSON pointers of all numbers.
-fn paths(value: &Value, path: &mut String, numbers: &mut Vec<String>) {
+/// Collects the JSON pointers of all values of a kind.
+fn paths(value: &Value, path: &mut String, chosen: &mut Vec<String>, is_kind: fn(&Value) -> bool) {
+    if is_kind(value) {
+        chosen.push(path.clone());
+    }
     let length = path.len();
     let mut child = |key: &str, value: &Value| {
         path.push('/');
         path.push_str(key);
-        paths(value, path, numbers);
+        paths(value, path, chosen, is_kind);
         path.truncate(length);
     };
     match value {
-        Value::Number(_) => numbers.push(path.clone()),
         Value::Array(items) => (0..)
             .zip(items)
             .for_each(|(i, v)| child(&format!("{i}"), v)),
