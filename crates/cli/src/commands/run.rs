@@ -255,34 +255,22 @@ fn drawn(arguments: &Arguments) -> Result<u8, Failure> {
     }
     .claim()?;
     let stop = listen()?;
-    let (adapters, dead) = start(arguments)?;
-    let launches: Vec<Launch> = adapters.ready.iter().map(|(l, _)| l.clone()).collect();
+    let started = StartedAdapters::start(arguments)?;
+    let launches: Vec<Launch> = started.launches().cloned().collect();
     let resume = claim.resume;
     let _lock = claim.take()?;
     if !resume {
         timed::forget(&arguments.out)?;
     }
-    let header = header(arguments, &selected, &adapters, &dead);
-    let adapter_names = header
-        .adapters
-        .iter()
-        .map(|a| a.info.name.clone())
-        .collect();
     let pictures = CataloguePictures::default();
-    let mut summary = draw(Plan {
-        cases: &selected.cases,
-        round_trips: &selected.round_trips,
-        selection: Some(&selected.ids),
-        adapters: adapters.ready,
-        dead,
-        options: options(arguments),
-        expectations: &expectations,
-        folder: &arguments.out,
-        header,
+    let plan = Plan {
         resume,
-        stop,
         drawn: &|adapter, case, frame| pictures.take(adapter, case, frame),
-    })?;
+        ..started.plan(arguments, &selected, &expectations, stop)
+    };
+    let adapters = plan.header.adapters.iter();
+    let adapter_names = adapters.map(|a| a.info.name.clone()).collect();
+    let mut summary = draw(plan)?;
     if arguments.known_by_look && !summary.interrupted {
         summary.unexpected = known_by_look(arguments, &expectations, &launches, stop)?;
     }
@@ -359,9 +347,9 @@ fn known_by_look(
 }
 
 /// The cases of a run.
-struct RunCases {
+pub(crate) struct RunCases {
     /// The cases to draw, in order.
-    cases: Vec<Case>,
+    pub(crate) cases: Vec<Case>,
     /// The ids of all selected cases; a shard draws a part of them.
     ids: Vec<String>,
     round_trips: Vec<Case>,
@@ -371,7 +359,7 @@ struct RunCases {
 }
 
 impl RunCases {
-    fn new(arguments: &Arguments) -> Result<Self, Failure> {
+    pub(crate) fn new(arguments: &Arguments) -> Result<Self, Failure> {
         let Arguments { selection, .. } = arguments;
         let mut cases = chosen(selection)?;
         leave_measured(&mut cases, selection, |case| case.measured);
@@ -391,6 +379,102 @@ impl RunCases {
             round_trips,
             shard,
         })
+    }
+}
+
+/// The adapters of a command.
+pub(crate) struct StartedAdapters {
+    adapters: Adapters,
+    /// Those that are installed but do not start, with the reason: their cases get records too.
+    dead: Vec<(AdapterRecord, String)>,
+}
+
+impl StartedAdapters {
+    /// Starts the adapters.
+    pub(crate) fn start(arguments: &Arguments) -> Result<Self, Failure> {
+        let mut adapters = discover(&Query {
+            names: &arguments.adapters,
+            file: arguments.file.adapter_file.as_deref(),
+            validate: arguments.validate,
+            cold: arguments.shader_cache == CacheState::Cold,
+            ..Query::default()
+        })?;
+        let dead = take_unstarted(&mut adapters);
+        for (adapter, how) in &dead {
+            say!("{} does not start: {how}", adapter.info.name);
+        }
+        refuse_absent(&arguments.adapters, &adapters)?;
+        if adapters.ready.is_empty() && dead.is_empty() {
+            return Err(Failure::nothing(
+                "no adapter can be used; `etalon adapters` says why",
+            ));
+        }
+        Ok(Self { adapters, dead })
+    }
+
+    /// Returns the commands of the workers that started.
+    pub(crate) fn launches(&self) -> impl Iterator<Item = &Launch> {
+        self.adapters.ready.iter().map(|(launch, _)| launch)
+    }
+
+    /// Returns the plan of a new run into the folder of a command.
+    pub(crate) fn plan<'a>(
+        self,
+        arguments: &'a Arguments,
+        selected: &'a RunCases,
+        expectations: &'a Expectations,
+        stop: &'a AtomicBool,
+    ) -> Plan<'a> {
+        let header = self.header(arguments, selected);
+        Plan {
+            cases: &selected.cases,
+            round_trips: &selected.round_trips,
+            selection: Some(&selected.ids),
+            adapters: self.adapters.ready,
+            dead: self.dead,
+            options: options(arguments),
+            expectations,
+            folder: &arguments.out,
+            header,
+            resume: false,
+            stop,
+            drawn: &|_, _, _| (),
+        }
+    }
+
+    fn header(&self, arguments: &Arguments, selected: &RunCases) -> Header {
+        Header {
+            format: etalon_record::FORMAT,
+            provenance: provenance::here(),
+            cases: selected.cases.len() as u64,
+            settings: Settings {
+                selection: selection_digest(selected.ids.iter().map(String::as_str)),
+                shard: selected.shard,
+                profile: Some(arguments.selection.profile.name().to_owned()),
+                left_out: Some(selected.left_out),
+                shuffle: arguments.shuffle,
+                repeat: (arguments.repeat > 1).then_some(arguments.repeat),
+                shader_cache: Some(cache::state(arguments.shader_cache == CacheState::Cold)),
+                validate: arguments.validate,
+                timeout: Some(arguments.timeout),
+                memory: Some(arguments.memory),
+                gltf: arguments
+                    .selection
+                    .gltf
+                    .as_ref()
+                    .map(|scene| scene.file.clone()),
+                sizes: if selected.cases.iter().any(|case| case.method.is_some()) {
+                    sizes::recorded(arguments.sizes.as_ref())
+                } else {
+                    Vec::new()
+                },
+            },
+            adapters: {
+                let up = self.adapters.ready.iter().map(|(_, w)| w.into());
+                up.chain(self.dead.iter().map(|(a, _)| a.clone())).collect()
+            },
+            absent: self.adapters.absent.clone(),
+        }
     }
 }
 
@@ -425,29 +509,6 @@ fn labels(arguments: &Arguments) -> Vec<String> {
     arguments.news.labels.given().to_vec()
 }
 
-/// Starts the adapters. Also returns the adapters that are installed but do not start, with the reason: their
-/// cases get records too.
-fn start(arguments: &Arguments) -> Result<(Adapters, Vec<(AdapterRecord, String)>), Failure> {
-    let mut adapters = discover(&Query {
-        names: &arguments.adapters,
-        file: arguments.file.adapter_file.as_deref(),
-        validate: arguments.validate,
-        cold: arguments.shader_cache == CacheState::Cold,
-        ..Query::default()
-    })?;
-    let dead = take_unstarted(&mut adapters);
-    for (adapter, how) in &dead {
-        say!("{} does not start: {how}", adapter.info.name);
-    }
-    refuse_absent(&arguments.adapters, &adapters)?;
-    if adapters.ready.is_empty() && dead.is_empty() {
-        return Err(Failure::nothing(
-            "no adapter can be used; `etalon adapters` says why",
-        ));
-    }
-    Ok((adapters, dead))
-}
-
 fn options(arguments: &Arguments) -> RunOptions {
     RunOptions {
         jobs: arguments.jobs.map_or_else(processors, usize::from),
@@ -467,7 +528,7 @@ fn options(arguments: &Arguments) -> RunOptions {
 }
 
 /// Draws with a progress bar.
-fn draw(plan: Plan<'_>) -> Result<RunSummary, Failure> {
+pub(crate) fn draw(plan: Plan<'_>) -> Result<RunSummary, Failure> {
     let bar = progress(plan.cases.len() as u64 * plan.header.adapters.len() as u64);
     let outcome = execute(plan, &bar);
     bar.finish_and_clear();
@@ -658,46 +719,6 @@ fn shuffle(cases: &mut [Case], seed: u64) {
     for last in (1..cases.len()).rev() {
         let other = random.rand_range(0..last as u64 + 1);
         cases.swap(last, other as usize);
-    }
-}
-
-fn header(
-    arguments: &Arguments,
-    selected: &RunCases,
-    adapters: &Adapters,
-    dead: &[(AdapterRecord, String)],
-) -> Header {
-    Header {
-        format: etalon_record::FORMAT,
-        provenance: provenance::here(),
-        cases: selected.cases.len() as u64,
-        settings: Settings {
-            selection: selection_digest(selected.ids.iter().map(String::as_str)),
-            shard: selected.shard,
-            profile: Some(arguments.selection.profile.name().to_owned()),
-            left_out: Some(selected.left_out),
-            shuffle: arguments.shuffle,
-            repeat: (arguments.repeat > 1).then_some(arguments.repeat),
-            shader_cache: Some(cache::state(arguments.shader_cache == CacheState::Cold)),
-            validate: arguments.validate,
-            timeout: Some(arguments.timeout),
-            memory: Some(arguments.memory),
-            gltf: arguments
-                .selection
-                .gltf
-                .as_ref()
-                .map(|scene| scene.file.clone()),
-            sizes: if selected.cases.iter().any(|case| case.method.is_some()) {
-                sizes::recorded(arguments.sizes.as_ref())
-            } else {
-                Vec::new()
-            },
-        },
-        adapters: {
-            let up = adapters.ready.iter().map(|(_, w)| w.into());
-            up.chain(dead.iter().map(|(a, _)| a.clone())).collect()
-        },
-        absent: adapters.absent.clone(),
     }
 }
 
