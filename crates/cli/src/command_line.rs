@@ -6,7 +6,7 @@ use crate::commands::history;
 use crate::commands::mutants;
 use crate::commands::{
     adapters, bench, bisect, bundle, check, completions, conformance, diff, expectations, explain,
-    export, fuzz, judge, list, man, merge, reduce, report, run, schema, show, site,
+    export, fuzz, judge, list, man, merge, preflight, reduce, report, run, schema, show, site,
 };
 use crate::worker;
 use clap::{Parser, Subcommand};
@@ -61,6 +61,8 @@ pub(crate) enum Command {
     #[cfg(feature = "history")]
     #[command(subcommand)]
     History(history::HistoryCommand),
+    /// Say which known bugs an adapter shows, and which formats and states it draws right
+    Preflight(preflight::Arguments),
     /// Check an adapter with scenes whose pictures are exact, and say what its author should fix first
     Conformance(conformance::Arguments),
     /// Find the releases of a driver that draw cases wrong

@@ -101,6 +101,7 @@ fn main() -> ExitCode {
         #[cfg(feature = "history")]
         Command::History(command) => commands::history::run(&command),
         Command::Site(arguments) => commands::site::run(&arguments),
+        Command::Preflight(arguments) => commands::preflight::run(&arguments),
         Command::Conformance(arguments) => commands::conformance::run(&arguments),
         Command::Bisect(arguments) => commands::bisect::run(&arguments),
         Command::Explain(arguments) => commands::explain::run(&arguments),

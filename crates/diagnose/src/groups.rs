@@ -42,6 +42,11 @@ impl Key {
         }
     }
 
+    /// Returns true if the scene was reduced.
+    pub fn is_reduced(&self) -> bool {
+        self.states.is_some()
+    }
+
     /// Returns the key of a scene that was not reduced, with the reason.
     pub fn whole(symptom: &Symptom, why: Unreduced) -> Self {
         Self {
@@ -85,7 +90,7 @@ impl<S> Group<S> {
             reduced: 1,
             verdict: symptom.verdict,
             traits,
-            steady: key.states.is_some(),
+            steady: key.is_reduced(),
             known: None,
             common: key.states.as_ref().map(Signature::without_depth_formats),
             key,
@@ -106,7 +111,7 @@ impl<S> Group<S> {
     /// Returns true if all states of the group's first scene belong to the failure. A scene that was not
     /// reduced still has nearly all its states.
     pub fn can_be_compared(&self) -> bool {
-        self.key.states.is_some() || !self.symptom.keeps_worker()
+        self.key.is_reduced() || !self.symptom.keeps_worker()
     }
 
     /// Returns true if a finding explains the group.

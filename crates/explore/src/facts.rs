@@ -296,10 +296,8 @@ impl DrawPlace<'_> {
     /// Returns the names of its facts other than states.
     fn others(&self) -> Vec<String> {
         let format = |index: &usize| self.scene.attachments.get(*index).map(|a| a.format);
-        let colors = self.pass.color.iter().filter_map(format);
-        let depth = self.pass.depth_stencil.as_ref().and_then(format);
-        let mut names: Vec<String> = colors.map(|f| named("color", color_class(f))).collect();
-        names.extend(depth.map(|f| named("depth", f.name())));
+        let targets = self.pass.color.iter().chain(&self.pass.depth_stencil);
+        let mut names: Vec<String> = targets.filter_map(format).map(format_fact).collect();
         let samples = self.scene.pass_samples(self.pass);
         names.push(named("samples", &samples.to_string()));
         names.push(named("topology", self.draw.topology.name()));
@@ -315,6 +313,18 @@ fn named(key: &str, value: &str) -> String {
 fn of_path(value: PathValue) -> String {
     format!("path.{}={}", value.key(), value.name())
 }
+
+/// Returns the fact of a draw into an attachment of a format: `color=packed`, `depth=depth16unorm`.
+pub fn format_fact(format: TextureFormat) -> String {
+    if format.is_color() {
+        named("color", color_class(format))
+    } else {
+        named("depth", format.name())
+    }
+}
+
+/// The facts that even the plainest draw has.
+pub const PLAIN_FACTS: [&str; 3] = ["color=unorm8", "samples=1", "topology=triangle-list"];
 
 /// Returns the class of a colour format: the formats of a class have the same rules.
 fn color_class(format: TextureFormat) -> &'static str {
@@ -438,6 +448,23 @@ pub fn draw_facts(case: &Case) -> Vec<Vec<String>> {
     draws
         .map(|numbers| numbers.into_iter().map(name).collect())
         .collect()
+}
+
+/// Returns the names of the facts of each draw of a case's scenes. A case without draws has those of its attachments and
+/// of its path.
+pub fn case_facts(case: &Case) -> Vec<Vec<String>> {
+    let draws = draw_facts(case);
+    if !draws.is_empty() {
+        return draws;
+    }
+    let scene = &case.scene;
+    let of_attachments = scene.attachments.iter().flat_map(|attachment| {
+        let samples = named("samples", &attachment.samples.to_string());
+        [format_fact(attachment.format), samples]
+    });
+    let of_path = scene.path.values().into_iter().map(of_path);
+    let facts: BTreeSet<String> = of_attachments.chain(of_path).collect();
+    vec![facts.into_iter().collect()]
 }
 
 /// Two facts that the scene model can say together.

@@ -24,7 +24,10 @@ mod scenes;
 mod space;
 
 pub use document::{keys, leaves, states};
-pub use facts::{DrawFact, FactKind, FactPair, FactPairs, draw_facts, fact_names};
+pub use facts::{
+    DrawFact, FactKind, FactPair, FactPairs, PLAIN_FACTS, case_facts, draw_facts, fact_names,
+    format_fact,
+};
 pub use fuzz::{Fuzzer, RandomScene};
 pub use reduce::{Candidate, MOST_DRAWS, Oracle, Reduction, ReductionLimits, reduce};
 pub use space::Space;

@@ -20,6 +20,7 @@ pub(crate) mod man;
 pub(crate) mod merge;
 #[cfg(feature = "mutants")]
 pub(crate) mod mutants;
+pub(crate) mod preflight;
 pub(crate) mod reduce;
 pub(crate) mod report;
 pub(crate) mod run;

@@ -31,6 +31,7 @@ use etalon_runner::{
 use indicatif::ProgressBar;
 use serde_json::json;
 use std::collections::BTreeMap;
+use std::ffi::OsStr;
 use std::mem::ManuallyDrop;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -217,11 +218,7 @@ fn interrupted(arguments: &Arguments) -> Result<Option<Arguments>, Failure> {
     let [_, command, words @ ..] = &header.provenance.command[..] else {
         return Ok(None);
     };
-    let flags = Arguments::augment_args(clap::Command::new("run").no_binary_name(true));
-    let read = flags
-        .try_get_matches_from(words)
-        .and_then(|m| Arguments::from_arg_matches(&m));
-    let Some(recorded) = read.ok().filter(|_| command == "run") else {
+    let Some(recorded) = of_words(words).filter(|_| command == "run") else {
         return Ok(None);
     };
     Ok(Some(Arguments {
@@ -230,6 +227,13 @@ fn interrupted(arguments: &Arguments) -> Result<Option<Arguments>, Failure> {
         force: false,
         ..recorded
     }))
+}
+
+/// Returns the arguments of a command line, without the program and the command.
+pub(crate) fn of_words<S: AsRef<OsStr>>(words: &[S]) -> Option<Arguments> {
+    let flags = Arguments::augment_args(clap::Command::new("run").no_binary_name(true));
+    let read = flags.try_get_matches_from(words.iter().map(AsRef::as_ref));
+    read.and_then(|m| Arguments::from_arg_matches(&m)).ok()
 }
 
 fn drawn(arguments: &Arguments) -> Result<u8, Failure> {
@@ -385,7 +389,7 @@ impl RunCases {
 /// The adapters of a command.
 pub(crate) struct StartedAdapters {
     adapters: Adapters,
-    /// Those that are installed but do not start, with the reason: their cases get records too.
+    /// Drivers that are installed but do not start, with the reason: their cases get records too.
     dead: Vec<(AdapterRecord, String)>,
 }
 

@@ -139,6 +139,31 @@ fn the_step_that_draws_sets_the_outputs_and_writes_the_summary() {
 }
 
 #[test]
+fn the_step_that_asks_writes_an_answer_for_each_adapter() {
+    let work = tempfile::tempdir().unwrap();
+    let folder = work.path();
+    let path = search_path(Path::new(BINARY).parent().unwrap());
+    let ask = |names| {
+        run_step(
+            folder,
+            "Preflight",
+            &[("preflight", names)],
+            &[("PATH", Path::new(&path))],
+        )
+    };
+    let output = ask("cpu vulkan:lavapipe");
+    assert!(output.status.success(), "{output:?}");
+    for name in ["cpu", "vulkan-lavapipe"] {
+        let text = fs::read(folder.join(format!("reports/etalon/{name}.json"))).unwrap();
+        let answer: Value = serde_json::from_slice(&text).unwrap();
+        assert_eq!(answer["formats"]["rgba8unorm"]["safety"], "safe");
+    }
+    let summary = fs::read_to_string(folder.join("summary")).unwrap();
+    assert!(summary.contains("What it draws wrong"), "{summary}");
+    assert!(!ask("no-such-adapter").status.success());
+}
+
+#[test]
 fn the_step_that_installs_takes_only_what_has_the_right_digest() {
     let work = tempfile::tempdir().unwrap();
     let folder = work.path();

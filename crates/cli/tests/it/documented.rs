@@ -8,13 +8,14 @@ use std::path::Path;
 use tempfile::TempDir;
 
 /// The pages.
-const PAGES: [&str; 9] = [
+const PAGES: [&str; 10] = [
     "README.md",
     "ci/README.md",
     "ci/adapters/README.md",
     "ci/adapters/external.md",
     "ci/adapters/frames.md",
     "ci/conformance.md",
+    "ci/adapters/preflight.md",
     "ci/dashboards.md",
     "crates/commands.md",
     "crates/triage.md",
@@ -138,6 +139,10 @@ const TREATED: &[(&str, Treatment)] = &[
     (
         "etalon run --adapters FILE --adapter external:mine",
         As("run cull/points/* --adapter cpu --out {new}"),
+    ),
+    (
+        "etalon preflight --adapter vulkan:lavapipe",
+        As("preflight --adapter cpu"),
     ),
     ("etalon completions SHELL", As("completions bash")),
     ("etalon diff A B", As("diff run-a run-b")),

@@ -46,6 +46,7 @@ mod page;
 mod parts;
 mod pipes;
 mod plain_words;
+mod preflight;
 mod prose;
 mod read_faults;
 mod reduce;

@@ -33,6 +33,13 @@ pub struct Looked {
     pub key: Key,
 }
 
+impl Looked {
+    /// Returns true if the scene was reduced.
+    pub fn is_reduced(&self) -> bool {
+        self.key.is_reduced()
+    }
+}
+
 /// Reduces cases on one driver; starts its worker on demand.
 pub struct Reducer<'a> {
     /// The command and environment of the driver's worker.

@@ -1,0 +1,401 @@
+//! `etalon preflight`.
+
+use crate::cases::{build_named, library};
+use crate::commands::run::{self, RunCases, StartedAdapters, draw};
+use crate::counted::counted;
+use crate::expectations::built_in;
+use crate::failure::Failure;
+use crate::flags::AdapterFileArguments;
+use crate::interruption::listen;
+use crate::named_files::replace;
+use crate::output::{print, print_json};
+use crate::worth::sort_by_worth;
+use clap::Args;
+use etalon_case::{Case, Library, Profile, select};
+use etalon_diagnose::{Advice, DrawnCase, Fact, Preflight, Safety, ShownBug, Symptom};
+use etalon_explore::{Candidate, PLAIN_FACTS, case_facts, fact_names, format_fact};
+use etalon_frame::TextureFormat;
+use etalon_record::{AdapterRecord, Expectations, Record, Run, Verdict};
+use etalon_runner::Reducer;
+use serde_json::{Value, json};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::ffi::OsStr;
+use std::fmt::Write as _;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Cases are drawn for at most these seconds, and each of them may take [`TIMEOUT`] seconds.
+const WITHIN: &str = "13";
+const TIMEOUT: &str = "3";
+/// The time after which no further failure is reduced. A reduction takes a second or two.
+const REDUCING: Duration = Duration::from_secs(17);
+/// The number of failures of one bug whose common facts say something.
+const MANY: usize = 4;
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    pub(crate) file: AdapterFileArguments,
+    /// The adapter to ask
+    #[arg(long, value_name = "NAME")]
+    pub(crate) adapter: String,
+    /// Print JSON for programs
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Also write the JSON to this file
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+}
+
+/// Draws the cases of the findings about an adapter, then others, and says what they show.
+pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
+    let begin = Instant::now();
+    let failed = |e: io::Error| Failure::incomplete(format!("cannot make a folder: {e}"));
+    let folder = tempfile::tempdir().map_err(failed)?;
+    let run = drawing(arguments, &folder.path().join("run"))?;
+    let selected = RunCases::new(&run)?;
+    let expectations = built_in()?;
+    let stop = listen()?;
+    let started = StartedAdapters::start(&run)?;
+    let Some(launch) = started.launches().next().cloned() else {
+        let name = &arguments.adapter;
+        return Err(Failure::incomplete(format!("{name} does not start")));
+    };
+    let mut plan = started.plan(&run, &selected, &expectations, stop);
+    let Some(adapter) = plan.header.adapters.first().cloned() else {
+        return Err(Failure::incomplete("no adapter was started"));
+    };
+    let library = library(None)?;
+    let cases = in_order(&library, &selected.cases, &expectations.about(&adapter))?;
+    plan.header.cases = cases.len() as u64;
+    plan.selection = None;
+    plan.cases = &cases;
+    let summary = draw(plan)?;
+    if summary.interrupted {
+        return Err(Failure::incomplete("interrupted before it could answer"));
+    }
+    let records = Run::read(&run.out).map_err(Failure::incomplete)?.records;
+    let mut reductions = Reductions {
+        library: &library,
+        reducer: Reducer::new(
+            launch,
+            adapter.limits.clone(),
+            Duration::from_secs_f64(run.timeout),
+            stop,
+        ),
+        begin,
+    };
+    let by_id: HashMap<&str, &Case> = cases.iter().map(|case| (&*case.id, case)).collect();
+    let drawn = records.iter().filter_map(|record| {
+        let case = by_id.get(record.case.as_str())?;
+        Some(DrawnCase {
+            record,
+            draws: case_facts(case),
+            formats: formats(case),
+        })
+    });
+    let drawn: Vec<DrawnCase<'_>> = drawn.collect();
+    let all = [
+        TextureFormat::ALL
+            .into_iter()
+            .map(|f| f.name().to_owned())
+            .collect(),
+        fact_names().collect::<Vec<String>>(),
+    ];
+    let answer = Preflight::new(
+        &drawn,
+        &adapter,
+        &expectations,
+        [&all[0], &all[1]],
+        |cases| reductions.needs(cases),
+    );
+    let answer = Answer {
+        adapter: &adapter,
+        answer,
+        seconds: begin.elapsed().as_secs_f64(),
+        drawn: records.iter().filter(|record| record.is_drawn()).count() as u64,
+        left: records
+            .iter()
+            .filter(|record| record.verdict == Verdict::Skipped)
+            .count() as u64,
+    };
+    let json = answer.json();
+    if let Some(file) = &arguments.out {
+        let text =
+            serde_json::to_vec_pretty(&json).map_err(|e| Failure::incomplete(e.to_string()))?;
+        replace(file, &text)?;
+    }
+    if arguments.json {
+        print_json(&json)?;
+    } else {
+        print(&answer.text())?;
+    }
+    Ok(0)
+}
+
+/// Returns the arguments of the run that draws.
+fn drawing(arguments: &Arguments, out: &Path) -> Result<run::Arguments, Failure> {
+    let mut words: Vec<&OsStr> = Vec::new();
+    for (flag, value) in [
+        ("--adapter", arguments.adapter.as_ref()),
+        ("--within", WITHIN.as_ref()),
+        ("--timeout", TIMEOUT.as_ref()),
+        ("--keep-frames", "none".as_ref()),
+        ("--out", out.as_os_str()),
+    ] {
+        words.extend([flag.as_ref(), value]);
+    }
+    if let Some(file) = &arguments.file.adapter_file {
+        words.extend(["--adapters".as_ref(), file.as_os_str()]);
+    }
+    run::of_words(&words).ok_or_else(|| Failure::usage("the name of the adapter is no text"))
+}
+
+/// Returns the shortest case of each finding about the adapter, first of bugs that end no process, then the quick cases by
+/// what they find per second.
+fn in_order(library: &Library, quick: &[Case], about: &Expectations) -> Result<Vec<Case>, Failure> {
+    let mut others: Vec<Case> = quick.to_vec();
+    sort_by_worth(&mut others);
+    let is_lasting = |number: usize| {
+        let verdict = about.all()[number].verdict;
+        verdict.is_violation() || matches!(verdict, Verdict::Flaky | Verdict::Open)
+    };
+    let mut numbers: Vec<usize> = (0..about.all().len()).collect();
+    numbers.sort_by_key(|number| !is_lasting(*number));
+    let mut first: Vec<Case> = Vec::new();
+    for number in numbers {
+        let draws = |case: &&Case| {
+            let draws = case.scene.passes.iter().map(|pass| pass.draws.len());
+            draws.sum::<usize>()
+        };
+        let shows = |case: &&Case| about.names(number, &case.id);
+        if first.iter().any(|case| shows(&case)) {
+            continue;
+        }
+        if let Some(case) = others.iter().filter(shows).min_by_key(draws) {
+            first.push(case.clone());
+            continue;
+        }
+        let selected = select(library, Profile::Full, &about.all()[number].cases);
+        let selected = selected.map_err(Failure::usage)?;
+        if let Some(case) = selected.cases.first() {
+            let id = case.id();
+            first.extend(build_named(library, &BTreeSet::from([id.as_str()]))?);
+        }
+    }
+    let ids: BTreeSet<String> = first.iter().map(|case| case.id.clone()).collect();
+    others.retain(|case| !ids.contains(&case.id));
+    first.extend(others);
+    Ok(first)
+}
+
+/// Returns the formats of a case's attachments: their names, and their facts.
+fn formats(case: &Case) -> Vec<[String; 2]> {
+    let attachments = case.scene.attachments.iter();
+    let formats = attachments.map(|a| [a.format.name().to_owned(), format_fact(a.format)]);
+    formats.collect()
+}
+
+/// Finds out what failures need that no finding explains, by reducing them.
+struct Reductions<'a> {
+    library: &'a Library,
+    reducer: Reducer<'a>,
+    begin: Instant,
+}
+
+impl Reductions<'_> {
+    /// Returns the facts that failures of one bug need, without those of the plainest draw: what is left of the first one
+    /// when it is reduced, otherwise what many of them have in common.
+    fn needs(&mut self, cases: &[&DrawnCase<'_>]) -> Vec<String> {
+        let reduced = cases.first().and_then(|case| self.reduced(case.record));
+        let draws = match reduced {
+            Some(case) => case_facts(&case),
+            None if cases.len() >= MANY => {
+                let each = cases.iter().map(|case| facts_of(&case.draws));
+                let common = each.reduce(|all, other| all.intersection(&other).copied().collect());
+                return unplain(common.unwrap_or_default());
+            }
+            None => Vec::new(),
+        };
+        unplain(facts_of(&draws))
+    }
+
+    /// Returns the reduced case of a failure; `None` if it fails only after others, or now and then, or if it ends the
+    /// process or there is no time left.
+    fn reduced(&mut self, record: &Record) -> Option<Case> {
+        let symptom = Symptom::of(record);
+        let is_late = self.begin.elapsed() > REDUCING;
+        if !symptom.keeps_worker() || !record.after.is_empty() || is_late {
+            return None;
+        }
+        let ids = BTreeSet::from([record.case.as_str()]);
+        let (_, case) = self.library.named(&ids).next()?;
+        let document = case.document().ok()?;
+        let case = etalon_case::build("found/preflight", &document).ok()?;
+        let scene = Candidate { document, case };
+        let looked = self.reducer.look(scene, record.clone(), symptom).ok()?;
+        looked.is_reduced().then_some(looked.scene.case)
+    }
+}
+
+fn facts_of(draws: &[Vec<String>]) -> BTreeSet<&str> {
+    draws.iter().flatten().map(String::as_str).collect()
+}
+
+fn unplain(facts: BTreeSet<&str>) -> Vec<String> {
+    let others = facts.into_iter().filter(|fact| !PLAIN_FACTS.contains(fact));
+    others.map(str::to_owned).collect()
+}
+
+/// The answer, with what it is based on.
+struct Answer<'a> {
+    adapter: &'a AdapterRecord,
+    answer: Preflight,
+    seconds: f64,
+    /// The number of drawn cases.
+    drawn: u64,
+    /// The number of cases for which no time was left.
+    left: u64,
+}
+
+impl Answer<'_> {
+    fn json(&self) -> Value {
+        let info = &self.adapter.info;
+        let Preflight {
+            bugs,
+            unseen,
+            formats,
+            states,
+        } = &self.answer;
+        json!({
+            "adapter": info.name,
+            "driver": info.driver,
+            "driver_version": info.driver_version,
+            "device": info.device,
+            "seconds": (self.seconds * 10.0).round() / 10.0,
+            "drawn": self.drawn,
+            "left": self.left,
+            "bugs": bugs,
+            "unseen": unseen,
+            "formats": formats,
+            "states": states,
+        })
+    }
+
+    fn text(&self) -> String {
+        let Preflight {
+            bugs,
+            unseen,
+            formats,
+            states,
+        } = &self.answer;
+        let known = bugs.iter().filter(|bug| bug.finding.is_some()).count();
+        let left = match self.left {
+            0 => String::new(),
+            n => format!(" ({n} more did not fit)"),
+        };
+        let mut text = format!(
+            "{} ({}): {} drawn in {:.0} s{left}: {}, {} without a finding\n",
+            self.adapter.info.name,
+            self.adapter.driver_text(),
+            counted(self.drawn, "case"),
+            self.seconds,
+            counted(known as u64, "known bug"),
+            counted((bugs.len() - known) as u64, "failure"),
+        );
+        if !bugs.is_empty() {
+            text += "\nWhat it draws wrong\n";
+        }
+        for bug in bugs {
+            text += &bug_lines(bug);
+        }
+        if let Some(bug) = bugs.first() {
+            let name = &self.adapter.info.name;
+            let _ = writeln!(text, "Why: etalon explain {} --adapter {name}", bug.example);
+        }
+        let gone: Vec<&str> = unseen
+            .iter()
+            .filter(|bug| bug.right > 0)
+            .map(|bug| &*bug.finding)
+            .collect();
+        if !gone.is_empty() {
+            let _ = writeln!(text, "\nKnown, and not seen here: {}", gone.join(", "));
+        }
+        let undrawn = unseen.len() - gone.len();
+        if undrawn > 0 {
+            let _ = writeln!(text, "Known, and no case of it was drawn: {undrawn}");
+        }
+        text += &facts_lines("Formats", formats);
+        text += &facts_lines("States", states);
+        text
+    }
+}
+
+/// Returns what to do, in a word or two.
+fn advice_words(advice: Advice) -> String {
+    match advice {
+        Advice::Tolerance { codes, encoding } => {
+            format!(
+                "tolerance of {} of {encoding}",
+                counted(codes.into(), "code")
+            )
+        }
+        Advice::Skip => "skip".to_owned(),
+        Advice::IgnoreCounters => "ignore counters".to_owned(),
+        Advice::Avoid => "avoid".to_owned(),
+    }
+}
+
+fn bug_lines(bug: &ShownBug) -> String {
+    let name = bug.finding.as_deref().unwrap_or("no finding");
+    let needs = match &bug.needs[..] {
+        [] => "what it needs is not known".to_owned(),
+        needs => format!("needs {}", needs.join(" + ")),
+    };
+    let after = bug.after.as_ref();
+    let after = after.map_or_else(String::new, |case| format!(" after {case}"));
+    format!(
+        "  {}: {} ({name})\n      {needs}; {} {}, as {}{after}\n",
+        advice_words(bug.advice),
+        bug.title,
+        counted(bug.cases, "case"),
+        bug.verdict,
+        bug.example,
+    )
+}
+
+/// Returns a line for each unsafe fact, and one for all others of each kind.
+fn facts_lines(title: &str, facts: &BTreeMap<String, Fact>) -> String {
+    let of = |safety: Safety| {
+        let facts = facts.iter().filter(move |(_, fact)| fact.safety == safety);
+        facts.map(|(name, _)| name.as_str()).collect::<Vec<_>>()
+    };
+    let mut text = format!("\n{title}\n");
+    for (name, fact) in facts {
+        let bugs: Vec<&str> = fact.bugs.iter().map(String::as_str).collect();
+        let bugs = bugs.join(", ");
+        text += &match fact.safety {
+            Safety::Partly => format!("  right but for a bug  {name}: {bugs}\n"),
+            Safety::Unclear => {
+                format!("  unclear  {name}: only in wrong pictures, of {bugs}\n")
+            }
+            Safety::Wrong => format!(
+                "  wrong in each of {}  {name}: {bugs}\n",
+                counted(fact.wrong, "case")
+            ),
+            _ => continue,
+        };
+    }
+    for (words, safety) in [
+        ("safe", Safety::Safe),
+        ("not supported", Safety::NotSupported),
+        ("not drawn", Safety::NotDrawn),
+    ] {
+        let names = of(safety);
+        if !names.is_empty() {
+            let _ = writeln!(text, "  {words}  {}", names.join(", "));
+        }
+    }
+    text
+}
