@@ -22,7 +22,9 @@ mod fault_name;
 #[cfg(not(feature = "faults"))]
 mod faultless;
 mod halves;
+pub mod open_limits;
 mod recording;
+pub mod texels;
 
 pub use blits::{Blit, BlitPiece, Blits, doubled};
 pub use call_fault::CallFault;

@@ -11,18 +11,14 @@ pub(crate) mod pairs;
 
 use crate::processors::processors;
 use edges::{Near, nearest};
-use etalon_backend::Backend;
 use etalon_case::{Case, CaseError, CaseFile, CaseRef, Profile};
-use etalon_cpu::CpuBackend;
+use etalon_cpu::limits_of;
 use etalon_frame::threads::each;
-use etalon_frame::{Api, ApiVersion, Aspect, CodeInterval, LegalSet, Limits};
+use etalon_frame::{Api, Aspect, CodeInterval, LegalSet};
 use etalon_record::Assertion;
 use etalon_reference::{Judgement, Rules, judgements};
 use idle::idle;
 use std::collections::BTreeMap;
-
-/// The fewest sub-pixel bits that an API allows (Vulkan: Limits, `subPixelPrecisionBits`).
-const SUB_PIXEL_BITS: u8 = 4;
 
 /// A case and what checking it found.
 pub(crate) struct CheckedCase {
@@ -116,22 +112,6 @@ fn build_all(file: &CaseFile) -> Vec<CaseError> {
     errors
 }
 
-/// Returns the limits of the rasterizer with the coarsest grid of vertices that an API allows.
-pub(crate) fn limits(api: Api) -> Limits {
-    let version = match api {
-        Api::Vulkan => ApiVersion::new(1, 4),
-        Api::OpenGl => ApiVersion::new(4, 6),
-        Api::OpenGlEs => ApiVersion::new(3, 2),
-        Api::WebGpu => ApiVersion::UNKNOWN,
-    };
-    Limits {
-        api,
-        version,
-        sub_pixel_bits: SUB_PIXEL_BITS,
-        ..CpuBackend::new("cpu").limits().clone()
-    }
-}
-
 /// Judges one case.
 pub(crate) fn check_case(case: &Case) -> CheckedCase {
     let mut checked = CheckedCase {
@@ -156,7 +136,7 @@ pub(crate) fn check_case(case: &Case) -> CheckedCase {
     while let Some(api) = apis.next()
         && (checked.channels.is_empty() || checked.channels.values().any(|asserted| !asserted))
     {
-        let limits = limits(api);
+        let limits = limits_of(api);
         let judged = judgements(scene, &limits);
         let Some(first) = judged.first() else {
             break;

@@ -2,8 +2,8 @@
 
 use crate::cases::find;
 use crate::failure::Failure;
+use etalon_backend::texels::AspectForm;
 use etalon_case::{Case, Library};
-use etalon_external::AspectForm;
 use etalon_external::files::{self, FrameFiles, MANIFEST, Manifest};
 use etalon_frame::Frame;
 use etalon_record::open_below;

@@ -1,11 +1,12 @@
 //! The limits by which frames of unknown origin are judged.
 
-use crate::check;
 use crate::failure::Failure;
 use clap::ValueEnum;
+use etalon_assert::any_device;
+use etalon_cpu::limits_of;
+use etalon_external::limits;
 use etalon_external::message::Hello;
-use etalon_external::{file_limits, limits};
-use etalon_frame::{AdapterInfo, Api, Limits};
+use etalon_frame::{AdapterInfo, Api};
 use etalon_record::AdapterRecord;
 use std::fs;
 use std::path::Path;
@@ -32,12 +33,6 @@ impl From<RulesApi> for Api {
             RulesApi::Webgpu => Self::WebGpu,
         }
     }
-}
-
-/// Returns limits that every device of an API meets: the coarsest grid of vertices, standard sample positions, and any
-/// encoding of depths. All formats and features are there, because a frame shows that they were.
-pub(crate) fn any_device(api: Api) -> Limits {
-    file_limits(check::limits(api))
 }
 
 /// Returns the adapter that drew frames: what a file describes, or any device.
@@ -69,11 +64,11 @@ pub(crate) fn adapter(
     if let Some(rules) = rules
         && limits.api != rules.into()
     {
-        limits.version = check::limits(rules.into()).version;
+        limits.version = limits_of(rules.into()).version;
         limits.api = rules.into();
     }
     // How a scene reached the device changes nothing that is legal.
-    limits.paths = check::limits(limits.api).paths;
+    limits.paths = limits_of(limits.api).paths;
     Ok(AdapterRecord {
         info,
         release: None,

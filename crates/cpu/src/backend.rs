@@ -101,6 +101,26 @@ impl CpuBackend {
     }
 }
 
+/// The fewest sub-pixel bits that an API allows (Vulkan: Limits, `subPixelPrecisionBits`).
+const COARSEST_BITS: u8 = 4;
+
+/// Returns the rasterizer's limits by the rules of an API in its newest version, with the coarsest grid of vertices that it
+/// allows.
+pub fn limits_of(api: Api) -> Limits {
+    let version = match api {
+        Api::Vulkan => ApiVersion::new(1, 4),
+        Api::OpenGl => ApiVersion::new(4, 6),
+        Api::OpenGlEs => ApiVersion::new(3, 2),
+        Api::WebGpu => ApiVersion::UNKNOWN,
+    };
+    Limits {
+        api,
+        version,
+        sub_pixel_bits: COARSEST_BITS,
+        ..CpuBackend::new("cpu").limits
+    }
+}
+
 /// Returns a description of how a scene is drawn: a line with the kernels of each draw, or the reason why the
 /// span code draws the scene.
 pub fn kernels(scene: &Scene) -> Vec<String> {

@@ -20,7 +20,7 @@ pub mod steps;
 mod surface;
 mod tiles;
 
-pub use backend::{CpuBackend, in_tiles, kernels};
+pub use backend::{CpuBackend, in_tiles, kernels, limits_of};
 pub use limits::{ProcessorRates, limits};
 pub use prepared::CpuScene;
 pub use surface::CpuSurface;

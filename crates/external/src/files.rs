@@ -1,8 +1,8 @@
 //! Frames in files: a manifest, and a file for each aspect or sample. `ci/adapters/frames.md` is the page for authors.
 
 use crate::npy::{self, Array};
-use crate::texels::AspectForm;
 use etalon_backend::codes::{pack_all, texel_bytes};
+use etalon_backend::texels::AspectForm;
 use etalon_frame::{Aspect, ChannelEncoding, Frame, Image};
 use png::{BitDepth, ColorType, Decoder};
 use schemars::JsonSchema;

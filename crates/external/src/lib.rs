@@ -18,9 +18,7 @@ mod npy;
 mod program;
 pub mod scene;
 mod shaders;
-mod texels;
 
 pub use backend::{ExternalBackend, open};
-pub use limits::{description, file_limits, languages, limits, not_expressed};
+pub use limits::{description, languages, limits, not_expressed};
 pub use message::schema;
-pub use texels::AspectForm;

@@ -2,10 +2,10 @@
 
 use crate::message::{FormatOffer, Hello, PROTOCOL};
 use crate::shaders::ShaderLanguage;
-use etalon_backend::codes::webgpu_layout;
+use etalon_backend::open_limits::exempt;
+use etalon_backend::texels::{has_form, read_path};
 use etalon_frame::{
-    AdapterInfo, Feature, FormatSupport, Limits, ReadPath, Requirement, TextureFormat,
-    standard_sample_positions,
+    AdapterInfo, Feature, FormatSupport, Limits, Requirement, standard_sample_positions,
 };
 use etalon_scene::Scene;
 use std::collections::{BTreeMap, BTreeSet};
@@ -135,11 +135,6 @@ pub fn description(info: &AdapterInfo, limits: &Limits) -> Hello {
     }
 }
 
-/// Returns true if texels of a format have bytes.
-fn has_form(format: TextureFormat) -> bool {
-    !format.is_color() || !webgpu_layout(format).is_empty()
-}
-
 /// Returns true if the protocol expresses a feature.
 fn is_expressed(feature: &Feature) -> bool {
     !NOT_EXPRESSED.contains(feature)
@@ -172,47 +167,4 @@ fn features(scene: &Scene) -> impl Iterator<Item = Feature> {
         Requirement::Feature(feature) => Some(feature),
         _ => None,
     })
-}
-
-/// Returns limits for frames in files, whose depths are floats and whose colours have a layout in WebGPU. The files do
-/// not say how depths were stored.
-pub fn file_limits(mut limits: Limits) -> Limits {
-    limits.formats.retain(|format, _| has_form(*format));
-    for (format, support) in &mut limits.formats {
-        support.depth = format.depth_encodings().to_vec();
-        support.read = read_path(*format);
-    }
-    limits.exempt = exempt();
-    limits
-}
-
-/// Returns how depths are read: as floats, which are exact only for formats of floats.
-pub(crate) fn read_path(format: TextureFormat) -> ReadPath {
-    use etalon_frame::ChannelEncoding::Float32;
-    match format.depth_encodings() {
-        [] | [Float32] => ReadPath::Copy,
-        _ => ReadPath::Shader,
-    }
-}
-
-/// Returns everything: a program may lack what its API requires of drivers.
-fn exempt() -> BTreeSet<Requirement> {
-    let formats = TextureFormat::ALL.into_iter().flat_map(|format| {
-        let samples = [2, 4, 8, 16].map(|n| Requirement::Samples(format, n));
-        let uses = [
-            Requirement::Format(format),
-            Requirement::Drawing(format),
-            Requirement::Blending(format),
-        ];
-        uses.into_iter().chain(samples)
-    });
-    Feature::ALL
-        .map(Requirement::Feature)
-        .into_iter()
-        .chain(formats)
-        .chain([
-            Requirement::Size(u32::MAX),
-            Requirement::ColorAttachments(u32::MAX),
-        ])
-        .collect()
 }

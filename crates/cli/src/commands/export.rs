@@ -3,15 +3,16 @@
 use crate::cases::{find, library};
 use crate::failure::Failure;
 use crate::flags::AdapterFileArguments;
-use crate::frame_limits::any_device;
 use crate::named_files::NamedFiles;
 use crate::output::{say, summarize};
 use crate::reducing::start;
 use clap::Args;
+use etalon_assert::any_device;
+use etalon_backend::texels::AspectForm;
 use etalon_case::{Case, CaseRef, Library, Profile, select};
 use etalon_external::files::{FrameFiles, ImageFiles, MANIFEST, Manifest, array_file};
 use etalon_external::scene::SentScene;
-use etalon_external::{AspectForm, description, languages, not_expressed};
+use etalon_external::{description, languages, not_expressed};
 use etalon_frame::{Api, CodeInterval, Frame, Image, ImageInfo};
 use etalon_reference::{Judgement, judgements};
 use etalon_report::reference_png;

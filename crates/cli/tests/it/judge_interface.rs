@@ -1,4 +1,4 @@
-//! The public interface of `etalon-judge`, as a snapshot: a change of it is a change of version
+//! The public interfaces of `etalon-judge` and `etalon-assert`, as snapshots: a change of them is a change of version
 //! (`crates/stability.md`).
 #![expect(clippy::unwrap_used, reason = "a test that panics has failed")]
 
@@ -56,8 +56,15 @@ fn public_items(source: &str) -> Vec<String> {
 }
 
 #[test]
-fn the_interface_of_the_judge_is_as_recorded() {
-    let folder = root().join("crates/judge/src");
+fn the_interfaces_are_as_recorded() {
+    for name in ["judge", "assert"] {
+        insta::assert_snapshot!(format!("{name}-interface"), listing(name));
+    }
+}
+
+/// Returns the public items of a crate, by file.
+fn listing(name: &str) -> String {
+    let folder = root().join("crates").join(name).join("src");
     let mut names: Vec<String> = fs::read_dir(&folder)
         .unwrap()
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
@@ -71,7 +78,7 @@ fn the_interface_of_the_judge_is_as_recorded() {
             listing += &format!("{name}\n  {}\n", items.join("\n  "));
         }
     }
-    insta::assert_snapshot!("judge-interface", listing);
+    listing
 }
 
 #[test]

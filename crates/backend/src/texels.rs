@@ -1,7 +1,6 @@
 //! The texels of an aspect as bytes, which programs send and files hold.
 
-use crate::limits::read_path;
-use etalon_backend::codes::{TexelLayout, pack_all, texel_bytes, unpack_all, webgpu_layout};
+use crate::codes::{TexelLayout, pack_all, texel_bytes, unpack_all, webgpu_layout};
 use etalon_frame::{Aspect, ChannelEncoding, Image, ReadPath, TextureFormat};
 use etalon_scene::{Attachment, Scene};
 use std::fmt;
@@ -48,7 +47,7 @@ impl AspectForm {
     }
 
     /// Returns true if this is the aspect of the attachment with this name.
-    pub(crate) fn is(&self, attachment: &str, aspect: Aspect) -> bool {
+    pub fn is(&self, attachment: &str, aspect: Aspect) -> bool {
         self.attachment == attachment && self.aspect == aspect
     }
 
@@ -122,5 +121,19 @@ impl AspectForm {
             }
             _ => pack_all(self.layout(), codes),
         }
+    }
+}
+
+/// Returns true if texels of a format have bytes.
+pub fn has_form(format: TextureFormat) -> bool {
+    !format.is_color() || !webgpu_layout(format).is_empty()
+}
+
+/// Returns how depths are read: as floats, which are exact only for formats of floats.
+pub fn read_path(format: TextureFormat) -> ReadPath {
+    use etalon_frame::ChannelEncoding::Float32;
+    match format.depth_encodings() {
+        [] | [Float32] => ReadPath::Copy,
+        _ => ReadPath::Shader,
     }
 }
