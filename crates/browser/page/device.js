@@ -43,10 +43,10 @@ async function browser() {
 }
 
 /**
- * Opens a device, and returns it with its description. Throws the reason if there is no device.
- * @param {boolean} compatibility true to request a device in compatibility mode
+ * Finds an adapter, and returns it with the description of its best device. Throws the reason if there is no adapter.
+ * @param {boolean} compatibility true to request an adapter in compatibility mode
  */
-async function openDevice(compatibility) {
+async function findAdapter(compatibility) {
   if (navigator.gpu === undefined) {
     throw new Error(
       isSecureContext
@@ -70,16 +70,10 @@ async function openDevice(compatibility) {
       limits[name] = adapter.limits[name];
     }
   }
-  const offered = FEATURES.filter((name) => adapter.features.has(name));
-  const requiredFeatures = offered.filter((name) => !compatibility || name !== CORE);
-  const device = await adapter.requestDevice({ requiredFeatures, requiredLimits: limits });
-  device.onuncapturederror = ({ error }) => {
-    messages.push(error.message);
-  };
   const hello = {
     protocol: PROTOCOL,
     browser: await browser(),
-    compatibility: core === null && !device.features.has(CORE),
+    compatibility: core === null && !adapter.features.has(CORE),
     adapter: {
       vendor: info.vendor,
       architecture: info.architecture,
@@ -87,8 +81,24 @@ async function openDevice(compatibility) {
       description: info.description,
       fallback: info.isFallbackAdapter ?? adapter.isFallbackAdapter ?? false,
     },
-    features: [...device.features],
+    features: FEATURES.filter((name) => adapter.features.has(name)),
     limits,
   };
-  return { device, hello };
+  return { adapter, hello };
+}
+
+/**
+ * Opens a device, and returns it with its description. Throws the reason if there is no device.
+ * @param {boolean} compatibility true to request a device in compatibility mode
+ */
+async function openDevice(compatibility) {
+  const { adapter, hello } = await findAdapter(compatibility);
+  const requiredFeatures = hello.features.filter((name) => !compatibility || name !== CORE);
+  const device = await adapter.requestDevice({ requiredFeatures, requiredLimits: hello.limits });
+  device.onuncapturederror = ({ error }) => {
+    messages.push(error.message);
+  };
+  const features = [...device.features];
+  const isLimited = (compatibility || hello.compatibility) && !device.features.has(CORE);
+  return { device, hello: { ...hello, compatibility: isLimited, features } };
 }

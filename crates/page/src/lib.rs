@@ -10,6 +10,7 @@ mod message;
 mod opening;
 mod session;
 mod suite;
+mod tile;
 mod verdict;
 
 pub use suite::Suite;

@@ -9,6 +9,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Ask {
+    /// Asks what a run would draw. The answer is a [`Choice`].
+    Choose(Box<Choosing>),
     /// Begins a run on a device. The answer is [`Opened`].
     Open(Box<Opening>),
     /// Reports the result of a round trip. The bytes are its record's line.
@@ -27,6 +29,33 @@ pub(crate) enum Ask {
         lines: usize,
         pictures: Vec<(String, usize)>,
     },
+}
+
+/// A selection, and what the browser tells about its device before anything is drawn.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Choosing {
+    pub(crate) globs: Vec<String>,
+    /// `quick` or `full`.
+    pub(crate) profile: String,
+    /// `None` if the browser has no device.
+    pub(crate) hello: Option<Hello>,
+}
+
+/// What a run would draw.
+#[derive(Debug, Serialize)]
+pub(crate) struct Choice {
+    /// The number of selected cases.
+    pub(crate) cases: usize,
+    pub(crate) device: Option<PageDevice>,
+}
+
+/// The device that draws, and its adapter's name.
+#[derive(Debug, Serialize)]
+pub(crate) struct PageDevice {
+    pub(crate) adapter: String,
+    pub(crate) device: String,
+    pub(crate) driver: String,
+    pub(crate) software: bool,
 }
 
 /// The selection and the device of a run.
@@ -63,11 +92,8 @@ pub(crate) struct Opened {
     pub(crate) timed: bool,
     /// The first line of `run.jsonl`.
     pub(crate) header: String,
-    /// The name of the adapter.
-    pub(crate) adapter: String,
-    pub(crate) device: String,
-    pub(crate) driver: String,
-    pub(crate) software: bool,
+    #[serde(flatten)]
+    pub(crate) device: PageDevice,
 }
 
 /// The next step of a case.
@@ -131,6 +157,8 @@ pub(crate) struct PageRecord {
     pub(crate) length: usize,
     /// The length of the line if the frame is not kept, which comes next; 0 if the frame must be kept.
     pub(crate) short: usize,
+    /// The length of the tile, which comes next: red, green and blue of 16×16 texels; 0 if nothing was drawn.
+    pub(crate) tile: usize,
     /// The paths and lengths of pictures, which come next.
     pub(crate) pictures: Vec<(String, usize)>,
     /// The path of the frame, whose file is the rest of the bytes.

@@ -1,6 +1,6 @@
 //! The beginning of a run: its selection, its adapter and its header.
 
-use crate::message::{Opened, Opening};
+use crate::message::{Choice, Choosing, Opened, Opening, PageDevice};
 use crate::session::Session;
 use etalon_backend::Fault;
 use etalon_case::{Case, CaseRef, Library, Profile, left_out, select};
@@ -23,31 +23,12 @@ const ROUND_TRIPS: &str = "capabilities/round-trip/format=";
 /// If the selection is empty, a glob does not parse, or the device lacks a limit.
 pub(crate) fn open(opening: Opening) -> Result<(Session, Opened), String> {
     let library = Library::built_in();
-    let profile = match opening.profile.as_str() {
-        "quick" => Profile::Quick,
-        "full" => Profile::Full,
-        other => {
-            return Err(format!(
-                "there is no profile {other}; there are quick and full"
-            ));
-        }
-    };
-    let matching = |profile| select(library, profile, &opening.globs).map_err(|e| e.to_string());
-    let selected = matching(profile)?.cases;
-    let count = selected.len();
-    let mut selected: Vec<CaseRef<'static>> = selected;
-    if opening.globs.is_empty() {
-        selected.retain(|case| !case.is_measured());
-    }
-    let measured = count - selected.len();
+    let PageSelection {
+        profile,
+        cases: selected,
+        measured,
+    } = selection(&opening.globs, &opening.profile)?;
     let ids: Vec<String> = selected.iter().map(CaseRef::id).collect();
-    if ids.is_empty() {
-        let full = matching(Profile::Full)?.cases;
-        return Err(match full.len() {
-            0 => "no case matches".to_owned(),
-            n => format!("no case of the quick profile matches, of the full one {n}"),
-        });
-    }
     let trips = match opening.trips {
         Some(trips) => trips,
         None => trips_of(library, &selected)?,
@@ -73,9 +54,8 @@ pub(crate) fn open(opening: Opening) -> Result<(Session, Opened), String> {
     }
     let name = name_of(&opening.hello.browser.name, &opening.fault);
     let device = adapter::device(&opening.hello.offer)?;
-    let info = adapter::info(&name, &opening.hello);
     let record = AdapterRecord {
-        info: info.clone(),
+        info: adapter::info(&name, &opening.hello),
         release: None,
         limits: device.limits.clone(),
     };
@@ -105,10 +85,7 @@ pub(crate) fn open(opening: Opening) -> Result<(Session, Opened), String> {
         measured,
         timed: measuring,
         header: String::from_utf8_lossy(&line).into_owned(),
-        adapter: info.name.clone(),
-        device: info.device.clone(),
-        driver: record.driver_text(),
-        software: info.software,
+        device: page_device(&record),
     };
     let fault = Fault::in_name(&name).map_err(|error| error.to_string())?;
     let fault = fault.map(|(_, fault)| fault);
@@ -122,6 +99,76 @@ pub(crate) fn open(opening: Opening) -> Result<(Session, Opened), String> {
         Session::new(record, device, fault, expectations, cases, pictured),
         opened,
     ))
+}
+
+/// The cases of a selection.
+struct PageSelection {
+    profile: Profile,
+    cases: Vec<CaseRef<'static>>,
+    /// The number of matching cases that are left out because they are measured.
+    measured: usize,
+}
+
+/// Returns the cases that match; without globs, all that are judged.
+///
+/// # Errors
+/// If there is no such profile, a glob does not parse, or no case matches.
+fn selection(globs: &[String], profile: &str) -> Result<PageSelection, String> {
+    let profile = match profile {
+        "quick" => Profile::Quick,
+        "full" => Profile::Full,
+        other => {
+            return Err(format!(
+                "there is no profile {other}; there are quick and full"
+            ));
+        }
+    };
+    let matching = |profile| select(Library::built_in(), profile, globs).map_err(|e| e.to_string());
+    let mut cases = matching(profile)?.cases;
+    let count = cases.len();
+    if globs.is_empty() {
+        cases.retain(|case| !case.is_measured());
+    }
+    if cases.is_empty() {
+        return Err(match matching(Profile::Full)?.cases.len() {
+            0 => "no case matches".to_owned(),
+            n => format!("no case of the quick profile matches, of the full one {n}"),
+        });
+    }
+    let measured = count - cases.len();
+    Ok(PageSelection {
+        profile,
+        cases,
+        measured,
+    })
+}
+
+/// Returns what a run would draw, and on what.
+///
+/// # Errors
+/// As [`open`].
+pub(crate) fn choice(choosing: &Choosing) -> Result<Choice, String> {
+    let cases = selection(&choosing.globs, &choosing.profile)?.cases.len();
+    let hello = choosing.hello.as_ref();
+    let device = hello.map(|hello| {
+        Ok::<_, String>(page_device(&AdapterRecord {
+            info: adapter::info(&name_of(&hello.browser.name, ""), hello),
+            release: None,
+            limits: adapter::device(&hello.offer)?.limits,
+        }))
+    });
+    let device = device.transpose()?;
+    Ok(Choice { cases, device })
+}
+
+fn page_device(adapter: &AdapterRecord) -> PageDevice {
+    let info = &adapter.info;
+    PageDevice {
+        adapter: info.name.clone(),
+        device: info.device.clone(),
+        driver: adapter.driver_text(),
+        software: info.software,
+    }
 }
 
 /// Returns the ids of the round trips that cases depend on. For many cases it returns all of them: building

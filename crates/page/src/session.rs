@@ -2,6 +2,7 @@
 
 use crate::case_draw::{CaseDraw, timed_request, times};
 use crate::message::{DeviceAnswers, NextStep, split};
+use crate::tile::tile;
 use crate::verdict::{PageObservation, outcome};
 use etalon_backend::{BackendError, Fault};
 use etalon_case::{Case, CaseRef, Method};
@@ -209,14 +210,8 @@ impl Session {
         number: usize,
         observed: PageObservation,
     ) -> Result<(NextStep, Vec<u8>), String> {
-        let PageObservation {
-            record,
-            frame,
-            pictures,
-            ..
-        } = observed;
-        let record = settled(record, &self.expectations, &self.adapter);
-        let (outcome, bytes) = outcome(number, record, frame.as_ref(), pictures)?;
+        let record = settled(observed.record, &self.expectations, &self.adapter);
+        let (outcome, bytes) = outcome(number, PageObservation { record, ..observed })?;
         Ok((NextStep::Outcome(outcome), bytes))
     }
 
@@ -334,6 +329,7 @@ impl Session {
                     );
                     let mut observed = PageObservation {
                         frame,
+                        tile: frames.first().map(tile).unwrap_or_default(),
                         ..PageObservation::of(record)
                     };
                     if let (Some(method), Some(frame)) = (&case.method, frames.first()) {

@@ -1,7 +1,7 @@
 //! Answering messages.
 
 use crate::message::{Ask, Charts, split};
-use crate::opening::open;
+use crate::opening::{choice, open};
 use crate::session::Session;
 use etalon_record::{FrameFile, Record, Run};
 use etalon_report::{methods_html, record_html};
@@ -35,6 +35,7 @@ impl Suite {
     fn answered(&mut self, message: &[u8]) -> Result<Vec<u8>, String> {
         let (ask, bytes) = unpacked::<Ask>(message)?;
         match ask {
+            Ask::Choose(choosing) => reply(&choice(&choosing)?, &[]),
             Ask::Open(opening) => {
                 let (session, opened) = open(*opening)?;
                 self.session = Some(session);

@@ -9,6 +9,8 @@ use etalon_report::RecordLine;
 pub(crate) struct PageObservation {
     pub(crate) record: Record,
     pub(crate) frame: Option<FrameFile>,
+    /// The picture in the mosaic; empty if nothing was drawn.
+    pub(crate) tile: Vec<u8>,
     /// The paths and files of pictures.
     pub(crate) pictures: Vec<(String, Vec<u8>)>,
     /// True if the device must not draw anything else.
@@ -21,26 +23,32 @@ impl PageObservation {
         Self {
             record,
             frame: None,
+            tile: Vec::new(),
             pictures: Vec::new(),
             ends_device: false,
         }
     }
 }
 
-/// Returns a record as an outcome, and its lines, pictures and frame file as bytes.
+/// Returns a judged drawing as an outcome, and its lines, tile, pictures and frame file as bytes.
 ///
 /// # Errors
 /// If the record cannot be shortened enough.
 pub(crate) fn outcome(
     number: usize,
-    mut record: Record,
-    frame: Option<&FrameFile>,
-    pictures: Vec<(String, Vec<u8>)>,
+    observed: PageObservation,
 ) -> Result<(PageRecord, Vec<u8>), String> {
+    let PageObservation {
+        mut record,
+        frame,
+        tile,
+        pictures,
+        ..
+    } = observed;
     let is_kept = record.verdict.is_violation() || record.verdict == Verdict::Flaky;
     let is_kept = is_kept || record.verdict == Verdict::Imprecise;
     let file = match frame.filter(|_| is_kept) {
-        Some(frame) => Some(frame_file(frame).map_err(|error| error.to_string())?),
+        Some(frame) => Some(frame_file(&frame).map_err(|error| error.to_string())?),
         None => None,
     };
     let line = |record: &Record| record_line(record).map_err(|error| error.to_string());
@@ -56,6 +64,7 @@ pub(crate) fn outcome(
     let mut bytes = line(&record)?;
     let (length, short) = (bytes.len(), short_line.len());
     bytes.extend(short_line);
+    bytes.extend(&tile);
     let pictures = pictures.into_iter().map(|(path, file)| {
         bytes.extend(&file);
         (path, file.len())
@@ -73,6 +82,7 @@ pub(crate) fn outcome(
         line: RecordLine::new(&record),
         length,
         short,
+        tile: tile.len(),
         pictures,
         frame,
     };

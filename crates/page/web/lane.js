@@ -130,13 +130,13 @@ const tasks = {
   /** Draws and judges a case. */
   async draw({ number }) {
     const [found, bytes] = await outcome(number);
-    const { length, short, pictures: named, ...rest } = found;
-    const lengths = [length, short, ...named.map(([, size]) => size)];
-    const [line, brief, ...files] = parts(bytes, lengths);
+    const { length, short, tile: texels, pictures: named, ...rest } = found;
+    const lengths = [length, short, texels, ...named.map(([, size]) => size)];
+    const [line, brief, tile, ...files] = parts(bytes, lengths);
     const pictures = named.map(([path], i) => [path, files[i]]);
     const end = lengths.reduce((sum, size) => sum + size, 0);
     const file = found.frame === null ? null : bytes.slice(end);
-    return { outcome: rest, line, short: short > 0 ? brief : null, pictures, file };
+    return { outcome: rest, line, short: short > 0 ? brief : null, tile: texels > 0 ? tile : null, pictures, file };
   },
 };
 

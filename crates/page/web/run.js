@@ -11,6 +11,8 @@ const CHUNK = 16;
 const ATTEMPTS = 2;
 /** The number of lanes that fail in a row before the run stops. */
 const FAILURES = 4;
+/** The number of cases from whose time that of a case is known. */
+const PACED = 100;
 /** The milliseconds between writes to the store. */
 const WRITING = 200;
 
@@ -91,7 +93,7 @@ class Lane {
 class Run extends EventTarget {
   selection;
   opened = null;
-  /** Records by number: outcome, line, the line without its frame, pictures, the frame's file. */
+  /** Records by number: outcome, line, the line without its frame, tile, pictures, the frame's file. */
   records = new Map();
   /** The reason why the run stopped by itself. */
   problem = null;
@@ -170,6 +172,9 @@ class Run extends EventTarget {
   /** Stops drawing. Keeps the records. */
   async stop() {
     this.#lanes.splice(0).forEach((lane) => lane.end());
+    if (this.running && this.#drawn >= PACED && !this.opened.timed) {
+      this.#store.pace = (performance.now() - this.#begun) / 1000 / this.#drawn;
+    }
     this.running = false;
     this.#finish?.();
     await this.#write();
@@ -262,13 +267,13 @@ class Run extends EventTarget {
     if (!this.#lanes.includes(lane)) {
       return;
     }
-    const { outcome, line, short, pictures, file, number, error } = answer;
+    const { outcome, line, short, tile, pictures, file, number, error } = answer;
     if (error !== undefined) {
       this.#replace(lane, number, error);
       return;
     }
     this.#failures = 0;
-    this.#keep(outcome.number, { outcome, line, short, pictures, file });
+    this.#keep(outcome.number, { outcome, line, short, tile, pictures, file });
     this.#feed(lane);
   };
 
@@ -345,7 +350,7 @@ class Run extends EventTarget {
       frame: null,
     };
     const line = new TextEncoder().encode(`${JSON.stringify(record)}\n`);
-    return { outcome, line, short: null, pictures: [], file: null };
+    return { outcome, line, short: null, tile: null, pictures: [], file: null };
   }
 
   async #write() {

@@ -24,6 +24,23 @@ class Store {
     return store;
   }
 
+  /** Returns the seconds that a case took in the last run, or null. */
+  get pace() {
+    try {
+      return Number(localStorage.getItem("pace")) || null;
+    } catch {
+      return null;
+    }
+  }
+
+  set pace(seconds) {
+    try {
+      localStorage.setItem("pace", String(seconds));
+    } catch {
+      // The next run is guessed like the first one.
+    }
+  }
+
   /** Resolves when a transaction on both stores is complete; to null if there is no storage or it is full. */
   #done(mode, action) {
     if (this.#database === null) {

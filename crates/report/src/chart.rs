@@ -6,7 +6,7 @@ mod marker;
 mod plot;
 mod scale;
 
-pub(crate) use label::LabelPlaces;
+pub(crate) use label::{LabelPlaces, tick_labels, tick_width};
 pub(crate) use marker::{color, dash, key, line_key, marker};
 pub(crate) use plot::{BOTTOM, HEIGHT, LEFT, Plot, RIGHT, TOP, chart, n, polyline, zero_band};
 pub(crate) use scale::Scale;

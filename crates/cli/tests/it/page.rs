@@ -39,6 +39,22 @@ fn address(server: &Server, fragment: &str) -> String {
     format!("http://{}/?{}#{fragment}", server.address, fragment.len())
 }
 
+/// The number of colours in the mosaic.
+const COLORS: &str = "(() => {
+    const { width, height } = document.getElementById('tiles');
+    const { data } = document.getElementById('tiles').getContext('2d').getImageData(0, 0, width, height);
+    return new Set(new Uint32Array(data.buffer)).size;
+})()";
+
+fn text_of(browser: &Driven, id: &str) -> String {
+    let text = browser.eval(&format!("document.getElementById('{id}').innerText"));
+    text.as_str().unwrap().to_owned()
+}
+
+fn click(browser: &Driven, id: &str) {
+    browser.eval(&format!("document.getElementById('{id}').click()"));
+}
+
 /// Writes the file of the page's run.
 fn save(browser: &Driven, folder: &Path) -> PathBuf {
     let bytes =
@@ -152,11 +168,47 @@ fn quick_in_a_page_of_chromium_is_a_run_of_the_browser() {
     let server = site(folder.path());
     let browser = Driven::start("webgpu:chromium");
     let begun = Instant::now();
-    browser.go(&address(&server, &format!("run={}", globs.join(" "))));
-    browser.wait(60, "run?.done > 200");
-    browser.eval("document.getElementById('stop').click()");
+    let cases = globs.join(" ");
+    browser.go(&address(&server, &format!("cases={cases}")));
+    browser.wait(20, "!document.getElementById('start').disabled");
+    let facts = text_of(&browser, "facts");
+    for fact in [
+        "swiftshader",
+        "in Chromium",
+        "cases of the quick profile",
+        "a first guess",
+    ] {
+        assert!(facts.contains(fact), "{facts}");
+    }
+    assert_eq!(browser.eval("run"), Value::Null);
+    let colors = browser.eval(COLORS).as_u64().unwrap();
+    assert!(colors <= 3, "{colors}");
+    click(&browser, "start");
+    browser.wait(20, "run?.done > 200");
+    let colors = browser.eval(COLORS).as_u64().unwrap();
+    assert!(colors > 8, "{colors}");
+    click(&browser, "stop");
     browser.wait(10, "document.body.dataset.state === 'stopped'");
-    browser.eval("document.getElementById('resume').click()");
+    let stopped = text_of(&browser, "sentence");
+    assert!(stopped.starts_with("Stopped after"), "{stopped}");
+    // A tile is a case, whose name the caption shows and whose page a click opens.
+    let on_tile = |event: &str| {
+        browser.eval(&format!(
+            "(() => {{
+                const {{ left, top }} = document.getElementById('tiles').getBoundingClientRect();
+                const at = {{ clientX: left + 3, clientY: top + 3, bubbles: true }};
+                document.getElementById('tiles').dispatchEvent(new PointerEvent('{event}', at));
+            }})()"
+        ));
+    };
+    on_tile("pointermove");
+    let named = text_of(&browser, "tile-name");
+    on_tile("click");
+    browser.wait(10, "!document.getElementById('view').hidden");
+    assert_eq!(text_of(&browser, "view-title"), named);
+    browser.eval("history.back()");
+    browser.wait(10, "document.getElementById('view').hidden");
+    click(&browser, "resume");
     browser.wait(60, "run.done > 600");
     let done = browser.eval("run.done").as_u64().unwrap();
     let started = browser.eval("JSON.parse(run.opened.header).started");
@@ -189,7 +241,36 @@ fn quick_in_a_page_of_chromium_is_a_run_of_the_browser() {
     );
     let known = browser.eval("document.getElementById('known').childElementCount");
     assert!(known.as_u64().unwrap() > 10, "{known}");
+    let sentence = text_of(&browser, "sentence");
+    assert!(sentence.contains("software renderer draws"), "{sentence}");
+    let end = "wrong, all because of known bugs.";
+    assert!(sentence.ends_with(end), "{sentence}");
+    browser.wait(
+        10,
+        "document.querySelectorAll('#cards .card img').length >= 9",
+    );
     let saved = save(&browser, folder.path());
+    click(&browser, "copy");
+    browser.wait(10, "document.querySelector('#copied a')");
+    let link = browser.eval("document.querySelector('#copied a').href");
+    browser.eval("window.isOld = true");
+    browser.go(link.as_str().unwrap());
+    browser.wait(
+        20,
+        "!window.isOld && !document.getElementById('start').disabled",
+    );
+    assert_eq!(browser.eval("run"), Value::Null);
+    assert_eq!(
+        browser.eval("document.getElementById('globs').value"),
+        cases
+    );
+    let facts = text_of(&browser, "facts");
+    for fact in [
+        "made on a device of this name",
+        "as the last run in this browser",
+    ] {
+        assert!(facts.contains(fact), "{facts}");
+    }
     drop(browser);
     compare_with_relay(&saved, "webgpu:chromium", globs);
     // The page asks for its own files and for nothing else.
@@ -369,7 +450,8 @@ fn a_page_of_a_browser_shows_planted_faults() {
         "run=capabilities/round-trip blend/factors&fault=read-fault=off-by-one",
     ));
     browser.wait(60, COMPLETE);
-    let verdicts = browser.eval("[...run.records.values()].map(record => record.outcome.verdict)");
+    let verdicts = browser
+        .eval("run.opened.cases.map((_, number) => run.records.get(number).outcome.verdict)");
     let verdicts: Vec<Verdict> = serde_json::from_value(verdicts).unwrap();
     let count = |verdict| verdicts.iter().filter(|v| **v == verdict).count();
     assert!(
@@ -379,6 +461,13 @@ fn a_page_of_a_browser_shows_planted_faults() {
     assert_eq!(count(Verdict::Pass), 0, "{verdicts:?}");
     let wide = "document.documentElement.scrollWidth > innerWidth";
     assert_eq!(browser.eval(wide), false);
+    let wrong = format!("{} of ", count(Verdict::Fail));
+    let sentence = text_of(&browser, "sentence");
+    assert!(sentence.contains(&wrong), "{sentence}");
+    browser.wait(
+        10,
+        "document.querySelectorAll('#cards .card img').length >= 3",
+    );
     browser.eval("location.hash = [...document.querySelectorAll('#bad a')].map(a => a.getAttribute('href')).find(a => a.includes('round-trip'))");
     browser.wait(20, "document.querySelectorAll('#view img').length >= 3");
     let text = browser.eval("document.getElementById('view').innerText");
@@ -395,6 +484,18 @@ fn a_page_of_a_browser_shows_planted_faults() {
     browser.wait(
         20,
         "document.getElementById('problem').innerText.includes('no case matches')",
+    );
+    // Without a secure context, browsers have no WebGPU.
+    let insecure = address(&server, "").replace("127.0.0.1", "0.0.0.0");
+    browser.go(&insecure);
+    browser.wait(20, "!document.getElementById('facts').hidden");
+    let problem = text_of(&browser, "problem");
+    for part in ["needs a secure context", "Nothing is drawn instead"] {
+        assert!(problem.contains(part), "{problem}");
+    }
+    assert_eq!(
+        browser.eval("document.getElementById('start').disabled"),
+        true
     );
 }
 

@@ -3,7 +3,9 @@
 
 use super::figures::{CaseFigures, KINDS, TimedCase, software};
 use super::kind::CaseKind;
-use crate::chart::{LEFT, LabelPlaces, RIGHT, Scale, TOP, chart, color, key, marker, n};
+use crate::chart::{
+    LEFT, LabelPlaces, RIGHT, Scale, TOP, chart, color, key, marker, n, tick_labels,
+};
 use crate::lists::distinct;
 use crate::numbers::{capital, count, digits, duration, round_duration};
 use crate::page::adapter::breakable;
@@ -328,9 +330,9 @@ fn drawn(bench: &Bench, panel: &Panel<'_>) -> Markup {
             rect.zero x=(n(LEFT)) y=(n(bottom - parts.exact)) width=(n(RIGHT - LEFT)) height=(n(parts.exact)) {}
             text.tick x=(n(LEFT - 5.0)) y=(n(bottom - parts.exact / 2.0 + 3.5)) text-anchor="end" { "exact" }
         }
-        @for tick in times.ticks(4) {
-            path.grid d={ "M" (n(x(tick))) " " (n(TOP)) "V" (n(bottom)) } {}
-            text.tick x=(n(x(tick))) y=(n(bottom + 14.0)) text-anchor="middle" { (round_duration(tick)) }
+        @for tick in times.ticks(4) { path.grid d={ "M" (n(x(tick))) " " (n(TOP)) "V" (n(bottom)) } {} }
+        @for (x, label) in tick_labels(0.0, times.ticks(4).into_iter().map(|tick| (x(tick), round_duration(tick)))) {
+            text.tick x=(n(x)) y=(n(bottom + 14.0)) text-anchor="middle" { (label) }
         }
         @if let (Some(scale), true) = (scale, parts.scale > 0.0) {
             @for tick in scale.ticks(4) {

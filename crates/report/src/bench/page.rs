@@ -7,6 +7,7 @@ use crate::chart;
 use crate::numbers::{between, change, count, duration, percent};
 use crate::page::Page;
 use crate::page::adapter::{adapter as adapter_cell, breakable, section as adapters};
+use crate::page::link::breakable_id;
 use crate::page::origin::origin;
 use crate::table::{Cell, Table, as_is};
 use crate::words;
@@ -121,7 +122,7 @@ fn overview(figures: &[CaseFigures<'_>], kind: bool, title: &str) -> Markup {
     let adapters: BTreeSet<&str> = timed.map(TimedCase::adapter).collect();
     let several = adapters.len() > 1;
     let mut table = Table::<(usize, &CaseFigures<'_>)>::new("times").head("Case", |(i, case)| {
-        html! { a href={ "#case-" (i) } { (case.case) } }
+        html! { a href={ "#case-" (i) } { (breakable_id(case.case)) } }
     });
     for adapter in &adapters {
         table = table.number(adapter_cell(adapter), move |(_, case)| {

@@ -1,5 +1,6 @@
 //! The frame of a chart: its size, box, grid, ticks and axis names.
 
+use super::label::tick_labels;
 use super::scale::Scale;
 use maud::{Markup, html};
 
@@ -53,10 +54,9 @@ impl Plot {
                 rect.zero x=(n(LEFT)) y=(n(BOTTOM - self.zero)) width=(n(RIGHT - LEFT)) height=(n(self.zero)) {}
                 text.tick x=(n(LEFT - 5.0)) y=(n(BOTTOM - self.zero / 2.0 + 5.0)) text-anchor="end" { "exact" }
             }
-            @for tick in self.x.ticks(3) {
-                @let x = self.x(tick);
-                path.grid d={ "M" (n(x)) " " (n(TOP)) "V" (n(BOTTOM)) } {}
-                text.tick x=(n(x)) y=(n(BOTTOM + 17.0)) text-anchor="middle" { (x_label(tick)) }
+            @for tick in self.x.ticks(3) { path.grid d={ "M" (n(self.x(tick))) " " (n(TOP)) "V" (n(BOTTOM)) } {} }
+            @for (x, label) in tick_labels(0.0, self.x.ticks(3).into_iter().map(|tick| (self.x(tick), x_label(tick)))) {
+                text.tick x=(n(x)) y=(n(BOTTOM + 17.0)) text-anchor="middle" { (label) }
             }
             @for tick in self.y.ticks(7) {
                 @let y = self.y(tick);

@@ -1,7 +1,7 @@
 //! The accuracy of drivers, which is the distance of their codes from the ideal codes. A run draws each case
 //! once with new pipelines, so it has no speed; only method cases can be timed.
 
-use crate::chart::{LEFT, RIGHT, Scale, TOP, chart, key, marker, n};
+use crate::chart::{LEFT, RIGHT, Scale, TOP, chart, key, marker, n, tick_labels, tick_width};
 use crate::lists::distinct;
 use crate::numbers::{count, digits, duration, median};
 use crate::page::adapter::breakable;
@@ -358,18 +358,17 @@ fn panel(grid: &RunGrid<'_>, rows: &DriverRows<'_>, aspect: Aspect, unit: StepUn
     };
     let bottom = TOP + ROW * areas.len() as f64;
     let rounding = x(0.5);
+    let exact_end = start + (ZERO + tick_width("exact")) / 2.0;
     let body = html! {
         rect.zero x=(n(start)) y=(n(TOP)) width=(n(ZERO)) height=(n(bottom - TOP)) {}
         text.tick x=(n(start + ZERO / 2.0)) y=(n(bottom + 14.0)) text-anchor="middle" { "exact" }
-        @for tick in scale.ticks(5) {
-            path.grid d={ "M" (n(x(tick))) " " (n(TOP)) "V" (n(bottom)) } {}
-            @if x(tick) > start + ZERO + 14.0 {
-                text.tick x=(n(x(tick))) y=(n(bottom + 14.0)) text-anchor="middle" { (digits(tick, 2)) }
-            }
+        @for tick in scale.ticks(5) { path.grid d={ "M" (n(x(tick))) " " (n(TOP)) "V" (n(bottom)) } {} }
+        @for (x, label) in tick_labels(exact_end, scale.ticks(5).into_iter().map(|tick| (x(tick), digits(tick, 2)))) {
+            text.tick x=(n(x)) y=(n(bottom + 14.0)) text-anchor="middle" { (label) }
         }
         path.level.one d={ "M" (n(rounding)) " " (n(TOP)) "V" (n(bottom)) } {}
         rect.box x=(n(start)) y=(n(TOP)) width=(n(RIGHT - start)) height=(n(bottom - TOP)) {}
-        text.axis x=(n(f64::midpoint(start, RIGHT))) y=(n(bottom + 32.0)) text-anchor="middle" { "← more accurate: mean distance in " (unit.name()) }
+        text.axis x=(n(RIGHT)) y=(n(bottom + 32.0)) text-anchor="end" { "← more accurate: mean distance in " (unit.name()) }
         @for (i, (area, figures)) in areas.iter().enumerate() {
             @let y = TOP + ROW * (i as f64 + 0.5);
             text.tick x=(n(start - 5.0)) y=(n(y + 3.5)) text-anchor="end" { (plain(area, 18)) }

@@ -1,4 +1,13 @@
-//! Links within the page: to the view of a case, and to a filter of all cases.
+//! Ids on a page, and links within it: to the view of a case, and to a filter of all cases.
+
+use maud::{Markup, PreEscaped, html};
+
+/// Returns an id that can break after each of its parts.
+pub(crate) fn breakable_id(id: &str) -> Markup {
+    html! {
+        @for part in id.split_inclusive(['/', '=']) { (part) (PreEscaped("<wbr>")) }
+    }
+}
 
 /// Returns the link to a case's view: `#case=` and its id. The script reads it with `decodeURIComponent`.
 pub(crate) fn case(id: &str) -> String {

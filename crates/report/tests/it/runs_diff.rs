@@ -514,7 +514,10 @@ fn times_are_shown_and_decide_nothing() {
     let text = table(&difference, TableOptions::default());
     assert!(text.contains("×3.00") && text.contains("×2.00"), "{text}");
     assert!(text.contains("Only `etalon bench`"), "{text}");
-    assert!(two.page(&difference).contains("Only `etalon bench`"));
+    assert!(
+        two.page(&difference)
+            .contains("Only <code>etalon bench</code>")
+    );
 }
 
 #[test]

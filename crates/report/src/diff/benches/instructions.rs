@@ -87,7 +87,7 @@ fn changed(old: &BenchRecord, new: &BenchRecord) -> Option<InstructionChange> {
 
 /// Returns a table with a row per change.
 pub(super) fn instructions_table<'a>() -> Table<'a, &'a InstructionChange> {
-    Table::new("diff")
+    Table::new("diff stacked")
         .row_class(|c: &&InstructionChange| match c.outcome {
             InstructionOutcome::More => "slower",
             InstructionOutcome::Fewer => "faster",

@@ -79,7 +79,7 @@ pub fn diff_table(diff: &BenchDiff, options: TableOptions) -> String {
 /// Returns a table with a row per change.
 pub(super) fn changes_table<'a>() -> Table<'a, &'a TimeChange> {
     let interval = |ends: Option<[f64; 2]>| ends.map(|ends| between(ends, change));
-    Table::new("diff")
+    Table::new("diff stacked")
         .row_class(|c: &&TimeChange| c.decided().unwrap_or_default())
         .head("case", |c| &*c.case)
         .text("adapter", |c| adapter(&c.adapter))

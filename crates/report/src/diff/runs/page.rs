@@ -2,7 +2,7 @@
 
 use super::data::{CaseChange, ChangeDirection, Fact, RunDiff, both_names};
 use super::table::{area_table, method_table, pair_table};
-use super::times::STATEMENT;
+use super::times::statement;
 use super::{phrases, pixels};
 use crate::command;
 use crate::error::ReportError;
@@ -293,7 +293,7 @@ fn times(diff: &RunDiff) -> Markup {
         @if !diff.times.is_empty() {
             section id="times" {
                 h2 { "Times" }
-                p { (STATEMENT) }
+                p { (statement()) }
                 (area_table().page(diff.times.iter().take(ROWS)))
             }
         }
@@ -305,7 +305,7 @@ fn methods(diff: &RunDiff) -> Markup {
         @if !diff.methods.is_empty() {
             section id="methods" {
                 h2 { "Frame times of methods" }
-                p { "Medians while nothing else was drawn or judged, of one process each. " (STATEMENT) }
+                p { "Medians while nothing else was drawn or judged, of one process each. " (statement()) }
                 (method_table().page(diff.methods.iter().take(ROWS)))
                 @if diff.methods.len() > ROWS { p.note { "and " (diff.methods.len() - ROWS) " more" } }
             }

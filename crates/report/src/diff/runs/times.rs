@@ -3,11 +3,21 @@
 use super::data::{AreaTime, MethodTime};
 use crate::numbers::median;
 use etalon_record::{Record, Verdict};
+use maud::{Markup, html};
 use std::collections::BTreeMap;
 
 /// The caveat on the times of runs.
 pub(super) const STATEMENT: &str = "A run takes each time once, beside other work: these times are an indication. Only \
     `etalon bench` and the diff of two benches prove a change.";
+
+/// Returns the caveat with its command in the font of commands.
+pub(super) fn statement() -> Markup {
+    html! {
+        @for (i, part) in STATEMENT.split('`').enumerate() {
+            @if i % 2 == 1 { code { (part) } } @else { (part) }
+        }
+    }
+}
 
 /// Returns seconds of drawing by area, over the cases that were drawn in both runs.
 pub(super) fn areas(adapter: [&str; 2], both: &[[&Record; 2]]) -> Vec<AreaTime> {
