@@ -198,7 +198,7 @@ impl<D: Driver> KnownBugs<D> {
         let part = ComparedAttachments::of(traits);
         let is_reduced = steady && symptom.keeps_worker();
         if is_reduced {
-            for number in self.may_leave(traits) {
+            for number in self.may_leave(traits, verdict) {
                 let place = (number, part);
                 self.reduced(place, traits)?;
                 if self.similarity(place, verdict, traits) == Some(Similarity::Same)
@@ -217,6 +217,9 @@ impl<D: Driver> KnownBugs<D> {
             ],
         };
         for number in self.standing.clone() {
+            if self.finding(number, verdict, &[traits]).is_none() {
+                continue;
+            }
             for part in parts {
                 self.reduced((number, *part), traits)?;
             }
@@ -300,11 +303,14 @@ impl<D: Driver> KnownBugs<D> {
     }
 
     /// Returns the cases from which a failure could have been reduced, the likeliest first: cases with all
-    /// its states.
-    fn may_leave(&self, traits: &Traits) -> Vec<usize> {
+    /// its states, of findings that need nothing else.
+    fn may_leave(&self, traits: &Traits, verdict: Verdict) -> Vec<usize> {
         // A reduction replaces formats and meshes by simpler ones.
         let wanted = traits.states.without_formats().without_vertices();
-        let has = |n: &usize| wanted.is_empty() || wanted.is_within(&self.named[*n].states);
+        let has = |n: &usize| {
+            (wanted.is_empty() || wanted.is_within(&self.named[*n].states))
+                && self.finding(*n, verdict, &[traits]).is_some()
+        };
         let mut likely: Vec<usize> = (0..self.named.len()).filter(has).collect();
         likely.sort_by_key(|n| {
             let words = &self.named[*n].words;
