@@ -5,11 +5,13 @@ mod label;
 mod marker;
 mod plot;
 mod scale;
+mod tick;
 
-pub(crate) use label::{LabelPlaces, tick_labels, tick_width};
+pub(crate) use label::LabelPlaces;
 pub(crate) use marker::{color, dash, key, line_key, marker};
 pub(crate) use plot::{BOTTOM, HEIGHT, LEFT, Plot, RIGHT, TOP, chart, n, polyline, zero_band};
 pub(crate) use scale::Scale;
+pub(crate) use tick::{tick_labels, tick_width};
 
 /// Returns the style sheet of charts. A legend highlights its method in the chart, even without scripts.
 pub(crate) fn style() -> String {

@@ -1,7 +1,7 @@
 //! The frame of a chart: its size, box, grid, ticks and axis names.
 
-use super::label::tick_labels;
 use super::scale::Scale;
+use super::tick::tick_labels;
 use maud::{Markup, html};
 
 /// The width and height of a chart in its own units, which are pixels at full size.
