@@ -38,6 +38,7 @@ mod idle;
 mod interruption;
 mod known_look;
 mod labels;
+mod legal_worlds;
 mod match_text;
 mod named_files;
 mod news;

@@ -3,6 +3,7 @@
 use crate::cases::{find, library};
 use crate::failure::Failure;
 use crate::flags::AdapterFileArguments;
+use crate::legal_worlds::worlds;
 use crate::named_files::NamedFiles;
 use crate::output::{say, summarize};
 use crate::reducing::start;
@@ -206,6 +207,10 @@ fn add_values(folders: &mut Folders, folder: &str, scene: &Scene) -> Result<(), 
                 }
             }
         }
+        let sets = judgements.iter().map(|judgement| &*judgement.legal);
+        let mut text = serde_json::to_vec(&worlds(sets)).map_err(Failure::incomplete)?;
+        text.push(b'\n');
+        folders.add(&below, "worlds.json", text);
         by_api.insert(api, counters(scene, &judgements));
     }
     if !scene.counters.is_empty() {

@@ -311,3 +311,55 @@ fn a_frame_lies_between_the_exported_least_and_largest_values() {
         assert!(folder.case().join(name).is_file(), "{name}");
     }
 }
+
+/// Returns true if one reading allows all samples, of one colour of 8 bits a channel and of 32-bit depth.
+fn is_legal(worlds: &Value, colors: &[u8], depths: &[f32]) -> bool {
+    let list = |value: &Value| value.as_array().unwrap().clone();
+    let allows = |reading: &Value| {
+        let [group] = &list(&reading["groups"])[..] else {
+            panic!("all images have one size");
+        };
+        let (runs, sets) = (list(&group["runs"]), list(&group["sets"]));
+        depths.iter().enumerate().all(|(sample, depth)| {
+            let colors = colors[4 * sample..4 * sample + 4].iter();
+            let drawn: Vec<f64> = colors
+                .map(|c| f64::from(*c))
+                .chain([f64::from(*depth)])
+                .collect();
+            let run = runs
+                .iter()
+                .find(|run| run[0].as_u64().unwrap() > sample as u64);
+            let boxes = list(&sets[run.unwrap()[1].as_u64().unwrap() as usize]);
+            let is_inside = |bounds: &Value| {
+                let bounds = list(bounds);
+                assert_eq!(bounds.len(), drawn.len());
+                bounds.iter().zip(&drawn).all(|(bounds, value)| {
+                    let [low, high] = [&bounds[0], &bounds[1]].map(Value::as_f64);
+                    low.is_none_or(|low| low <= *value) && high.is_none_or(|high| *value <= high)
+                })
+            };
+            boxes.is_empty() || boxes.iter().any(is_inside)
+        })
+    };
+    list(&worlds["readings"]).iter().any(allows)
+}
+
+#[test]
+fn a_frame_is_legal_by_the_exported_worlds_alone() {
+    let folder = FrameFolder::new();
+    let file = |name: &str| fs::read(folder.case().join(name)).unwrap();
+    let depth = file("depth-depth.npy");
+    for api in ["vulkan", "opengl", "opengl-es", "webgpu"] {
+        let worlds: Value = serde_json::from_slice(&file(&format!("{api}/worlds.json"))).unwrap();
+        let mut colors = folder.bytes();
+        let depths = depth[depth.len() - colors.len()..].chunks(4);
+        let depths = depths.map(|bytes| f32::from_le_bytes(bytes.try_into().unwrap()));
+        let mut depths: Vec<f32> = depths.collect();
+        assert!(is_legal(&worlds, &colors, &depths), "{api}");
+        colors[0] ^= 0x80;
+        assert!(!is_legal(&worlds, &colors, &depths), "{api}");
+        colors[0] ^= 0x80;
+        depths[17] += 0.125;
+        assert!(!is_legal(&worlds, &colors, &depths), "{api}");
+    }
+}
