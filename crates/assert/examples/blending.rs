@@ -4,8 +4,8 @@
 //! cargo run -p etalon-assert --example blending
 //! ```
 
+use etalon_assert::scene::AttachmentContents;
 use etalon_assert::{Api, AssertError, Case, Frame, case, frame, judge_frame};
-use etalon_scene::AttachmentContents;
 use std::error::Error;
 
 /// The case that the renderer should pass: premultiplied colours over a picture.

@@ -21,8 +21,8 @@ pub struct Judged<'a> {
 }
 
 /// Judges the frames of a case by the rules of an API: that of the case's scene first, then those of its variants, in
-/// the order of [`Case::scenes`]. Without `limits`, they may come from [any device](any_device) of the API; the limits of
-/// your own device, such as its sub-pixel bits and sample positions, allow less.
+/// the order of [`Case::scenes`]. Without `limits`, they may come from [any device](any_device) of the API; those of your own
+/// device, such as its sub-pixel bits, allow less: `Limits { sub_pixel_bits: 8, ..any_device(rules) }`.
 ///
 /// # Errors
 /// If the limits do not hold together, or if a frame does not fit the case.

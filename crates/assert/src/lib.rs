@@ -20,10 +20,16 @@
 //! # Ok::<(), etalon_assert::AssertError>(())
 //! ```
 //!
-//! `examples/blending.rs` draws with `wgpu`. Units are those of the APIs: texels from the top left corner, depth from 0 to
-//! 1, clip space with y up. Colours are codes of their formats, so sRGB is never decoded, and alpha is a channel like the
-//! others. This crate uses no graphics API. Its interface changes only with its version, by the rules of Semantic
-//! Versioning.
+//! The parts of a scene are in [`scene`]: [attachments](scene::Attachment) with their first contents, and
+//! [passes](scene::Pass) of [draws](scene::Draw). [`Draw::call`](scene::Draw::call) gives a draw's vertices, ten 32-bit
+//! floats each (position in clip space, colour, texture coordinates: locations 0, 1 and 2), and its indices;
+//! [`Shader::wgsl`](scene::Shader::wgsl) gives its shader with the entry points `vs` and `fs`, and
+//! [`Params::to_bytes`](scene::Params::to_bytes) the uniform block at binding 0. Textures are at bindings 1 and 2, their
+//! sampler at 4. `examples/blending.rs` draws with `wgpu`.
+//!
+//! Units are those of the APIs: texels from the top left corner, depth from 0 to 1, clip space with y up. Colours are
+//! codes of their formats, so sRGB is never decoded, and alpha is a channel like the others. This crate uses no graphics
+//! API. Its interface changes only with its version, by the rules of Semantic Versioning.
 
 mod error;
 mod explain;
@@ -34,6 +40,7 @@ pub use etalon_backend::texels::AspectForm;
 pub use etalon_case::Case;
 pub use etalon_frame::{Api, Frame, Limits};
 pub use etalon_record::{Record, Verdict};
+pub use etalon_scene as scene;
 pub use etalon_scene::Scene;
 pub use explain::{AskedTexel, Explanation};
 pub use judged::{Judged, judge_frame};

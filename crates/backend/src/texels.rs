@@ -86,6 +86,12 @@ impl AspectForm {
     pub fn image(&self, bytes: &[u8]) -> Result<Image, String> {
         let layout = self.layout();
         let size = texel_bytes(layout);
+        if size == 0 {
+            return Err(format!(
+                "{self} is {}, which has no bytes in WebGPU",
+                self.format
+            ));
+        }
         if bytes.len() != self.all_bytes() {
             let [width, height] = self.size;
             return Err(format!(
@@ -135,5 +141,27 @@ pub fn read_path(format: TextureFormat) -> ReadPath {
     match format.depth_encodings() {
         [] | [Float32] => ReadPath::Copy,
         _ => ReadPath::Shader,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_format_without_bytes_has_no_image() {
+        let form = AspectForm {
+            attachment: "color".to_owned(),
+            aspect: Aspect::Color,
+            format: TextureFormat::B5g6r5Unorm,
+            size: [1, 1],
+            samples: 1,
+        };
+        assert!(form.image(&[]).is_err());
+        let form = AspectForm {
+            format: TextureFormat::Rgba8Unorm,
+            ..form
+        };
+        assert!(form.image(&[]).is_err() && form.image(&[0; 4]).is_ok());
     }
 }
