@@ -306,7 +306,7 @@ impl Candidate {
             },
             patience: match resolved.listen {
                 Some(_) => etalon_browser::WAITING + START_TIMEOUT,
-                None => START_TIMEOUT,
+                None => query.start_timeout.unwrap_or(START_TIMEOUT),
             },
             alone: resolved.listen.is_some(),
         })

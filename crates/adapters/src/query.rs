@@ -1,6 +1,7 @@
 //! The parameters of discovery.
 
 use std::path::Path;
+use std::time::Duration;
 
 /// The adapters to find, and how their workers start.
 #[derive(Clone, Copy, Debug, Default)]
@@ -17,4 +18,6 @@ pub struct Query<'a> {
     pub without_browsers: bool,
     /// True if the drivers' shader caches on disk are disabled.
     pub cold: bool,
+    /// The time that a driver may take to start; [`START_TIMEOUT`](etalon_runner::START_TIMEOUT) if `None`.
+    pub start_timeout: Option<Duration>,
 }

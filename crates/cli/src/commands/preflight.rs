@@ -25,8 +25,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Cases are drawn for at most these seconds, and each of them may take [`TIMEOUT`] seconds.
-const WITHIN: &str = "13";
+/// The time that the driver may take to start.
+const START: Duration = Duration::from_secs(15);
+/// The time after which no further case is drawn, with that of the start. Each case may take [`TIMEOUT`] seconds.
+const DRAWING: Duration = Duration::from_secs(14);
 const TIMEOUT: &str = "3";
 /// The time after which no further failure is reduced. A reduction takes a second or two.
 const REDUCING: Duration = Duration::from_secs(17);
@@ -53,7 +55,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let begin = Instant::now();
     let failed = |e: io::Error| Failure::incomplete(format!("cannot make a folder: {e}"));
     let folder = tempfile::tempdir().map_err(failed)?;
-    let run = drawing(arguments, &folder.path().join("run"))?;
+    let mut run = drawing(arguments, &folder.path().join("run"))?;
+    run.start_timeout = Some(START);
     let selected = RunCases::new(&run)?;
     let expectations = built_in()?;
     let stop = listen()?;
@@ -62,6 +65,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         let name = &arguments.adapter;
         return Err(Failure::incomplete(format!("{name} does not start")));
     };
+    let left = DRAWING.saturating_sub(begin.elapsed());
+    run.within = Some(left.as_secs_f64().max(1.0));
     let mut plan = started.plan(&run, &selected, &expectations, stop);
     let Some(adapter) = plan.header.adapters.first().cloned() else {
         return Err(Failure::incomplete("no adapter was started"));
@@ -139,7 +144,6 @@ fn drawing(arguments: &Arguments, out: &Path) -> Result<run::Arguments, Failure>
     let mut words: Vec<&OsStr> = Vec::new();
     for (flag, value) in [
         ("--adapter", arguments.adapter.as_ref()),
-        ("--within", WITHIN.as_ref()),
         ("--timeout", TIMEOUT.as_ref()),
         ("--keep-frames", "none".as_ref()),
         ("--out", out.as_os_str()),
@@ -206,7 +210,7 @@ struct Reductions<'a> {
 
 impl Reductions<'_> {
     /// Returns the facts that failures of one bug need, without those of the plainest draw: what is left of the first one
-    /// when it is reduced, otherwise what many of them have in common.
+    /// when it is reduced and fits the others, otherwise what many of them have in common.
     fn needs(&mut self, cases: &[&DrawnCase<'_>]) -> Vec<String> {
         let reduced = cases.first().and_then(|case| self.reduced(case.record));
         let draws = match reduced {
@@ -218,7 +222,7 @@ impl Reductions<'_> {
             }
             None => Vec::new(),
         };
-        unplain(facts_of(&draws))
+        fitting(unplain(facts_of(&draws)), cases)
     }
 
     /// Returns the reduced case of a failure; `None` if it fails only after others, or now and then, or if it ends the
@@ -246,6 +250,28 @@ fn facts_of(draws: &[Vec<String>]) -> BTreeSet<&str> {
 fn unplain(facts: BTreeSet<&str>) -> Vec<String> {
     let others = facts.into_iter().filter(|fact| !PLAIN_FACTS.contains(fact));
     others.map(str::to_owned).collect()
+}
+
+/// Returns what one failure needs, without what others of the bug lack: the values of a key that all of them have, otherwise
+/// nothing. If nothing remained, the needs stay as they are.
+fn fitting(needs: Vec<String>, cases: &[&DrawnCase<'_>]) -> Vec<String> {
+    let facts: Vec<BTreeSet<&str>> = cases.iter().map(|case| facts_of(&case.draws)).collect();
+    let fits = |need: &String| {
+        if facts.iter().all(|facts| facts.contains(&**need)) {
+            return Some(need.clone());
+        }
+        let (key, _) = need.split_once('=')?;
+        let of_key = |fact: &&str| fact.split_once('=').is_some_and(|(name, _)| name == key);
+        let all: BTreeSet<&str> = facts.iter().flatten().copied().filter(of_key).collect();
+        let is_needed = facts
+            .iter()
+            .all(|facts| facts.iter().any(|fact| all.contains(fact)))
+            && !all.iter().any(|fact| PLAIN_FACTS.contains(fact));
+        let values = all.iter().map(|fact| &fact[key.len() + 1..]);
+        is_needed.then(|| format!("{key}={{{}}}", values.collect::<Vec<_>>().join(",")))
+    };
+    let fitted: Vec<String> = needs.iter().filter_map(fits).collect();
+    if fitted.is_empty() { needs } else { fitted }
 }
 
 /// The answer, with what it is based on.
@@ -398,4 +424,34 @@ fn facts_lines(title: &str, facts: &BTreeMap<String, Fact>) -> String {
         }
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_another_failure_of_the_bug_lacks_is_not_needed() {
+        let record = Record::new("depth/a", "gl:mine", Verdict::Fail);
+        let case = |facts: &[&str]| DrawnCase {
+            record: &record,
+            draws: vec![facts.iter().map(|fact| (*fact).to_owned()).collect()],
+            formats: Vec::new(),
+        };
+        let reduced = case(&[
+            "depth=depth32float",
+            "samples=4",
+            "sample-shading",
+            "texture",
+        ]);
+        let other = case(&["depth=depth16unorm", "samples=1", "texture", "cull"]);
+        let unlike = case(&["cull"]);
+        let needs = || reduced.draws[0].clone();
+        assert_eq!(fitting(needs(), &[&reduced]), needs());
+        assert_eq!(
+            fitting(needs(), &[&reduced, &other]),
+            ["depth={depth16unorm,depth32float}", "texture"]
+        );
+        assert_eq!(fitting(needs(), &[&reduced, &unlike]), needs());
+    }
 }

@@ -114,6 +114,9 @@ pub(crate) struct Arguments {
     /// second come first, then one case of each file in turn. Cases left out get the verdict `skipped`
     #[arg(long, value_name = "S", value_parser = parse_timeout, conflicts_with_all = ["shuffle", "resume"])]
     pub(crate) within: Option<f64>,
+    /// The time that a driver may take to start, if less than usual.
+    #[arg(skip)]
+    pub(crate) start_timeout: Option<Duration>,
     /// Sizes of frames at which methods are timed as well, such as 720p,1080p,4k or 2560x1440, or `none`. Default: these
     /// three on hardware, 720p where the processor draws
     #[arg(long, value_name = "SIZES", value_parser = crate::sizes::parse)]
@@ -401,6 +404,7 @@ impl StartedAdapters {
             file: arguments.file.adapter_file.as_deref(),
             validate: arguments.validate,
             cold: arguments.shader_cache == CacheState::Cold,
+            start_timeout: arguments.start_timeout,
             ..Query::default()
         })?;
         let dead = take_unstarted(&mut adapters);

@@ -96,3 +96,25 @@ fn the_text_names_what_to_do() {
         .code(64)
         .stderr(contains("gl:softpipe"));
 }
+
+#[test]
+fn a_driver_that_does_not_start_is_given_up_before_the_time_is_over() {
+    etalon(&["preflight", "--adapter", "cpu:fault=mute"])
+        .assert()
+        .code(3)
+        .stderr(contains("no answer within 15 s"));
+}
+
+#[test]
+fn what_a_reduced_case_needs_fits_other_cases_of_its_bug() {
+    let answer = asked("vulkan:lavapipe");
+    let needs = &bug(&answer, "lavapipe-input-depth")["needs"];
+    let needs: Vec<&str> = needs
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|n| n.as_str().unwrap())
+        .collect();
+    assert!(!needs.contains(&"sample-shading"), "{needs:?}");
+    assert!(needs.contains(&"texture"), "{needs:?}");
+}
