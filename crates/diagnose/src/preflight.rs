@@ -184,20 +184,13 @@ impl Preflight {
             states: named(states),
         };
         for case in cases {
-            let [formats, states] = [&mut answer.formats, &mut answer.states];
-            let own: BTreeSet<&String> = case.formats.iter().map(|[name, _]| name).collect();
-            for name in own {
-                formats
-                    .entry(name.clone())
-                    .or_insert_with(fact)
-                    .count(case.record);
-            }
-            let own: BTreeSet<&String> = case.draws.iter().flatten().collect();
-            for name in own {
-                states
-                    .entry(name.clone())
-                    .or_insert_with(fact)
-                    .count(case.record);
+            let formats: BTreeSet<&String> = case.formats.iter().map(|[name, _]| name).collect();
+            let states: BTreeSet<&String> = case.draws.iter().flatten().collect();
+            for (facts, own) in [(&mut answer.formats, formats), (&mut answer.states, states)] {
+                for name in own {
+                    let fact = facts.entry(name.clone()).or_insert_with(fact);
+                    fact.count(case.record);
+                }
             }
         }
         for bug in shown.values() {

@@ -1,6 +1,6 @@
 //! `etalon preflight`.
 
-use crate::cases::{build_named, library};
+use crate::cases::build_named;
 use crate::commands::run::{self, RunCases, StartedAdapters, draw};
 use crate::counted::counted;
 use crate::expectations::built_in;
@@ -71,8 +71,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let Some(adapter) = plan.header.adapters.first().cloned() else {
         return Err(Failure::incomplete("no adapter was started"));
     };
-    let library = library(None)?;
-    let cases = in_order(&library, &selected.cases, &expectations.about(&adapter))?;
+    let library = Library::built_in();
+    let cases = in_order(library, &selected.cases, &expectations.about(&adapter))?;
     plan.header.cases = cases.len() as u64;
     plan.selection = None;
     plan.cases = &cases;
@@ -82,7 +82,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     }
     let records = Run::read(&run.out).map_err(Failure::incomplete)?.records;
     let mut reductions = Reductions {
-        library: &library,
+        library,
         reducer: Reducer::new(
             launch,
             adapter.limits.clone(),
@@ -287,13 +287,7 @@ struct Answer<'a> {
 
 impl Answer<'_> {
     fn json(&self) -> Value {
-        let info = &self.adapter.info;
-        let Preflight {
-            bugs,
-            unseen,
-            formats,
-            states,
-        } = &self.answer;
+        let (info, answer) = (&self.adapter.info, &self.answer);
         json!({
             "adapter": info.name,
             "driver": info.driver,
@@ -302,10 +296,10 @@ impl Answer<'_> {
             "seconds": (self.seconds * 10.0).round() / 10.0,
             "drawn": self.drawn,
             "left": self.left,
-            "bugs": bugs,
-            "unseen": unseen,
-            "formats": formats,
-            "states": states,
+            "bugs": answer.bugs,
+            "unseen": answer.unseen,
+            "formats": answer.formats,
+            "states": answer.states,
         })
     }
 
