@@ -122,15 +122,16 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 14.6.1 Basic Polygon Rasterization: a common edge with identical end points gives exactly one fragment",
             ]),
         ),
-        covers_at_positions: if old { permit(
-                true,
-                "OpenGL 3.3: 3.3.1 Multisampling: the location that is queried is the sample's",
-            ) } else { narrowed(
-                true,
-                false,
-                Grade::Disputed,
-                "OpenGL 4.5, 4.6: 14.3.1 Multisampling: the locations that are queried are those of shading; those of coverage need not be the same",
-            ) },
+        covers_at_positions: narrowed(
+            true,
+            false,
+            Grade::Disputed,
+            text.cite([
+                "OpenGL 3.3: 3.3.1 Multisampling: the location that is queried is the sample's (OpenGL 4.5 of May 28, 2015 corrects the sentence, I.3)",
+                "OpenGL 4.5: 14.3.1 Multisampling: the locations that are queried are those of shading; those of coverage need not be the same",
+                "OpenGL 4.6: 14.3.1 Multisampling: the locations that are queried are those of shading; those of coverage need not be the same",
+            ]),
+        ),
         store: permit(
             Rounding::EitherNeighbour,
             text.cite([
@@ -327,14 +328,15 @@ pub(super) fn rules(limits: &Limits) -> Rules {
                 "OpenGL 4.6: 13.7 Primitive Clipping: a point outside of the near and far planes is discarded",
             ]),
         ),
-        clips_points_at_sides: permit(
-            text != OpenGlText::V46,
-            text.cite([
-                "OpenGL 3.3: 2.19 Primitive Clipping: a point outside of the clip volume is discarded",
-                "OpenGL 4.5: 13.5 Primitive Clipping: a point outside of the clip volume is discarded",
+        clips_points_at_sides: if text == OpenGlText::V46 { permit(
+                false,
                 "OpenGL 4.6: 13.7 Primitive Clipping: points outside of the view volume may be discarded",
-            ]),
-        ),
+            ) } else { narrowed(
+                true,
+                false,
+                Grade::Disputed,
+                "OpenGL 3.3: 2.19, 4.5: 13.5 Primitive Clipping: a point outside of the clip volume is discarded (4.6 of October 22, 2019 corrects the sentence, J.4)",
+            ) },
         clips_lines_at_sides: permit(
             true,
             text.cite([

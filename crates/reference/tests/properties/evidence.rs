@@ -436,6 +436,23 @@ fn a_fragment_that_is_overwritten_may_go_without_a_run_in_es() {
 }
 
 #[test]
+fn a_point_beside_the_viewport_is_drawn_or_not_as_each_specification_says() {
+    let scene = scene(
+        r#"{"attachments":{"c":{"format":"rgba8unorm","size":[4,4],"clear":[0,0,0,0]}},
+            "passes":[{"color":["c"],"draws":[{"shader":"uniform_color","params":{"color":[1,1,1,1]},
+              "topology":"point-list","viewport":{"rect":[2,2,2,2],"depth":[0,1]},
+              "mesh":{"kind":"vertices","positions":[[-1.5,1.5,0]]}}]}],"read":["c"]}"#,
+    );
+    let drawn = |limits| allowed(&scene, &limits, 0, &[255; 4]);
+    for corrected in [version(Api::OpenGl, 3, 3), version(Api::OpenGl, 4, 5)] {
+        assert_eq!(drawn(corrected), DISPUTED);
+    }
+    for open in [version(Api::OpenGl, 4, 6), version(Api::OpenGlEs, 3, 2)] {
+        assert_eq!(drawn(open), ALWAYS);
+    }
+}
+
+#[test]
 fn samples_at_edges_are_covered_if_the_specification_says_so() {
     // A triangle whose right edge goes through the middle of column 1.
     let scene = scene(
@@ -444,13 +461,16 @@ fn samples_at_edges_are_covered_if_the_specification_says_so() {
               "mesh":{"kind":"vertices","positions":[[-9,-40,0],[-0.25,-40,0],[-0.25,40,0]]}}]}],"read":["c"]}"#,
     );
     let (covered, kept) = ([255; 4], [0; 4]);
-    for exact in [version(Api::Vulkan, 1, 3), version(Api::OpenGl, 3, 3)] {
-        // The standard positions: 3/8 and 7/8 from the left.
-        assert_eq!(allowed(&scene, &exact, 0, &covered), ALWAYS);
-        assert_eq!(allowed(&scene, &exact, 0, &kept), NEVER);
-        assert_eq!(allowed(&scene, &exact, 1, &covered), NEVER);
-    }
-    for open in [version(Api::OpenGl, 4, 6), version(Api::OpenGlEs, 3, 2)] {
+    let exact = version(Api::Vulkan, 1, 3);
+    // The standard positions: 3/8 and 7/8 from the left.
+    assert_eq!(allowed(&scene, &exact, 0, &covered), ALWAYS);
+    assert_eq!(allowed(&scene, &exact, 0, &kept), NEVER);
+    assert_eq!(allowed(&scene, &exact, 1, &covered), NEVER);
+    for open in [
+        version(Api::OpenGl, 3, 3),
+        version(Api::OpenGl, 4, 6),
+        version(Api::OpenGlEs, 3, 2),
+    ] {
         assert_eq!(allowed(&scene, &open, 0, &covered), ALWAYS);
         assert_eq!(allowed(&scene, &open, 0, &kept), DISPUTED);
         assert_eq!(allowed(&scene, &open, 1, &covered), DISPUTED);
