@@ -21,6 +21,8 @@ use std::time::{Duration, Instant};
 const ONE_OF: u64 = 8;
 /// The format that `misread` reads back wrong.
 const MISREAD: TextureFormat = TextureFormat::Rgb10a2Unorm;
+/// The times for which a scene of `latency` waits: for its pipelines and for its frame.
+const LATENCY: [Duration; 2] = [Duration::from_millis(5), Duration::from_millis(1)];
 
 /// The rasterizer's span code with a fault in its frames or its process.
 pub(crate) struct Faulty {
@@ -133,6 +135,7 @@ impl Faulty {
             }
             ProcessFault::Close
             | ProcessFault::Flaky
+            | ProcessFault::Latency
             | ProcessFault::Misread
             | ProcessFault::Start
             | ProcessFault::Mute => Ok(()),
@@ -177,6 +180,10 @@ impl Backend for Faulty {
 
     fn prepare(&self, scene: &Scene) -> Result<Box<dyn Prepared + '_>, BackendError> {
         let (mut slower, mut wrong, mut misread) = (0.0, false, Vec::new());
+        let waits = matches!(self.fault, Fault::Process(ProcessFault::Latency, _));
+        if waits {
+            thread::sleep(LATENCY[0]);
+        }
         match self.fault {
             Fault::Slower(percent) => slower = percent,
             Fault::Process(fault, scenes) => {
@@ -199,6 +206,7 @@ impl Backend for Faulty {
         Ok(Box::new(FaultyScene {
             inner: self.inner.prepare(scene)?,
             slower,
+            waits,
             wrong,
             misread,
         }))
@@ -227,6 +235,8 @@ struct FaultyScene<'a> {
     inner: Box<dyn Prepared + 'a>,
     /// The slow-down of the frame in percent.
     slower: f64,
+    /// True if the frame comes late.
+    waits: bool,
     /// True if the frame is read back wrong.
     wrong: bool,
     /// The attachments that are read back wrong.
@@ -250,6 +260,9 @@ impl Prepared for FaultyScene<'_> {
 
     fn read_back(&mut self) -> Result<Frame, BackendError> {
         let mut frame = self.inner.read_back()?;
+        if self.waits {
+            thread::sleep(LATENCY[1]);
+        }
         if self.wrong {
             // Flips all bits of all codes, so that every asserted texel is wrong.
             for code in frame.images.iter_mut().flat_map(|i| &mut i.codes) {

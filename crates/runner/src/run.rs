@@ -8,6 +8,7 @@ mod adapter_queue;
 mod adapter_run;
 mod budget;
 mod execute;
+mod idle;
 mod plan;
 mod second_look;
 mod shared;

@@ -42,6 +42,8 @@ pub enum ProcessFault {
     Misread,
     /// Pictures of some scenes are wrong if certain other scenes were drawn earlier in the same process.
     After,
+    /// Every scene waits for a device: 5 ms for its pipelines and 1 ms for its frame.
+    Latency,
     /// The process ends while the driver is opened.
     Start,
     /// The driver never finishes opening.

@@ -41,6 +41,9 @@ use std::time::Duration;
 /// The folder of each run without `--out`.
 pub(crate) const LATEST: &str = "reports/latest";
 
+/// The number of workers beyond one per processor while processors are idle. Each holds a device's memory.
+const SPARE_WORKERS: usize = 6;
+
 /// The state of the drivers' shader caches on disk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum CacheState {
@@ -95,7 +98,8 @@ pub(crate) struct Arguments {
     /// Memory limit of a worker in MiB
     #[arg(long, value_name = "MIB", default_value = "4096", value_parser = clap::value_parser!(u64).range(64..=1 << 20))]
     pub(crate) memory: u64,
-    /// Number of workers that draw at the same time. Default: one per processor
+    /// Number of workers that draw at the same time. Default: one per processor, and up to six more while
+    /// processors are idle
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) jobs: Option<u16>,
     /// Check unexpected bad verdicts again in a new process, until N of each kind are confirmed on each
@@ -518,8 +522,13 @@ fn labels(arguments: &Arguments) -> Vec<String> {
 }
 
 fn options(arguments: &Arguments) -> RunOptions {
+    let (jobs, most_jobs) = match arguments.jobs {
+        Some(jobs) => (usize::from(jobs), usize::from(jobs)),
+        None => (processors(), processors() + SPARE_WORKERS),
+    };
     RunOptions {
-        jobs: arguments.jobs.map_or_else(processors, usize::from),
+        jobs,
+        most_jobs,
         timeout: Duration::from_secs_f64(arguments.timeout),
         memory: Some(arguments.memory),
         repeat: arguments.repeat,

@@ -2,7 +2,8 @@
 
 use super::adapter_queue::{AdapterQueue, LeadingRoundTrips, Next, enter_next};
 use super::budget::Budget;
-use super::plan::{Plan, Rechecks, RunError, RunSummary};
+use super::idle::IdleProcessors;
+use super::plan::{Plan, Rechecks, RunError, RunOptions, RunSummary};
 use super::shared::Shared;
 use super::worker_loop::WorkerLoop;
 use crate::event::RunEvent;
@@ -13,6 +14,7 @@ use etalon_judge::{Judge, Truths, denials, pictured};
 use etalon_record::{LossKind, Record, RunWriter, beside, count_unexpected, selection_digest};
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, RwLock};
 use std::time::Duration;
 
@@ -139,9 +141,21 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(RunEvent) + Sync)) -> Result<RunSumm
         )
     });
     let queues: Vec<AdapterQueue> = running.chain(dead).collect();
-    share(plan.options.jobs, || {
+    let RunOptions {
+        jobs, most_jobs, ..
+    } = plan.options;
+    let spare = most_jobs.saturating_sub(jobs);
+    let measured = || IdleProcessors::measured(jobs);
+    let idle = (spare > 0).then(measured).flatten();
+    let threads = jobs + if idle.is_some() { spare } else { 0 };
+    let begun = AtomicUsize::new(0);
+    share(threads, || {
+        let idle = match &idle {
+            Some(idle) if begun.fetch_add(1, Ordering::Relaxed) >= jobs => Some(idle),
+            _ => None,
+        };
         while !shared.stopped() {
-            match enter_next(&queues) {
+            match enter_next(&queues, || idle.is_none_or(IdleProcessors::take_room)) {
                 Next::Draw(entered) => WorkerLoop::new(&shared, entered.queue).run(),
                 Next::Wait => std::thread::sleep(WAITING),
                 Next::End => break,

@@ -75,6 +75,9 @@ pub enum KeptFrames {
 pub struct RunOptions {
     /// The number of workers that draw at the same time; at least one.
     pub jobs: usize,
+    /// The number of workers up to which more are started while processors are idle, as they are where drivers wait
+    /// for a device.
+    pub most_jobs: usize,
     /// The time that a case may take; methods and frame times may take four times as long.
     pub timeout: Duration,
     /// Memory that one worker may use, in MiB.
@@ -118,6 +121,7 @@ impl Default for RunOptions {
     fn default() -> Self {
         Self {
             jobs: 1,
+            most_jobs: 1,
             timeout: DRAW_TIMEOUT,
             memory: None,
             repeat: 1,
