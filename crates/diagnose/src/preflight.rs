@@ -21,8 +21,10 @@ pub struct DrawnCase<'a> {
     pub record: &'a Record,
     /// The facts of each of its draws; without draws, those of its scene.
     pub draws: Vec<Vec<String>>,
-    /// The formats of its attachments: their names, and their facts.
+    /// The formats that its passes draw to: their names, and their facts.
     pub formats: Vec<[String; 2]>,
+    /// The formats of the textures that its draws read: their names, and the facts of such draws.
+    pub sampled: Vec<[String; 2]>,
 }
 
 /// What to do with pictures that meet a bug.
@@ -64,6 +66,13 @@ pub struct ShownBug {
     pub needs: Vec<String>,
     /// What to do about it.
     pub advice: Advice,
+}
+
+impl ShownBug {
+    /// Returns the name by which facts refer to the bug.
+    fn name(&self) -> String {
+        self.finding.as_ref().unwrap_or(&self.example).clone()
+    }
 }
 
 /// A finding about the driver that it did not show.
@@ -120,8 +129,10 @@ pub struct Preflight {
     pub bugs: Vec<ShownBug>,
     /// The findings about the driver that it did not show.
     pub unseen: Vec<UnseenBug>,
-    /// Formats by their names.
+    /// Formats that are drawn to, by their names.
     pub formats: BTreeMap<String, Fact>,
+    /// Formats of textures that are read, by their names.
+    pub sampled: BTreeMap<String, Fact>,
     /// Other facts of draws by their names.
     pub states: BTreeMap<String, Fact>,
 }
@@ -134,14 +145,16 @@ struct Shown<'a> {
 }
 
 impl Preflight {
-    /// Makes the answer from all cases of a run on one adapter. `states` are the names of all facts, and `formats` those of
-    /// all formats. `needs` returns the facts that the failures of a bug need, unless its finding says so.
+    /// Makes the answer from all cases of a run on one adapter. `formats` are the names and the facts of all formats, and
+    /// `states` the names of all facts. `needs` returns the facts that the failures of a bug need, unless its finding
+    /// says so.
     pub fn new(
         cases: &[DrawnCase<'_>],
         adapter: &AdapterRecord,
         expectations: &Expectations,
-        [formats, states]: [&[String]; 2],
-        mut needs: impl FnMut(&[&DrawnCase<'_>]) -> Vec<String>,
+        formats: &[[String; 2]],
+        states: &[String],
+        mut needs: impl FnMut(Option<&Known>, &[&DrawnCase<'_>]) -> Vec<String>,
     ) -> Self {
         let about = expectations.about(adapter);
         let mut shown: BTreeMap<String, Shown<'_>> = BTreeMap::new();
@@ -163,7 +176,7 @@ impl Preflight {
             // A case that fails only after others says little about itself.
             bug.cases.sort_by_key(|case| !case.record.after.is_empty());
             if bug.needs.is_empty() {
-                bug.needs = needs(&bug.cases);
+                bug.needs = needs(bug.known, &bug.cases);
             }
         }
         let fact = || Fact {
@@ -174,34 +187,38 @@ impl Preflight {
             is_needed: false,
             is_lacking: false,
         };
-        let named = |names: &[String]| -> BTreeMap<String, Fact> {
-            names.iter().map(|name| (name.clone(), fact())).collect()
-        };
+        let no_case = |name: &String| (name.clone(), fact());
+        let of_formats = || formats.iter().map(|[name, _]| no_case(name)).collect();
         let mut answer = Self {
             bugs: Vec::new(),
             unseen: unseen(cases, &about, &shown),
-            formats: named(formats),
-            states: named(states),
+            formats: of_formats(),
+            sampled: of_formats(),
+            states: states.iter().map(no_case).collect(),
         };
         for case in cases {
-            let formats: BTreeSet<&String> = case.formats.iter().map(|[name, _]| name).collect();
-            let states: BTreeSet<&String> = case.draws.iter().flatten().collect();
-            for (facts, own) in [(&mut answer.formats, formats), (&mut answer.states, states)] {
+            let names = |formats: &'_ [[String; 2]]| -> BTreeSet<String> {
+                formats.iter().map(|[name, _]| name.clone()).collect()
+            };
+            let states = case.draws.iter().flatten().cloned().collect();
+            for (facts, own) in [
+                (&mut answer.formats, names(&case.formats)),
+                (&mut answer.sampled, names(&case.sampled)),
+                (&mut answer.states, states),
+            ] {
                 for name in own {
-                    let fact = facts.entry(name.clone()).or_insert_with(fact);
+                    let fact = facts.entry(name).or_insert_with(fact);
                     fact.count(case.record);
                 }
             }
         }
         for bug in shown.values() {
-            answer.add(bug);
+            answer.add(bug, formats);
         }
-        for fact in answer
-            .formats
-            .values_mut()
-            .chain(answer.states.values_mut())
-        {
-            fact.safety = fact.safety();
+        for facts in answer.tables() {
+            for fact in facts.values_mut() {
+                fact.safety = fact.safety();
+            }
         }
         answer
             .bugs
@@ -209,8 +226,32 @@ impl Preflight {
         answer
     }
 
+    fn tables(&mut self) -> [&mut BTreeMap<String, Fact>; 3] {
+        [&mut self.formats, &mut self.sampled, &mut self.states]
+    }
+
+    /// Keeps what a draw with these facts alone can meet: the bugs that need no others, and the facts themselves.
+    /// `names` are the names of the facts and of formats.
+    pub fn keep(&mut self, facts: &BTreeSet<String>, names: &BTreeSet<String>) {
+        let is_met = |bug: &ShownBug| {
+            let needs = bug.needs.iter().filter_map(|need| Glob::new(need).ok());
+            needs
+                .into_iter()
+                .all(|need| facts.iter().any(|fact| need.is_match(fact)))
+        };
+        self.bugs.retain(is_met);
+        let met: BTreeSet<String> = self.bugs.iter().map(ShownBug::name).collect();
+        for table in self.tables() {
+            table.retain(|name, _| names.contains(name));
+            for fact in table.values_mut() {
+                fact.bugs.retain(|bug| met.contains(bug));
+                fact.safety = fact.safety();
+            }
+        }
+    }
+
     /// Adds a bug, and marks the facts that it needs.
-    fn add(&mut self, bug: &Shown<'_>) {
+    fn add(&mut self, bug: &Shown<'_>, formats: &[[String; 2]]) {
         let first = bug.cases[0].record;
         let shown = ShownBug {
             finding: bug.known.map(Known::name),
@@ -230,21 +271,31 @@ impl Preflight {
             needs: bug.needs.clone(),
             advice: advice(&bug.cases),
         };
-        let name = shown.finding.clone().unwrap_or_else(|| first.case.clone());
+        let name = shown.name();
         let needs: Vec<Glob> = bug.needs.iter().filter_map(|n| Glob::new(n).ok()).collect();
         let is_needed = |fact: &str| needs.iter().any(|need| need.is_match(fact));
         let mark = |fact: Option<&mut Fact>, is_needed: bool| {
-            if let Some(fact) = fact.filter(|fact| is_needed || fact.right == 0) {
+            if let Some(fact) = fact.filter(|fact| is_needed || fact.right == 0 && fact.wrong > 0) {
                 fact.bugs.insert(name.clone());
                 fact.is_needed |= is_needed;
             }
         };
+        // Those that no failing case has can show the bug too.
+        for (name, fact) in &mut self.states {
+            mark(Some(fact), is_needed(name));
+        }
+        for [name, fact] in formats {
+            mark(self.formats.get_mut(name), is_needed(fact));
+        }
         for case in &bug.cases {
             for fact in case.draws.iter().flatten() {
-                mark(self.states.get_mut(fact), is_needed(fact));
+                mark(self.states.get_mut(fact), false);
             }
-            for [format, fact] in &case.formats {
-                mark(self.formats.get_mut(format), is_needed(fact));
+            for [format, _] in &case.formats {
+                mark(self.formats.get_mut(format), false);
+            }
+            for [format, fact] in &case.sampled {
+                mark(self.sampled.get_mut(format), is_needed(fact));
             }
         }
         self.bugs.push(shown);
@@ -389,11 +440,13 @@ mod tests {
             record,
             draws: vec![facts.iter().map(|fact| (*fact).to_owned()).collect()],
             formats: vec![["rgba8unorm".to_owned(), "color=unorm8".to_owned()]],
+            sampled: Vec::new(),
         });
         let cases: Vec<DrawnCase<'_>> = cases.collect();
         let states = ["clip-distances", "cull", "never"].map(str::to_owned);
-        let reduced = |_: &[&DrawnCase<'_>]| vec!["topology=line-list".to_owned()];
-        Preflight::new(&cases, &adapter(), &findings(), [&[], &states], reduced)
+        let reduced =
+            |_: Option<&Known>, _: &[&DrawnCase<'_>]| vec!["topology=line-list".to_owned()];
+        Preflight::new(&cases, &adapter(), &findings(), &[], &states, reduced)
     }
 
     fn record(case: &str, verdict: Verdict) -> Record {
@@ -428,6 +481,31 @@ mod tests {
         let bugs = answer.bugs.iter().map(|bug| bug.finding.as_deref());
         assert_eq!(bugs.collect::<Vec<_>>(), [Some("clip"), Some("line")]);
         assert!(answer.unseen.is_empty());
+    }
+
+    #[test]
+    fn only_bugs_that_a_draw_can_meet_are_kept() {
+        let answer = || {
+            answer(&[
+                (record("clip/a", Verdict::Fail), &["clip-distances"]),
+                (record("line/a", Verdict::Fail), &["topology=line-list"]),
+            ])
+        };
+        for (used, met) in [
+            (vec!["clip-distances", "cull"], vec!["clip"]),
+            (vec!["cull"], vec![]),
+            (
+                vec!["clip-distances", "topology=line-list"],
+                vec!["clip", "line"],
+            ),
+        ] {
+            let mut answer = answer();
+            let used = used.into_iter().map(str::to_owned).collect();
+            answer.keep(&used, &used);
+            let bugs = answer.bugs.iter().filter_map(|bug| bug.finding.as_deref());
+            assert_eq!(bugs.collect::<Vec<_>>(), met);
+            assert!(answer.states.keys().all(|name| used.contains(name)));
+        }
     }
 
     #[test]

@@ -7,7 +7,7 @@ use crate::expectations::built_in;
 use crate::failure::Failure;
 use crate::flags::AdapterFileArguments;
 use crate::interruption::listen;
-use crate::named_files::replace;
+use crate::named_files::{check_file, replace};
 use crate::output::{print, print_json};
 use crate::worth::sort_by_worth;
 use clap::Args;
@@ -15,8 +15,10 @@ use etalon_case::{Case, Library, Profile, select};
 use etalon_diagnose::{Advice, DrawnCase, Fact, Preflight, Safety, ShownBug, Symptom};
 use etalon_explore::{Candidate, PLAIN_FACTS, case_facts, fact_names, format_fact};
 use etalon_frame::TextureFormat;
-use etalon_record::{AdapterRecord, Expectations, Record, Run, Verdict};
+use etalon_glob::did_you_mean;
+use etalon_record::{AdapterRecord, Expectations, Known, Record, Run, Verdict};
 use etalon_runner::Reducer;
+use etalon_scene::{Pass, Scene};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ffi::OsStr;
@@ -32,6 +34,8 @@ const DRAWING: Duration = Duration::from_secs(14);
 const TIMEOUT: &str = "3";
 /// The time after which no further failure is reduced. A reduction takes a second or two.
 const REDUCING: Duration = Duration::from_secs(17);
+/// The fact of a draw that reads a texture.
+const SAMPLED: &str = "texture";
 /// The number of failures of one bug whose common facts say something.
 const MANY: usize = 4;
 
@@ -42,6 +46,9 @@ pub(crate) struct Arguments {
     /// The adapter to ask
     #[arg(long, value_name = "NAME")]
     pub(crate) adapter: String,
+    /// Say only what draws with these states and formats can meet: names as the whole answer has them, with commas
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub(crate) uses: Vec<String>,
     /// Print JSON for programs
     #[arg(long)]
     pub(crate) json: bool,
@@ -53,6 +60,12 @@ pub(crate) struct Arguments {
 /// Draws the cases of the findings about an adapter, then others, and says what they show.
 pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
     let begin = Instant::now();
+    if let Some(file) = &arguments.out {
+        check_file(file)?;
+    }
+    let formats = TextureFormat::ALL.map(|format| [format.name().to_owned(), format_fact(format)]);
+    let states: Vec<String> = fact_names().collect();
+    let used = used(&arguments.uses, &states)?;
     let failed = |e: io::Error| Failure::incomplete(format!("cannot make a folder: {e}"));
     let folder = tempfile::tempdir().map_err(failed)?;
     let mut run = drawing(arguments, &folder.path().join("run"))?;
@@ -97,26 +110,29 @@ pub(crate) fn run(arguments: &Arguments) -> Result<u8, Failure> {
         Some(DrawnCase {
             record,
             draws: case_facts(case),
-            formats: formats(case),
+            formats: formats_where(&case.scene, |pass, index| pass.attaches(index), format_fact),
+            sampled: formats_where(
+                &case.scene,
+                |pass, index| pass.draws.iter().any(|draw| draw.textures.contains(&index)),
+                |_| SAMPLED.to_owned(),
+            ),
         })
     });
     let drawn: Vec<DrawnCase<'_>> = drawn.collect();
-    let all = [
-        TextureFormat::ALL
-            .into_iter()
-            .map(|f| f.name().to_owned())
-            .collect(),
-        fact_names().collect::<Vec<String>>(),
-    ];
-    let answer = Preflight::new(
+    let mut answer = Preflight::new(
         &drawn,
         &adapter,
         &expectations,
-        [&all[0], &all[1]],
-        |cases| reductions.needs(cases),
+        &formats,
+        &states,
+        |known, cases| reductions.needs(known, cases),
     );
+    if let Some([facts, names]) = &used {
+        answer.keep(facts, names);
+    }
     let answer = Answer {
         adapter: &adapter,
+        uses: &arguments.uses,
         answer,
         seconds: begin.elapsed().as_secs_f64(),
         drawn: records.iter().filter(|record| record.is_drawn()).count() as u64,
@@ -194,11 +210,42 @@ fn in_order(library: &Library, quick: &[Case], about: &Expectations) -> Result<V
     Ok(first)
 }
 
-/// Returns the formats of a case's attachments: their names, and their facts.
-fn formats(case: &Case) -> Vec<[String; 2]> {
-    let attachments = case.scene.attachments.iter();
-    let formats = attachments.map(|a| [a.format.name().to_owned(), format_fact(a.format)]);
-    formats.collect()
+/// Returns the formats of a scene that some pass uses: their names, and their facts.
+fn formats_where(
+    scene: &Scene,
+    uses: impl Fn(&Pass, usize) -> bool,
+    fact: impl Fn(TextureFormat) -> String,
+) -> Vec<[String; 2]> {
+    let attachments = scene.attachments.iter().enumerate();
+    let used = attachments.filter(|(index, _)| scene.passes.iter().any(|pass| uses(pass, *index)));
+    used.map(|(_, a)| [a.format.name().to_owned(), fact(a.format)])
+        .collect()
+}
+
+/// Returns the facts of a draw with these states and formats, and all names that it can have in the answer; `None` if
+/// nothing is named.
+fn used(names: &[String], states: &[String]) -> Result<Option<[BTreeSet<String>; 2]>, Failure> {
+    if names.is_empty() {
+        return Ok(None);
+    }
+    let plain = PLAIN_FACTS.map(str::to_owned);
+    let (mut facts, mut shown) = (BTreeSet::from(plain), BTreeSet::new());
+    for name in names {
+        if let Some(format) = TextureFormat::ALL.into_iter().find(|f| f.name() == name) {
+            facts.insert(format_fact(format));
+        } else if states.contains(name) {
+            facts.insert(name.clone());
+        } else {
+            let formats = TextureFormat::ALL.map(TextureFormat::name);
+            let known = states.iter().map(String::as_str).chain(formats);
+            let near = did_you_mean(name, known);
+            return Err(Failure::usage(format!(
+                "no state or format has the name `{name}`{near}; without --uses, etalon preflight names all"
+            )));
+        }
+        shown.insert(name.clone());
+    }
+    Ok(Some([facts, shown]))
 }
 
 /// Finds out what failures need that no finding explains, by reducing them.
@@ -210,19 +257,33 @@ struct Reductions<'a> {
 
 impl Reductions<'_> {
     /// Returns the facts that failures of one bug need, without those of the plainest draw: what is left of the first one
-    /// when it is reduced and fits the others, otherwise what many of them have in common.
-    fn needs(&mut self, cases: &[&DrawnCase<'_>]) -> Vec<String> {
-        let reduced = cases.first().and_then(|case| self.reduced(case.record));
-        let draws = match reduced {
-            Some(case) => case_facts(&case),
-            None if cases.len() >= MANY => {
-                let each = cases.iter().map(|case| facts_of(&case.draws));
-                let common = each.reduce(|all, other| all.intersection(&other).copied().collect());
-                return unplain(common.unwrap_or_default());
+    /// when it is reduced and fits the others, otherwise what many of them have in common. A finding's cases fail too,
+    /// drawn or not.
+    fn needs(&mut self, known: Option<&Known>, cases: &[&DrawnCase<'_>]) -> Vec<String> {
+        let mut facts: Vec<BTreeSet<String>> = cases.iter().map(|c| facts_of(&c.draws)).collect();
+        facts.extend(known.map_or_else(Vec::new, |known| self.facts_of_finding(known)));
+        let needs = match cases.first().and_then(|case| self.reduced(case.record)) {
+            Some(case) => unplain(facts_of(&case_facts(&case))),
+            None if facts.len() >= MANY => {
+                let each = facts.iter().cloned();
+                let common = each.reduce(|all, other| &all & &other);
+                unplain(common.unwrap_or_default())
             }
             None => Vec::new(),
         };
-        fitting(unplain(facts_of(&draws)), cases)
+        fitting(needs, &facts)
+    }
+
+    /// Returns the facts of the cases that a finding names, as far as there is time.
+    fn facts_of_finding(&self, known: &Known) -> Vec<BTreeSet<String>> {
+        // A finding's globs were checked when it was read.
+        let selected = select(self.library, Profile::Full, &known.cases).map(|s| s.cases);
+        let cases = selected.unwrap_or_default().into_iter();
+        cases
+            .take_while(|_| self.begin.elapsed() < REDUCING)
+            .filter_map(|case| case.build().ok())
+            .map(|case| facts_of(&case_facts(&case)))
+            .collect()
     }
 
     /// Returns the reduced case of a failure; `None` if it fails only after others, or now and then, or if it ends the
@@ -243,30 +304,31 @@ impl Reductions<'_> {
     }
 }
 
-fn facts_of(draws: &[Vec<String>]) -> BTreeSet<&str> {
-    draws.iter().flatten().map(String::as_str).collect()
+fn facts_of(draws: &[Vec<String>]) -> BTreeSet<String> {
+    draws.iter().flatten().cloned().collect()
 }
 
-fn unplain(facts: BTreeSet<&str>) -> Vec<String> {
-    let others = facts.into_iter().filter(|fact| !PLAIN_FACTS.contains(fact));
-    others.map(str::to_owned).collect()
+fn unplain(facts: BTreeSet<String>) -> Vec<String> {
+    let others = facts.into_iter();
+    others
+        .filter(|fact| !PLAIN_FACTS.contains(&fact.as_str()))
+        .collect()
 }
 
-/// Returns what one failure needs, without what others of the bug lack: the values of a key that all of them have, otherwise
-/// nothing. If nothing remained, the needs stay as they are.
-fn fitting(needs: Vec<String>, cases: &[&DrawnCase<'_>]) -> Vec<String> {
-    let facts: Vec<BTreeSet<&str>> = cases.iter().map(|case| facts_of(&case.draws)).collect();
+/// Returns what one failure needs, without what others of the bug lack, by the facts of each failure: the values of a key
+/// that all of them have, otherwise nothing. If nothing remained, the needs stay as they are.
+fn fitting(needs: Vec<String>, failures: &[BTreeSet<String>]) -> Vec<String> {
     let fits = |need: &String| {
-        if facts.iter().all(|facts| facts.contains(&**need)) {
+        if failures.iter().all(|facts| facts.contains(need)) {
             return Some(need.clone());
         }
         let (key, _) = need.split_once('=')?;
-        let of_key = |fact: &&str| fact.split_once('=').is_some_and(|(name, _)| name == key);
-        let all: BTreeSet<&str> = facts.iter().flatten().copied().filter(of_key).collect();
-        let is_needed = facts
+        let of_key = |fact: &&String| fact.split_once('=').is_some_and(|(name, _)| name == key);
+        let all: BTreeSet<&String> = failures.iter().flatten().filter(of_key).collect();
+        let is_needed = failures
             .iter()
             .all(|facts| facts.iter().any(|fact| all.contains(fact)))
-            && !all.iter().any(|fact| PLAIN_FACTS.contains(fact));
+            && !all.iter().any(|fact| PLAIN_FACTS.contains(&fact.as_str()));
         let values = all.iter().map(|fact| &fact[key.len() + 1..]);
         is_needed.then(|| format!("{key}={{{}}}", values.collect::<Vec<_>>().join(",")))
     };
@@ -277,6 +339,8 @@ fn fitting(needs: Vec<String>, cases: &[&DrawnCase<'_>]) -> Vec<String> {
 /// The answer, with what it is based on.
 struct Answer<'a> {
     adapter: &'a AdapterRecord,
+    /// The states and formats that the answer is about; all if empty.
+    uses: &'a [String],
     answer: Preflight,
     seconds: f64,
     /// The number of drawn cases.
@@ -296,9 +360,11 @@ impl Answer<'_> {
             "seconds": (self.seconds * 10.0).round() / 10.0,
             "drawn": self.drawn,
             "left": self.left,
+            "uses": self.uses,
             "bugs": answer.bugs,
             "unseen": answer.unseen,
             "formats": answer.formats,
+            "sampled": answer.sampled,
             "states": answer.states,
         })
     }
@@ -308,6 +374,7 @@ impl Answer<'_> {
             bugs,
             unseen,
             formats,
+            sampled,
             states,
         } = &self.answer;
         let known = bugs.iter().filter(|bug| bug.finding.is_some()).count();
@@ -315,8 +382,12 @@ impl Answer<'_> {
             0 => String::new(),
             n => format!(" ({n} more did not fit)"),
         };
+        let uses = match self.uses {
+            [] => String::new(),
+            uses => format!(" that a draw with {} can meet", uses.join(", ")),
+        };
         let mut text = format!(
-            "{} ({}): {} drawn in {:.0} s{left}: {}, {} without a finding\n",
+            "{} ({}): {} drawn in {:.0} s{left}: {}, {} without a finding{uses}\n",
             self.adapter.info.name,
             self.adapter.driver_text(),
             counted(self.drawn, "case"),
@@ -346,7 +417,8 @@ impl Answer<'_> {
         if undrawn > 0 {
             let _ = writeln!(text, "Known, and no case of it was drawn: {undrawn}");
         }
-        text += &facts_lines("Formats", formats);
+        text += &facts_lines("Formats that are drawn to", formats);
+        text += &facts_lines("Formats that are sampled", sampled);
         text += &facts_lines("States", states);
         text
     }
@@ -426,11 +498,8 @@ mod tests {
 
     #[test]
     fn what_another_failure_of_the_bug_lacks_is_not_needed() {
-        let record = Record::new("depth/a", "gl:mine", Verdict::Fail);
-        let case = |facts: &[&str]| DrawnCase {
-            record: &record,
-            draws: vec![facts.iter().map(|fact| (*fact).to_owned()).collect()],
-            formats: Vec::new(),
+        let case = |facts: &[&str]| -> BTreeSet<String> {
+            facts.iter().map(|fact| (*fact).to_owned()).collect()
         };
         let reduced = case(&[
             "depth=depth32float",
@@ -440,12 +509,12 @@ mod tests {
         ]);
         let other = case(&["depth=depth16unorm", "samples=1", "texture", "cull"]);
         let unlike = case(&["cull"]);
-        let needs = || reduced.draws[0].clone();
-        assert_eq!(fitting(needs(), &[&reduced]), needs());
+        let needs = || unplain(reduced.clone());
+        assert_eq!(fitting(needs(), std::slice::from_ref(&reduced)), needs());
         assert_eq!(
-            fitting(needs(), &[&reduced, &other]),
+            fitting(needs(), &[reduced.clone(), other]),
             ["depth={depth16unorm,depth32float}", "texture"]
         );
-        assert_eq!(fitting(needs(), &[&reduced, &unlike]), needs());
+        assert_eq!(fitting(needs(), &[reduced.clone(), unlike]), needs());
     }
 }

@@ -117,4 +117,31 @@ fn what_a_reduced_case_needs_fits_other_cases_of_its_bug() {
         .collect();
     assert!(!needs.contains(&"sample-shading"), "{needs:?}");
     assert!(needs.contains(&"texture"), "{needs:?}");
+    // No case with this format was drawn and wrong, but the finding has one.
+    assert!(of(&answer["formats"], "partly").contains(&"depth16unorm"));
+    assert!(of(&answer["sampled"], "safe").contains(&"rgba8unorm"));
+}
+
+#[test]
+fn an_answer_about_some_states_has_only_the_bugs_that_they_can_meet() {
+    let mut command = etalon(&["preflight", "--json", "--adapter", "vulkan:lavapipe"]);
+    command.args(["--uses", "scissor,samples=4,rgba8unorm"]);
+    let output = command.assert().code(0).get_output().stdout.clone();
+    let answer: Value = serde_json::from_slice(&output).unwrap();
+    bug(&answer, "llvmpipe-scissor-samples");
+    for bug in answer["bugs"].as_array().unwrap() {
+        let needs = bug["needs"].as_array().unwrap();
+        let stray = needs.iter().find(|need| {
+            !["scissor", "samples"]
+                .iter()
+                .any(|met| need.as_str().unwrap().starts_with(met))
+        });
+        assert_eq!(stray, None, "{bug}");
+    }
+    assert_eq!(of(&answer["states"], "partly"), ["samples=4", "scissor"]);
+    assert_eq!(of(&answer["formats"], "safe"), ["rgba8unorm"]);
+    etalon(&["preflight", "--adapter", "cpu", "--uses", "scisor"])
+        .assert()
+        .code(64)
+        .stderr(contains("did you mean `scissor`?"));
 }
