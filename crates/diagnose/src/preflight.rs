@@ -280,7 +280,7 @@ impl Preflight {
                 fact.is_needed |= is_needed;
             }
         };
-        // Those that no failing case has can show the bug too.
+        // Facts that no failing case has can show the bug too.
         for (name, fact) in &mut self.states {
             mark(Some(fact), is_needed(name));
         }

@@ -274,7 +274,7 @@ impl Reductions<'_> {
         fitting(needs, &facts)
     }
 
-    /// Returns the facts of the cases that a finding names, as far as there is time.
+    /// Returns the facts of the cases that a finding names, if there is time.
     fn facts_of_finding(&self, known: &Known) -> Vec<BTreeSet<String>> {
         // A finding's globs were checked when it was read.
         let selected = select(self.library, Profile::Full, &known.cases).map(|s| s.cases);

@@ -62,7 +62,7 @@ impl IdleProcessors {
     }
 }
 
-/// Returns how many more threads fit, each of which uses as much as one of the `drawing` threads.
+/// Returns how many more threads fit, if each uses as much as one of the `drawing` threads.
 fn room(usage: f32, drawing: usize, processors: usize) -> usize {
     let used = (usage * processors as f32).max(0.1);
     let idle = processors as f32 - used;
