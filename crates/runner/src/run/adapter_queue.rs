@@ -323,8 +323,9 @@ pub(super) enum Next<'q> {
 }
 
 /// Chooses what a free thread does, and counts it as a thread of the chosen queue: of the queues with untaken
-/// cases, the one with the fewest threads. While cases are left but the thread `may` not draw them, it waits.
-pub(super) fn enter_next(queues: &[AdapterQueue], may: impl FnOnce() -> bool) -> Next<'_> {
+/// cases, the one with the fewest threads. While cases are left but the thread `may` not draw them beside
+/// the number of threads that do, it waits.
+pub(super) fn enter_next(queues: &[AdapterQueue], may: impl FnOnce(usize) -> bool) -> Next<'_> {
     let candidates = queues.iter().filter(|queue| queue.untaken() > 0);
     let candidates = candidates.map(|queue| (queue, queue.threads.load(Ordering::Relaxed)));
     let mut candidates = candidates
@@ -338,7 +339,10 @@ pub(super) fn enter_next(queues: &[AdapterQueue], may: impl FnOnce() -> bool) ->
     let Some((queue, threads)) = useful.min_by_key(|(_, threads)| *threads) else {
         return Next::Wait;
     };
-    if !may() {
+    let drawing = queues
+        .iter()
+        .map(|queue| queue.threads.load(Ordering::Relaxed));
+    if !may(drawing.sum()) {
         return Next::Wait;
     }
     let entered =
@@ -399,18 +403,18 @@ mod tests {
     #[test]
     fn a_thread_enters_the_queue_with_the_fewest_threads() {
         let queues = [queue("a", 9), queue("b", 9), queue("empty", 0)];
-        let first = entered(enter_next(&queues, || true));
-        let second = entered(enter_next(&queues, || true));
+        let first = entered(enter_next(&queues, |_| true));
+        let second = entered(enter_next(&queues, |_| true));
         let names = [&first, &second].map(|entered| entered.queue.launch.adapter.as_str());
         assert_eq!(names, ["a", "b"]);
-        assert!(matches!(enter_next(&queues, || false), Next::Wait));
+        assert!(matches!(enter_next(&queues, |_| false), Next::Wait));
         // No queue has begun, so another worker might not pay.
-        assert!(matches!(enter_next(&queues, || true), Next::Wait));
+        assert!(matches!(enter_next(&queues, |_| true), Next::Wait));
         drop(second);
-        let third = entered(enter_next(&queues, || true));
+        let third = entered(enter_next(&queues, |_| true));
         assert_eq!(third.queue.launch.adapter, "b");
         while !queues.iter().all(|queue| queue.take().is_empty()) {}
-        assert!(matches!(enter_next(&queues, || false), Next::End));
+        assert!(matches!(enter_next(&queues, |_| false), Next::End));
     }
 
     #[test]
@@ -418,10 +422,10 @@ mod tests {
         let mut alone = queue("alone", 9);
         alone.launch.alone = true;
         let queues = [alone];
-        let first = entered(enter_next(&queues, || true));
-        assert!(matches!(enter_next(&queues, || true), Next::End));
+        let first = entered(enter_next(&queues, |_| true));
+        assert!(matches!(enter_next(&queues, |_| true), Next::End));
         drop(first);
-        assert!(matches!(enter_next(&queues, || true), Next::Draw(_)));
+        assert!(matches!(enter_next(&queues, |_| true), Next::Draw(_)));
     }
 
     #[test]

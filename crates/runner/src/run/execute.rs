@@ -145,8 +145,7 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(RunEvent) + Sync)) -> Result<RunSumm
         jobs, most_jobs, ..
     } = plan.options;
     let spare = most_jobs.saturating_sub(jobs);
-    let measured = || IdleProcessors::measured(jobs);
-    let idle = (spare > 0).then(measured).flatten();
+    let idle = (spare > 0).then(IdleProcessors::measured).flatten();
     let threads = jobs + if idle.is_some() { spare } else { 0 };
     let begun = AtomicUsize::new(0);
     share(threads, || {
@@ -155,7 +154,9 @@ pub fn run(plan: Plan<'_>, events: &(dyn Fn(RunEvent) + Sync)) -> Result<RunSumm
             _ => None,
         };
         while !shared.stopped() {
-            match enter_next(&queues, || idle.is_none_or(IdleProcessors::take_room)) {
+            match enter_next(&queues, |drawing| {
+                idle.is_none_or(|idle| idle.take_room(drawing))
+            }) {
                 Next::Draw(entered) => WorkerLoop::new(&shared, entered.queue).run(),
                 Next::Wait => std::thread::sleep(WAITING),
                 Next::End => break,

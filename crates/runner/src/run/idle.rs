@@ -21,16 +21,14 @@ pub(super) struct IdleProcessors {
 struct State {
     system: System,
     measured: Instant,
-    /// The number of threads that drew in the last period.
-    drawing: usize,
     /// The number of further threads that the idle processors can carry.
     room: usize,
 }
 
 impl IdleProcessors {
-    /// Begins to measure while `drawing` threads draw. Returns `None` if the load is unknown: if the system hides
-    /// it, or if this process may not use all processors.
-    pub(super) fn measured(drawing: usize) -> Option<Self> {
+    /// Begins to measure. Returns `None` if the load is unknown: if the system hides it, or if this process may not
+    /// use all processors.
+    pub(super) fn measured() -> Option<Self> {
         let mut system = System::new().ok()?;
         system.refresh_cpu_usage();
         let usable = available_parallelism().map_or(1, usize::from);
@@ -38,25 +36,23 @@ impl IdleProcessors {
             state: Mutex::new(State {
                 system,
                 measured: Instant::now(),
-                drawing,
                 room: 0,
             }),
         })
     }
 
-    /// Returns true if there is room for one more thread, which then takes it.
-    pub(super) fn take_room(&self) -> bool {
+    /// Returns true if there is room for one more thread beside the `drawing` ones. It then takes it.
+    pub(super) fn take_room(&self, drawing: usize) -> bool {
         let mut state = lock(&self.state);
         if state.measured.elapsed() >= PERIOD {
             state.measured = Instant::now();
             state.system.refresh_cpu_usage();
             let usage = state.system.global_cpu_usage() / 100.0;
-            state.room = room(usage, state.drawing, state.system.cpus().len());
+            state.room = room(usage, drawing, state.system.cpus().len());
         }
         let has_room = state.room > 0;
         if has_room {
             state.room -= 1;
-            state.drawing += 1;
         }
         has_room
     }
